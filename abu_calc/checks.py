@@ -1,0 +1,38 @@
+"""A check of a design and the status of several: what every step of the way may hand on beside its numbers."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+Status = Literal["pass", "fail", "not-done"]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One requirement held against one value, both in `unit` as printed (user units); null where it has none."""
+
+    code: str
+    name: str
+    status: Status
+    message: str
+    value: float | None = None
+    limit: float | None = None
+    unit: str | None = None
+    remedy: str | None = None
+
+
+def overall(checks: Iterable[Check]) -> Status:
+    """The worst of several: fail before not-done before pass; no checks at all are not-done.
+
+    >>> overall([])
+    'not-done'
+    """
+    statuses = {check.status for check in checks}
+    if "fail" in statuses:
+        return "fail"
+    return "pass" if statuses == {"pass"} else "not-done"
+
+
+def verdict(passed: bool) -> Status:
+    """The status of a check that was done."""
+    return "pass" if passed else "fail"

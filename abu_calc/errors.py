@@ -1,0 +1,83 @@
+"""The tree of errors, and the exit status each one ends a command with.
+
+    AbuError                         3   no trustworthy number could be computed
+    ├── InputError                   2   the file or the options are wrong, nothing was computed
+    │   ├── RangeError               2   a value outside the range a formula or a table is valid in
+    │   └── OutputError              2   a result cannot be written where it was asked for
+    └── NotTrustworthyError          3   integration failed, or did not converge to the accuracy asked for
+
+Statuses 0 and 1 are no errors: they tell whether every check of a result passed.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a wrong input stands: file, line (1-based) and key path as written in TOML, each as far as known."""
+
+    file: str | None = None
+    line: int | None = None
+    key: str | None = None
+
+    def __str__(self) -> str:
+        where = self.file or ""
+        if self.line is not None:
+            where += f":{self.line}" if where else f"line {self.line}"
+        return ": ".join(part for part in (where, self.key) if part)
+
+
+class AbuError(Exception):
+    """Base of all errors raised on purpose; `kind` names it in JSON."""
+
+    kind: ClassVar[str] = "error"
+    exit_status: ClassVar[int] = 3
+
+
+class InputError(AbuError):
+    """A wrong input: what was found, what is allowed, and the remedy, in one or two lines."""
+
+    kind: ClassVar[str] = "input"
+    exit_status: ClassVar[int] = 2
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        place: Place = Place(),
+        found: str | None = None,
+        allowed: str | None = None,
+        remedy: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.message, self.place, self.found, self.allowed, self.remedy = message, place, found, allowed, remedy
+
+    def at(self, place: Place) -> "InputError":
+        """The same error, told of another place (a reader knows file and line, a formula only the quantity)."""
+        return type(self)(self.message, place=place, found=self.found, allowed=self.allowed, remedy=self.remedy)
+
+    def __str__(self) -> str:
+        head = f"{self.place}: {self.message}" if str(self.place) else self.message
+        facts = [f"found {self.found}"] if self.found is not None else []
+        facts += [f"allowed: {self.allowed}"] if self.allowed is not None else []
+        text = head + (f" ({'; '.join(facts)})" if facts else "")
+        return text + (f"\n  {self.remedy}" if self.remedy else "")
+
+
+class RangeError(InputError):
+    """A value outside the range in which a formula or a table holds."""
+
+    kind: ClassVar[str] = "range"
+
+
+class OutputError(InputError):
+    """A result cannot be written: the file exists, its suffix is unknown, its folder is missing."""
+
+    kind: ClassVar[str] = "output"
+
+
+class NotTrustworthyError(AbuError):
+    """No number that can be trusted: names the quantity, the moment, and what to change."""
+
+    kind: ClassVar[str] = "not-trustworthy"

@@ -1,0 +1,38 @@
+"""The range in which a formula holds, as data that the code checks."""
+
+import math
+from dataclasses import dataclass
+
+from abu_calc.errors import RangeError
+
+
+@dataclass(frozen=True)
+class Range:
+    """An interval of one quantity, in `unit` (SI unless the name says otherwise)."""
+
+    name: str
+    low: float
+    high: float = math.inf
+    unit: str = ""
+    open_low: bool = False
+    remedy: str | None = None
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        if math.isinf(self.high):
+            return f"{'above' if self.open_low else 'at least'} {self.low:g}{unit}"
+        return f"{'above ' if self.open_low else ''}{self.low:g} … {self.high:g}{unit}"
+
+    def check(self, value: float) -> float:
+        """The value itself when it is inside; NaN never is.
+
+        >>> Range("cutting coefficient", 0, 1.5).check(0.35)
+        0.35
+        """
+        above = value > self.low if self.open_low else value >= self.low
+        if above and value <= self.high:
+            return value
+        unit = f" {self.unit}" if self.unit else ""
+        raise RangeError(
+            f"{self.name} is outside its range", found=f"{value:g}{unit}", allowed=str(self), remedy=self.remedy
+        )
