@@ -9,7 +9,10 @@ Status = Literal["pass", "fail", "not-done"]
 
 @dataclass(frozen=True)
 class Check:
-    """One requirement held against one value, both in `unit` as printed (user units); null where it has none."""
+    """One requirement held against one value, both in `unit` as printed (user units); null where it has none.
+
+    `bound` tells whether the limit is the most or the least that the value may be.
+    """
 
     code: str
     name: str
@@ -19,6 +22,7 @@ class Check:
     limit: float | None = None
     unit: str | None = None
     remedy: str | None = None
+    bound: Literal["most", "least"] = "most"
 
 
 def overall(checks: Iterable[Check]) -> Status:

@@ -1,0 +1,8 @@
+"""From a scene to its motion: Scene → Equations → Trajectory, and the closed forms that hold beside them.
+
+scene.py         what is simulated, in SI           supports/      builders of linear supports
+equations.py     states, rhs, parameters            energy.py      mass matrix, energy, power: the second derivation
+integrators/     the only files that know solvers   jacobian.py    exact derivatives by the complex step
+stationary.py    where the balls come to rest
+receptance.py    the support's steady response      trajectory.py  what an integrator hands on
+"""

@@ -1,0 +1,1 @@
+"""Bearing seats: limits, probability, losses, stress, recommendation; `seats.seat_bearing` does them all."""

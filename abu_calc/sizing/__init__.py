@@ -1,0 +1,39 @@
+"""The pipeline of `abu size`: one step after another, nothing else."""
+
+from abu_calc.fits.seats import seat_bearing
+from abu_calc.sizing.advice import design_checks, design_warnings
+from abu_calc.sizing.balls import choose
+from abu_calc.sizing.case import read_case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.drawing import drawing
+from abu_calc.sizing.frequency import frequency_region
+from abu_calc.sizing.imbalance import find_imbalance
+from abu_calc.sizing.swing_arm import swing_arm_bounds
+from abu_calc.sizing.track import track
+from abu_calc.sizing.vibration import idle_vibration, loaded_vibration
+from abu_calc.spec.machine import Machine
+
+__all__ = ["Design", "size"]
+
+
+def size(machine: Machine) -> Design:
+    """Size an autobalancer for a machine.
+
+    The need depends on the machine with its autobalancer, so each candidate is judged by its own mass, and the steps
+    that come before it on paper (region, capacity, budget) are those of the candidate that was chosen.
+    """
+    case = read_case(machine)
+    imbalance = find_imbalance(case)
+    choice = choose(case, imbalance.value)
+    best = choice.best
+    frequency = frequency_region(case, best.ball_mass, best.mass)
+    race = track(case, best, frequency.natural_frequencies)
+    others = tuple(track(case, one, frequency.natural_frequencies) for one, _ in choice.runners_up)
+    idle = idle_vibration(case, imbalance.value, best)
+    loaded = loaded_vibration(case, imbalance.value, best)
+    seats = tuple(seat_bearing(bearing) for bearing in machine.bearing)
+    arm = swing_arm_bounds(case, machine.swing_arm, imbalance.value, best.mass) if machine.swing_arm else None
+    advice = drawing(case, best, race)
+    checks = design_checks(case, frequency, best, race, idle, seats, arm)
+    warnings = design_warnings(case, best)
+    return Design(case, frequency, imbalance, choice, race, others, idle, loaded, seats, arm, advice, checks, warnings)

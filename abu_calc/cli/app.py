@@ -1,0 +1,89 @@
+"""The command line: parse, run one command, render its outcome, end with its exit status."""
+
+import os
+import sys
+from typing import Any
+
+import typer
+
+from abu_calc.cli import check_fit, explain, init, presets, schema, size, validate, verify
+from abu_calc.cli.deliver import fail
+from abu_calc.errors import AbuError, InputError
+from abu_calc.version import __version__
+
+INTERRUPTED = 130
+
+app = typer.Typer(
+    name="abu",
+    help="Design calculator for passive ball autobalancers of hand grinders and machines like them.",
+    epilog="Start with `abu presets`, then `abu size avtovaz-707-222`, then `abu init FILE` for a machine of your own.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+for module in (size, check_fit, verify, validate, init, presets, schema, explain):
+    module.register(app)
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        print(f"abu-calc {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: bool = typer.Option(False, "--version", callback=_print_version, is_eager=True, help="Show the version."),
+) -> None:
+    """Design calculator for passive ball autobalancers of hand grinders and machines like them."""
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run `abu` and leave the process with its exit status."""
+    _make_streams_safe()
+    given = sys.argv[1:] if arguments is None else arguments
+    status = run(given)
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    sys.exit(status)
+
+
+def run(arguments: list[str]) -> int:
+    """Run `abu` with these arguments and return its exit status; every error is told in a line or two."""
+    usage_error: Any = typer.BadParameter.__mro__[1]
+    command = next((word for word in arguments if not word.startswith("-")), "")
+    as_json = "--json" in arguments
+    try:
+        status = typer.main.get_command(app).main(arguments, prog_name="abu", standalone_mode=False)
+    except usage_error as error:
+        asked = f"Try `abu {command} --help`." if command in _names() else "Try `abu --help`."
+        return fail(command, InputError(error.format_message(), remedy=asked), as_json)
+    except AbuError as error:
+        return fail(command, error, as_json)
+    except (KeyboardInterrupt, typer.Abort):
+        print("Interrupted; nothing was written.", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        return 0
+    except Exception as error:
+        if os.environ.get("ABU_DEBUG"):
+            raise
+        return fail(command, error, as_json)
+    return status if isinstance(status, int) else 0
+
+
+def _names() -> set[str]:
+    return {info.name for info in app.registered_commands if info.name}
+
+
+def _make_streams_safe() -> None:
+    """A character that a console cannot show must not end a calculation; pipes on Windows get UTF-8."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            if os.name == "nt" and not stream.isatty():
+                stream.reconfigure(encoding="utf-8")
+            stream.reconfigure(errors="replace")

@@ -1,0 +1,55 @@
+"""A command is a function that returns an Outcome; this adds the options that all commands share."""
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from abu_calc.cli.deliver import Delivery, deliver
+from abu_calc.report.outcome import Outcome
+
+Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="A machine file, or the name of a preset.")]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Override one entry of the file, typed as TOML; repeatable."),
+]
+
+
+def _shared(
+    *,
+    json: Annotated[bool, typer.Option("--json", help="One JSON document on standard output.")] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="Also write a .json, .toml, .csv or .txt file."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report; the exit status tells.")] = False,
+    no_color: Annotated[bool, typer.Option("--no-color", help="No colors (also: NO_COLOR).")] = False,
+) -> Delivery:
+    return Delivery(json, output, force, quiet, not no_color)
+
+
+def add_command(app: typer.Typer, name: str, function: Callable[..., Outcome]) -> None:
+    """Register a command whose function returns an Outcome, with the shared options behind its own."""
+    own = inspect.signature(function, eval_str=True).parameters
+    shared = inspect.signature(_shared, eval_str=True).parameters
+
+    def run(**given: Any) -> None:
+        how = _shared(**{key: given[key] for key in shared})
+        how.check()
+        wanted = {"how": how} if "how" in own else {}
+        status = deliver(function(**{key: given[key] for key in own if key != "how"}, **wanted), how)
+        if status:
+            raise typer.Exit(status)
+
+    parameters = [
+        parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+        for parameter in (*own.values(), *shared.values())
+        if parameter.name != "how"
+    ]
+    run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    run.__doc__ = function.__doc__
+    app.command(name)(run)

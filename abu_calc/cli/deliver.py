@@ -1,0 +1,65 @@
+"""From a command's outcome, or its error, to what people and programs get to see."""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from abu_calc.errors import AbuError
+from abu_calc.report.outcome import Outcome, document, error_document, to_json
+
+BUG = 3
+
+
+@dataclass(frozen=True)
+class Delivery:
+    """How the outcome is wanted: the options that all commands share."""
+
+    json: bool = False
+    output: Path | None = None
+    force: bool = False
+    quiet: bool = False
+    color: bool = True
+
+    def check(self) -> None:
+        """Refuse before computing what could not be written after."""
+        if self.output is not None:
+            from abu_calc.report.files import FORMATS, check_target
+
+            check_target(self.output, force=self.force, suffixes=tuple(FORMATS))
+
+
+def deliver(outcome: Outcome, how: Delivery) -> int:
+    """Write the file if one is asked for, print the result, return the exit status."""
+    if how.output is not None:
+        from abu_calc.report.files import as_file, write
+
+        write(how.output, as_file(outcome, how.output.suffix.lower()))
+    if how.json:
+        print(to_json(document(outcome)))
+        for warning in () if how.quiet else outcome.warnings:
+            print(f"warning: {warning}", file=sys.stderr)
+    elif how.quiet:
+        pass
+    elif outcome.plain is not None:
+        print(outcome.plain, end="")
+    else:
+        from abu_calc.report.text import console, show
+
+        show(outcome.blocks, console(color=how.color))
+    return outcome.exit_status
+
+
+def fail(command: str, error: BaseException, as_json: bool) -> int:
+    """Tell an error: a line or two on standard error, the envelope on standard output if JSON was asked for."""
+    if as_json:
+        print(to_json(error_document(command, error)))
+    head = " ".join(part for part in ("abu", command) if part)
+    if isinstance(error, AbuError):
+        print(f"{head}: {error}", file=sys.stderr)
+        return error.exit_status
+    print(
+        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {error}\n"
+        "  Set ABU_DEBUG=1 to see where, and report it with your file.",
+        file=sys.stderr,
+    )
+    return BUG

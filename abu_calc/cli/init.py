@@ -1,0 +1,32 @@
+"""`abu init [--preset NAME] FILE`: write a commented machine file to start from."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.cli.deliver import Delivery
+from abu_calc.report.blocks import Paragraph
+from abu_calc.report.outcome import Outcome
+
+
+def init(
+    how: Delivery,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The file to write, ending in .toml.")],
+    preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset instead.")] = None,
+) -> Outcome:
+    """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
+    from abu_calc.cli.load import load
+    from abu_calc.report.files import check_target, write
+    from abu_calc.spec.template import template
+
+    check_target(file, force=how.force, suffixes=(".toml",))
+    write(file, template() if preset is None else load(preset).text)
+    told = Paragraph(f"{file} is written. Edit it, then: abu size {file}", "pass")
+    return Outcome("init", {"file": str(file), "preset": preset}, (told,))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "init", init)

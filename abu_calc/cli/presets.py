@@ -1,0 +1,31 @@
+"""`abu presets [NAME]`: list the presets, or print one."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.report.blocks import Grid, Heading, Paragraph
+from abu_calc.report.outcome import Outcome
+
+
+def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Print this preset.")] = None) -> Outcome:
+    """List the machine files that come with abu-calc, or print one."""
+    from abu_calc.cli.load import load
+    from abu_calc.spec.presets import names
+
+    if name is not None:
+        text = load(name).text
+        return Outcome("presets", {"name": name, "text": text}, (), plain=text)
+    listed = [{"name": each, "machine": load(each).machine.machine.name} for each in names()]
+    blocks = (
+        Heading("Presets"),
+        Grid(("name", "machine"), tuple((each["name"], each["machine"]) for each in listed)),
+        Paragraph("A preset's name serves wherever a machine file is asked for: abu size avtovaz-707-222"),
+    )
+    return Outcome("presets", {"presets": listed}, blocks)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "presets", presets)

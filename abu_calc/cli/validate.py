@@ -1,0 +1,38 @@
+"""`abu validate FILE…`: check files and nothing else."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.errors import InputError
+from abu_calc.report.blocks import Block, Paragraph
+from abu_calc.report.outcome import Outcome
+
+
+def validate(
+    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine files, or names of presets.")],
+) -> Outcome:
+    """Check machine files: keys, types, ranges, rules between keys. Computes nothing."""
+    from abu_calc.cli.load import load
+
+    results, blocks, faults = [], list[Block](), list[InputError]()
+    for file in files:
+        try:
+            loaded = load(file)
+        except InputError as error:
+            faults.append(error)
+            continue
+        defaults = {path: value for path, value in loaded.defaults_used}
+        results.append({"file": file, "sha256": loaded.sha256, "defaults": defaults, "warnings": list(loaded.warnings)})
+        blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
+    if len(faults) == 1:
+        raise faults[0]
+    if faults:
+        raise InputError("\n".join(map(str, faults)))
+    return Outcome("validate", {"files": results}, tuple(blocks))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "validate", validate)

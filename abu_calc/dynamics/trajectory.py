@@ -1,0 +1,32 @@
+"""What an integrator hands on."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """States over time: y[state, moment] at the moments asked for, in ascending order [s].
+
+    `evaluations` counts calls of the right-hand side, `status` is how it ended, `message` says so in words.
+    """
+
+    t: NDArray[np.float64]
+    y: NDArray[np.float64]
+    integrator: str
+    tolerance: float
+    evaluations: int
+    steps: int
+    status: str
+    message: str
+
+    def at(self, times: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
+        """y at moments that were asked for of the integrator; raises ValueError for any other."""
+        wanted = np.asarray(times, dtype=float)
+        index = np.minimum(np.searchsorted(self.t, wanted), len(self.t) - 1)
+        if not np.array_equal(self.t[index], wanted):
+            raise ValueError("the trajectory was not sampled at these moments")
+        return self.y[:, index]

@@ -1,0 +1,89 @@
+"""Which field to choose: by what it must hold, and by the handbooks' load intensity."""
+
+from typing import Final
+
+from abu_calc.fits.joint import Joint
+from abu_calc.standards.limits import Seat, tolerance_classes
+from abu_calc.standards.tables import toml_table
+from abu_calc.units import from_si
+from abu_calc.validity import Range
+
+LOOSE_ENOUGH: Final = 0.5
+"""A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
+and can be moved along its seat."""
+
+SHOCK_FACTOR: Final = 1.8
+"""k₁ of the load intensity: strong shocks, overload to 300 %, taken always as the safe side (moderate ones: 1.0)."""
+
+_USUAL_GRADE: Final[dict[Seat, str]] = {"shaft": "6", "housing": "7"}
+_RUNNING: Final = "f"
+_SLIDING: Final = ("h", "g")
+_LENGTH = Range("length of the seat", 0.0, 10.0, "m", open_low=True)
+
+
+def recommended_class(joint: Joint) -> str | None:
+    """The tolerance class to choose, of the given grade if one will do, else of the usual one; None if none will.
+
+    A ring that must grip: the loosest class that passes both checks. A ring under a load fixed in direction: the given
+    class when it passes and is loose in half of all pairs, else h (H), else g (G).
+    """
+    if not joint.must_grip and _slides(joint):
+        return joint.tolerance_class
+    for grade in dict.fromkeys((_grade(joint.tolerance_class), _USUAL_GRADE[joint.seat])):
+        classes = [name for name in tolerance_classes(joint.seat) if _grade(name) == grade]
+        for candidate in _gripping(joint, classes) if joint.must_grip else _sliding(joint, classes):
+            if candidate.grips and candidate.bears:
+                return candidate.tolerance_class
+    return None
+
+
+def load_intensity(load: float, seat_length: float) -> float:
+    """Load intensity P_R = k₁·k₂·k₃·R/b [N/m] of a seat.
+
+    R radial load [N], b length of the seat [m]; k₁ = 1.8 strong shocks, k₂ = 1 solid shaft or thick housing, k₃ = 1
+    single row. Range: b > 0, else RangeError; unverified advice. Source: handbooks as quoted by Afanasiev 2015.
+
+    >>> round(1e-3 * load_intensity(3000.0, 29e-3), 1)
+    186.2
+    """
+    return SHOCK_FACTOR * load / _LENGTH.check(seat_length)
+
+
+def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
+    """The loosest class that handbook tables allow at a load intensity [N/m]; None outside the tables.
+
+    Range: shafts over 18 up to 630 mm, housings over 50 up to 1600 mm; unverified advice, never the only criterion.
+    Source: handbooks as quoted by Afanasiev 2015.
+
+    >>> advised_class("shaft", 0.080, 186.2e3), advised_class("housing", 0.140, 186.2e3)
+    ('js6', 'K7')
+    """
+    table = toml_table("load_intensity")[seat]
+    size = round(from_si(diameter, "mm"), 6)
+    for over, to, *limits in table["rows"]:
+        if over < size <= to:
+            pairs = zip(table["fields"], limits, strict=True)
+            return next((field for field, limit in pairs if from_si(intensity, "kN_per_m") <= limit), None)
+    return None
+
+
+def _slides(joint: Joint) -> bool:
+    return joint.bears and joint.clearance_probability >= LOOSE_ENOUGH
+
+
+def _gripping(joint: Joint, classes: list[str]) -> list[Joint]:
+    joints = [joint.with_class(name) for name in classes if _letter(name) != _RUNNING]
+    return sorted(joints, key=lambda one: (one.interference.smallest, one.interference.largest))
+
+
+def _sliding(joint: Joint, classes: list[str]) -> list[Joint]:
+    joints = [joint.with_class(name) for letter in _SLIDING for name in classes if _letter(name) == letter]
+    return [one for one in joints if _slides(one)]
+
+
+def _letter(tolerance_class: str) -> str:
+    return tolerance_class.rstrip("0123456789").lower()
+
+
+def _grade(tolerance_class: str) -> str:
+    return tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")

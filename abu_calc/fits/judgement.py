@@ -1,0 +1,75 @@
+"""The checks of a seat."""
+
+from abu_calc.checks import Check, verdict
+from abu_calc.fits.advice import LOOSE_ENOUGH
+from abu_calc.fits.joint import Joint
+from abu_calc.units import from_si
+
+_CODES = {"shaft": ("ABU601", "ABU602"), "housing": ("ABU611", "ABU612")}
+_NAMES = {"shaft": "seat on the shaft", "housing": "seat in the housing"}
+
+
+def seat_checks(bearing: str, joint: Joint, recommended: str | None) -> tuple[Check, Check]:
+    """Whether the loosest pair grips where it must, and whether the tightest one is permitted."""
+    if not joint.must_grip:
+        return _loose(bearing, joint), _stress(bearing, joint, recommended)
+    return _grip(bearing, joint, recommended), _stress(bearing, joint, recommended)
+
+
+def _grip(bearing: str, joint: Joint, recommended: str | None) -> Check:
+    code, name = _CODES[joint.seat][0], _NAMES[joint.seat]
+    smallest, required = _um(joint.interference.smallest), joint.required
+    if required is None:
+        missing = "radial load" if joint.radial_load is None else "chamfer"
+        key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
+        return Check(
+            code, name, "not-done", f"{bearing}: no {missing} is given, so the interference that the ring needs is not "
+            "known", smallest, None, "µm", f"Give {key}.",
+        )  # fmt: skip
+    passed = bool(joint.grips)
+    return Check(
+        code, name, verdict(passed), f"{bearing}: least interference of {joint.tolerance_class} against what the ring "
+        f"needs under a {joint.ring_load} load by {required.by}{_losses(joint)}", smallest, _um(required.value), "µm",
+        None if passed else _remedy(recommended), "least",
+    )  # fmt: skip
+
+
+def _loose(bearing: str, joint: Joint) -> Check:
+    share = f"{100 * joint.clearance_probability:.3g} % of pairs are loose"
+    if joint.clearance_probability >= LOOSE_ENOUGH:
+        judgement = f"none is needed under a load fixed in direction; {share}, so the ring can creep and be moved"
+    else:
+        judgement = (
+            f"conservative for a load fixed in direction, which needs none: {share}, so the ring hardly creeps to "
+            "spread its wear and is hard to move along its seat"
+        )
+    return Check(
+        _CODES[joint.seat][0], _NAMES[joint.seat], "pass",
+        f"{bearing}: least interference of {joint.tolerance_class}; {judgement}", _um(joint.interference.smallest),
+        None, "µm", None, "least",
+    )  # fmt: skip
+
+
+def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
+    permitted, passed = joint.permitted, joint.bears
+    return Check(
+        _CODES[joint.seat][1], f"largest interference of the {_NAMES[joint.seat]}", verdict(passed),
+        f"{bearing}: largest interference of {joint.tolerance_class} against what is permitted by {permitted.by}; hoop "
+        f"stress of the ring {from_si(joint.hoop_stress, 'MPa'):.0f} MPa", _um(joint.interference.largest),
+        _um(permitted.value), "µm", None if passed else _remedy(recommended),
+    )  # fmt: skip
+
+
+def _losses(joint: Joint) -> str:
+    return "".join(f" + {name} {_um(value):.1f} µm" for name, value in joint.losses)
+
+
+def _remedy(recommended: str | None) -> str:
+    if recommended is None:
+        return "No tabulated class both grips and is permitted: a longer seat, a smaller load or a larger bearing."
+    return f"{recommended} passes."
+
+
+def _um(metres: float) -> float:
+    # freed of the noise of the conversion
+    return round(from_si(metres, "um"), 6)

@@ -1,0 +1,109 @@
+"""Expected values of a file against its recomputed result."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+from abu_calc.report.files import flattened
+from abu_calc.report.quantities import number
+
+DEFAULT_TOLERANCE: Final = 1e-3
+"""Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""
+
+WORTH_KEEPING: Final = (
+    "status",
+    "imbalance_g_mm",
+    "required_capacity_g_mm",
+    "autobalancer.ball_count",
+    "autobalancer.ball_diameter_mm",
+    "autobalancer.race_radius_mm",
+    "autobalancer.capacity_g_mm",
+    "autobalancer.mass_g",
+    "accuracy_budget.residual_um",
+    "vibration.level_before_db",
+    "vibration.level_after_db",
+    "simulation.0.settling_time_s",
+    "swing_arm.contact_stiffness_limit_N_per_m",
+    "swing_arm.damping_limit_N_s_per_m",
+)
+"""What `--update` writes into a file that expects nothing yet; of seats their fits and interferences."""
+
+SEAT_KEYS: Final = ("fit", "interference_um.0", "interference_um.1", "recommended_fit")
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One expected value and what came out; `deviation` is relative, where both are numbers."""
+
+    path: str
+    expected: Any
+    found: Any
+    tolerance: float
+    deviation: float | None
+    passed: bool
+
+
+def compare(
+    expected: Mapping[str, Any], tolerances: Mapping[str, float], result: Mapping[str, Any]
+) -> list[Difference]:
+    """Every expected value against the result at its path; a path that is not there has failed."""
+    leaves = dict(flattened(result))
+    return [_difference(path, value, tolerances.get(path), result, leaves) for path, value in expected.items()]
+
+
+def _difference(
+    path: str, value: Any, tolerance: float | None, result: Mapping[str, Any], leaves: Mapping[str, Any]
+) -> Difference:
+    allowed = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    found = leaves[path] if path in leaves else _inner(result, path)
+    if isinstance(value, list) and isinstance(found, (list, tuple)) and len(value) == len(found):
+        pairs = [_deviation(a, b) for a, b in zip(value, found, strict=True)]
+        deviation = None if None in pairs else max((each for each in pairs if each is not None), default=0.0)
+    else:
+        deviation = _deviation(value, found)
+    passed = value == found if deviation is None else deviation <= allowed
+    return Difference(path, value, found, allowed, deviation, passed)
+
+
+def current(paths: tuple[str, ...], result: Mapping[str, Any]) -> dict[str, Any]:
+    """The values a file should expect: those at its own paths, or a choice when it has none."""
+    leaves = dict(flattened(result))
+    if not paths:
+        seats = [f"fits.{index}.{key}" for index in range(len(result.get("fits") or ())) for key in SEAT_KEYS]
+        paths = tuple(path for path in (*WORTH_KEEPING, *seats) if leaves.get(path) is not None)
+    found = {path: leaves[path] if path in leaves else _inner(result, path) for path in paths}
+    return {path: _rounded(value) for path, value in found.items() if value is not None}
+
+
+def _inner(result: Any, path: str) -> Any:
+    for part in path.split("."):
+        if isinstance(result, (list, tuple)) and part.isdigit() and int(part) < len(result):
+            result = result[int(part)]
+        elif isinstance(result, Mapping) and part in result:
+            result = result[part]
+        else:
+            return None
+    return result
+
+
+def _deviation(expected: Any, found: Any) -> float | None:
+    if isinstance(expected, bool) or isinstance(found, bool):
+        return None
+    if not isinstance(expected, (int, float)) or not isinstance(found, (int, float)):
+        return None
+    return math.fabs(found - expected) / max(math.fabs(expected), 1e-12)
+
+
+def _rounded(value: Any) -> Any:
+    """Six digits: more than any tolerance needs, few enough to read."""
+    if isinstance(value, (list, tuple)):
+        return [_rounded(each) for each in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
+
+
+def shown_value(value: Any) -> str:
+    """A value in the table of differences."""
+    if isinstance(value, float):
+        return number(value, 6)
+    return "nothing" if value is None else str(value)

@@ -1,0 +1,103 @@
+"""Results as files: the suffix chooses the format, the file is written whole or not at all."""
+
+import csv
+import io
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from abu_calc.errors import OutputError
+from abu_calc.report.outcome import Outcome, document, to_json
+from abu_calc.report.quantities import unit_of
+from abu_calc.report.text import as_text
+
+
+def as_toml(outcome: Outcome) -> str:
+    """The JSON document as TOML; what is null there is left out, since TOML has no null."""
+    import tomli_w
+
+    return tomli_w.dumps(_without_null(document(outcome)))
+
+
+def as_csv(outcome: Outcome) -> str:
+    """One row per number or text of the result: path, value, unit."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(("path", "value", "unit"))
+    for path, value in flattened({"status": outcome.status, **_named(outcome.result)}):
+        key = next((part for part in reversed(path.split(".")) if not part.isdigit()), path)
+        writer.writerow((path, "" if value is None else value, unit_of(key)))
+    return buffer.getvalue()
+
+
+def as_file(outcome: Outcome, suffix: str) -> str:
+    """The text of a file with this suffix; what stands for itself is written as it is."""
+    return FORMATS[suffix](outcome) if outcome.plain is None else outcome.plain
+
+
+FORMATS: dict[str, Callable[[Outcome], str]] = {
+    ".json": lambda outcome: to_json(document(outcome)) + "\n",
+    ".toml": as_toml,
+    ".csv": as_csv,
+    ".txt": lambda outcome: as_text(outcome.blocks),
+}
+
+
+def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Every leaf of a result with its path, `autobalancer.ball_count`, `fits.0.fit`."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, (list, tuple)) else None
+    if items is None:
+        yield path, value
+        return
+    for key, inner in items:
+        yield from flattened(inner, f"{path}.{key}" if path else str(key))
+
+
+def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> None:
+    """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force."""
+    if suffixes and path.suffix.lower() not in suffixes:
+        raise OutputError("unknown format", found=path.name, allowed="a name ending in " + " ".join(suffixes))
+    if path.is_dir():
+        raise OutputError(f"{path} is a folder", remedy="Give a file's name.")
+    if not path.absolute().parent.is_dir():
+        raise OutputError(f"{path}: the folder does not exist", remedy="Make it first.")
+    if path.exists() and not force:
+        raise OutputError(f"{path} exists already", remedy="Choose another name, or overwrite it with --force.")
+
+
+def write(path: Path, text: str) -> None:
+    """Write a file whole or not at all: beside it first, then put in its place."""
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.absolute().parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        if path.exists():
+            Path(name).chmod(path.stat().st_mode)
+        else:
+            Path(name).chmod(0o666 & ~_umask())
+        Path(name).replace(path)
+    except BaseException as error:
+        Path(name).unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise OutputError(f"{path} cannot be written: {error.strerror}") from error
+        raise
+
+
+def _umask() -> int:
+    current = os.umask(0)
+    os.umask(current)
+    return current
+
+
+def _named(result: Any) -> dict[str, Any]:
+    return result if isinstance(result, dict) else {"result": result}
+
+
+def _without_null(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_null(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, (list, tuple)):
+        return [_without_null(inner) for inner in value if inner is not None]
+    return value

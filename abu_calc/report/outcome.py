@@ -1,0 +1,87 @@
+"""What a command returns, and the one JSON document it becomes."""
+
+import json
+import math
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from abu_calc.checks import Check, Status
+from abu_calc.errors import AbuError, InputError
+from abu_calc.report.blocks import Block
+from abu_calc.version import __version__
+
+SCHEMA = 1
+EXIT_STATUS: dict[Status, int] = {"pass": 0, "fail": 1, "not-done": 1}
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file a result comes from."""
+
+    file: str
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The frozen result of a command: numbers in user units, checks, and the blocks that show them."""
+
+    command: str
+    result: Any
+    blocks: tuple[Block, ...]
+    source: Source | None = None
+    checks: tuple[Check, ...] = ()
+    model: dict[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    status: Status = "pass"
+    plain: str | None = None
+    """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
+
+    @property
+    def exit_status(self) -> int:
+        """0 when every check passed, else 1."""
+        return EXIT_STATUS[self.status]
+
+
+def document(outcome: Outcome) -> dict[str, Any]:
+    """The envelope of a result."""
+    return {
+        "abu": _head(outcome.command),
+        "input": asdict(outcome.source) if outcome.source else None,
+        "status": outcome.status,
+        "checks": [asdict(check) for check in outcome.checks],
+        "result": outcome.result,
+        "model": outcome.model,
+        "warnings": list(outcome.warnings),
+    }
+
+
+def error_document(command: str, error: BaseException) -> dict[str, Any]:
+    """The envelope of an error."""
+    facts: dict[str, Any] = {"kind": error.kind if isinstance(error, AbuError) else "bug", "message": str(error)}
+    if isinstance(error, InputError):
+        facts |= {
+            "message": error.message,
+            "file": error.place.file,
+            "line": error.place.line,
+            "key": error.place.key,
+            "found": error.found,
+            "allowed": error.allowed,
+            "remedy": error.remedy,
+        }
+    return {"abu": _head(command), "input": None, "status": "not-done", "checks": [], "result": None, "model": {},
+            "warnings": [], "error": facts}  # fmt: skip
+
+
+def _head(command: str) -> dict[str, Any]:
+    return {"version": __version__, "command": command, "schema": SCHEMA}
+
+
+def to_json(content: dict[str, Any]) -> str:
+    """One JSON document; refuses NaN and infinities, which no result may hold; ASCII, so every console can take it."""
+    return json.dumps(content, allow_nan=False, indent=2)
+
+
+def finite(value: float | None) -> float | None:
+    """A number for JSON: null where it is not finite."""
+    return value if value is not None and math.isfinite(value) else None

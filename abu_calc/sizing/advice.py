@@ -1,0 +1,148 @@
+"""The checks of a design in the order a reader wants them, and what he must be warned of."""
+
+from collections.abc import Iterable
+
+from abu_calc.checks import Check, verdict
+from abu_calc.fits.seats import BearingSeats
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.capacity import steady_contact
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.frequency import FrequencyRegion
+from abu_calc.sizing.swing_arm import SwingArmBounds
+from abu_calc.sizing.track import Track, track_checks
+from abu_calc.sizing.vibration import Vibration, vibration_checks
+from abu_calc.standards.balls import stock_diameter
+from abu_calc.units import from_si, to_si
+
+
+def design_checks(
+    case: Case,
+    frequency: FrequencyRegion,
+    one: Candidate,
+    track: Track,
+    idle: Vibration,
+    seats: Iterable[BearingSeats],
+    arm: SwingArmBounds | None,
+) -> tuple[Check, ...]:
+    """All checks of the design itself; the simulation adds its own."""
+    return (
+        frequency.check,
+        _capacity(case, one),
+        _budget(one),
+        _mass(case, one),
+        *_plane(case, one),
+        *track_checks(case, track),
+        *vibration_checks(case, idle),
+        *_power(case),
+        *(arm.checks if arm else ()),
+        *(check for bearing in seats for check in bearing.checks),
+    )
+
+
+def _capacity(case: Case, one: Candidate) -> Check:
+    margin = case.autobalancer.capacity_margin
+    need = from_si(one.requirement.required * margin, "g_mm")
+    enough = one.capacity_ratio >= margin
+    return Check(
+        "ABU201", "capacity", verdict(enough), f"{one.ball_count} balls side by side against {margin:g} × the need",
+        from_si(one.capacity, "g_mm"), need, "g·mm",
+        None if enough else "More or larger balls, a larger envelope, or a better balanced and truer wheel.",
+        "least",
+    )  # fmt: skip
+
+
+def _budget(one: Candidate) -> Check:
+    budget = one.budget
+    return Check(
+        "ABU202", "accuracy budget", verdict(budget.within), "race eccentricity and dry friction, expected, against what "
+        "the limit permits", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
+        None if budget.within else "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
+    )  # fmt: skip
+
+
+def _mass(case: Case, one: Candidate) -> Check:
+    limit = case.autobalancer.max_mass_fraction
+    light = one.mass_fraction <= limit
+    return Check(
+        "ABU203", "mass of the autobalancer", verdict(light), "share of the machine's mass, balls included",
+        100 * one.mass_fraction, 100 * limit, "%",
+        None if light else 'The design "light", a smaller bore, less margin, or a better balanced wheel.',
+    )  # fmt: skip
+
+
+def _plane(case: Case, one: Candidate) -> tuple[Check, ...]:
+    """The race off the wheel's plane: what rests at the wheel, if the body is known."""
+    if case.race_offset == 0:
+        return ()
+    if not case.body.is_rigid:
+        return (
+            Check(
+                "ABU205", "race plane", "not-done", "the race is off the wheel's plane, and the rigid body is not known",
+                remedy="Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm.",
+            ),
+        )  # fmt: skip
+    rest, permitted = from_si(one.budget.plane_offset, "um"), from_si(one.budget.permitted, "um")
+    near = rest <= permitted
+    return (
+        Check(
+            "ABU205", "race plane", verdict(near), f"the balls need {one.requirement.plane_ratio:.3f} × the imbalance, and "
+            "this stays at the wheel", rest, permitted, "µm", None if near else "Bring the race nearer to the wheel.",
+        ),
+    )  # fmt: skip
+
+
+def _power(case: Case) -> tuple[Check, ...]:
+    power, contact = case.table.machine.power_W, case.contact
+    if power is None or contact is None:
+        return ()
+    rim = case.speed * to_si(case.table.wheel.diameter_mm, "mm") / 2
+    cutting = contact.cutting_coefficient * contact.press_force * rim
+    enough = cutting <= power
+    return (
+        Check(
+            "ABU403", "cutting power", verdict(enough), "f·N·v at the rated speed against the motor's power", cutting,
+            power, "W", None if enough else "A smaller press force or cutting coefficient: these do not go together.",
+        ),
+    )  # fmt: skip
+
+
+def design_warnings(case: Case, one: Candidate) -> tuple[str, ...]:
+    """What a reader must know that no check says."""
+    return (*_body_warnings(case), *_contact_warnings(case, one), *_choice_warnings(case, one))
+
+
+def _body_warnings(case: Case) -> list[str]:
+    if case.body.is_rigid:
+        return []
+    found = " and the imbalance found from it" if case.table.wheel.measured_level_db else ""
+    handles = "; every handle moves alike" if case.handles else ""
+    return [
+        f"The machine is taken as a point mass: a level at a handle{found} is uncertain by a factor of two to three"
+        f"{handles}. Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm to do better."
+    ]
+
+
+def _contact_warnings(case: Case, one: Candidate) -> list[str]:
+    contact, warnings = case.contact, []
+    if contact is None:
+        return ["No [grinding]: the capacity is for idling; the need under load, compliant or rigid, was not computed."]
+    if contact.kind != "compliant":
+        return [f"The contact is {contact.kind}: a compliant need was not computed."]
+    grinding = case.table.grinding
+    if grinding is not None and "contact_stiffness_N_per_m" not in grinding.model_fields_set:
+        warnings.append("The contact stiffness is the default 2e5 N/m, a guess: the loaded levels depend on it.")
+    steady = steady_contact(case, one.mass, damped=False)
+    if steady is not None and steady.balls_increase_imbalance:
+        warnings.append(
+            "At this contact stiffness balls under load would increase the imbalance (it lies between MΩ² and 2MΩ²)."
+        )
+    return warnings
+
+
+def _choice_warnings(case: Case, one: Candidate) -> list[str]:
+    warnings = []
+    if stock_diameter(one.ball_diameter) is None:
+        warnings.append(f"Balls of {from_si(one.ball_diameter, 'mm'):g} mm are not a stock size.")
+    if case.autobalancer.corrector == "roller":
+        warnings.append("Rollers: as long as their diameter, cylindrical race; no toroidal groove shakes out friction.")
+    return warnings

@@ -1,0 +1,51 @@
+"""Balls side by side in a race: their half angle, their mass, and the imbalance they can hold."""
+
+import math
+
+from abu_calc.validity import Range
+
+HALF_ANGLE_SINE = Range("ball radius over pitch radius", 0.0, 1.0, open_low=True)
+
+
+def half_angle(ball_radius: float, pitch_radius: float) -> float:
+    """Half the angle between touching neighbours, sin β = r/(R−r) [rad].
+
+    >>> round(math.degrees(half_angle(8e-3, 24e-3)), 4)
+    19.4712
+    """
+    return math.asin(HALF_ANGLE_SINE.check(ball_radius / pitch_radius))
+
+
+def most_balls(beta: float) -> int:
+    """As many as fit round the race: ⌊π/β⌋."""
+    return math.floor(math.pi / beta + 1e-12)
+
+
+def best_count(beta: float) -> int:
+    """n* = round(π/(2β)): up to here one more ball adds capacity, beyond it takes some away."""
+    return round(math.pi / (2 * beta))
+
+
+def capacity(count: int, ball_mass: float, pitch_radius: float, beta: float) -> float:
+    """Largest imbalance that n balls side by side can balance [kg m]: m·R_p·sin(nβ)/sin β.
+
+    m mass of a ball [kg], R_p = R−r pitch radius [m], β half angle of touching neighbours.
+    Range: 1 ≤ n ≤ ⌊π/β⌋; it grows only up to n* = round(π/(2β)). Source: derived, and found to be the maximum under
+    the spacing constraint by optimisation. Printed: Kladiev 1996, (6), takes 2·m·(R−r), as if balls had no size.
+
+    >>> beta = half_angle(8e-3, 22e-3)
+    >>> [round(1e6 * capacity(n, 16.72835e-3, 22e-3, beta), 1) for n in (1, 2, 3, 4, 5)]
+    [368.0, 685.7, 909.4, 1008.7, 969.8]
+    """
+    Range("number of balls side by side", 1, most_balls(beta)).check(count)
+    return ball_mass * pitch_radius * math.sin(count * beta) / math.sin(beta)
+
+
+def corrector_mass(corrector: str, diameter: float, density: float) -> float:
+    """Mass of a ball, or of a roller as long as its diameter [kg].
+
+    >>> round(1e3 * corrector_mass("ball", 16e-3, 7800), 3)
+    16.728
+    """
+    cube = diameter**3 * math.pi
+    return density * cube * (1 / 6 if corrector == "ball" else 1 / 4)

@@ -1,0 +1,147 @@
+"""Step 5: which balls, how many, on which race radius."""
+
+from bisect import bisect_left
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from abu_calc.sizing.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
+from abu_calc.sizing.budget import AccuracyBudget, accuracy_budget, fan
+from abu_calc.sizing.capacity import Requirement, required_capacity
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.housing import Housing, housing
+from abu_calc.sizing.pins import ball_counts, ball_diameters, impossible, race_radii
+from abu_calc.standards.balls import material
+from abu_calc.units import from_si
+
+RUNNERS_UP = 4
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One autobalancer that could be made [SI]."""
+
+    ball_count: int
+    ball_diameter: float
+    ball_mass: float
+    race_radius: float
+    capacity: float
+    requirement: Requirement
+    housing: Housing
+    budget: AccuracyBudget
+    mass_fraction: float
+
+    @property
+    def pitch_radius(self) -> float:
+        """R − r [m]."""
+        return self.race_radius - self.ball_diameter / 2
+
+    @property
+    def mass(self) -> float:
+        """Housing and balls [kg]."""
+        return self.requirement.added_mass
+
+    @property
+    def capacity_ratio(self) -> float:
+        """Capacity over need."""
+        return self.capacity / self.requirement.required if self.requirement.required else float("inf")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The chosen autobalancer, the runners-up, each with the reason why it lost, and how many were looked at."""
+
+    best: Candidate
+    runners_up: tuple[tuple[Candidate, str], ...]
+    examined: int
+
+
+def choose(case: Case, imbalance: float) -> Choice:
+    """The best of every stock diameter × count up to n* × race radius in the envelope.
+
+    Enough capacity comes first, then the accuracy budget, then the mass fraction, then the least mass (ties: the smaller
+    ball). Of each diameter and count the smallest sufficient race stands for the rest: with a larger one both mass and
+    friction band grow.
+    """
+    found = sorted(candidates(case, imbalance), key=lambda one: _rank(case, one))
+    if not found:
+        raise impossible("ball_count", case.autobalancer.ball_count or 2, "so many do not fit round any race")
+    best, others = found[0], found[1:]
+    front = [one for one in others if _on_front(one, found) and _sound(case, one)]
+    picked = (front + [one for one in others if one not in front])[:RUNNERS_UP]
+    picked.sort(key=lambda one: _rank(case, one))
+    return Choice(best, tuple((one, _why_not(case, one, best)) for one in picked), len(found))
+
+
+def candidates(case: Case, imbalance: float) -> Iterator[Candidate]:
+    """For every diameter and count the smallest race that suffices, or the largest there is if none does."""
+    for diameter in ball_diameters(case):
+        radii = race_radii(case, diameter)
+        if not radii:
+            continue
+        for count in ball_counts(case, diameter, radii[-1]):
+            yield _smallest(case, imbalance, diameter, count, radii)
+
+
+def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_radius: float) -> Candidate:
+    """One candidate in full: the need is that of the machine which carries it, so no iteration is left over."""
+    abu = case.autobalancer
+    ball_mass = corrector_mass(abu.corrector, diameter, material(abu.ball_material).density)
+    pitch = race_radius - diameter / 2
+    beta = half_angle(diameter / 2, pitch)
+    body = housing(abu.design, race_radius, diameter, 1e-3 * abu.bore_diameter_mm, 1e-3 * abu.min_wall_mm)
+    mass = body.mass + count * ball_mass
+    need = required_capacity(case, imbalance, mass)
+    angles = fan(count, imbalance * need.plane_ratio / (ball_mass * pitch), beta)
+    budget = accuracy_budget(case, imbalance, mass, pitch, diameter / 2, angles)
+    held = capacity(count, ball_mass, pitch, beta)
+    return Candidate(count, diameter, ball_mass, race_radius, held, need, body, budget, mass / case.machine_mass)
+
+
+def _smallest(case: Case, imbalance: float, diameter: float, count: int, radii: tuple[float, ...]) -> Candidate:
+    free = case.autobalancer.ball_count is None
+
+    def suffices(radius: float) -> bool:
+        beta = half_angle(diameter / 2, radius - diameter / 2)
+        fits = count <= (best_count(beta) if free else most_balls(beta))
+        return fits and _enough(case, evaluate(case, imbalance, count, diameter, radius))
+
+    if not suffices(radii[-1]):
+        return evaluate(case, imbalance, count, diameter, radii[-1])
+    return evaluate(case, imbalance, count, diameter, radii[bisect_left(radii, True, key=suffices)])
+
+
+def _enough(case: Case, one: Candidate) -> bool:
+    return one.capacity_ratio >= case.autobalancer.capacity_margin
+
+
+def _light(case: Case, one: Candidate) -> bool:
+    return one.mass_fraction <= case.autobalancer.max_mass_fraction
+
+
+def _sound(case: Case, one: Candidate) -> bool:
+    return _enough(case, one) and one.budget.within and _light(case, one)
+
+
+def _rank(case: Case, one: Candidate) -> tuple[float, ...]:
+    """Sorts the best first: what is short of something is ranked by how short it is."""
+    shortage = max(0.0, case.autobalancer.capacity_margin - one.capacity_ratio)
+    excess = 0.0 if one.budget.within else one.budget.residual
+    return (shortage, excess, not _light(case, one), round(one.mass, 9), one.ball_diameter)
+
+
+def _on_front(one: Candidate, among: list[Candidate]) -> bool:
+    """Whether no other is both lighter and more accurate."""
+    return not any(other.mass < one.mass and other.budget.residual < one.budget.residual for other in among)
+
+
+def _why_not(case: Case, one: Candidate, best: Candidate) -> str:
+    if not _enough(case, one):
+        return f"carries only {one.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
+    if not one.budget.within:
+        return f"rests at {from_si(one.budget.residual, 'um'):.1f} µm, more than the limit permits"
+    if not _light(case, one):
+        return f"weighs {100 * one.mass_fraction:.1f} % of the machine"
+    heavier = from_si(one.mass - best.mass, "g")
+    finer = from_si(best.budget.residual - one.budget.residual, "um")
+    gain = f", though it rests {finer:.1f} µm nearer" if finer > 0.05 else ""
+    return f"{heavier:.1f} g heavier{gain}" if heavier > 0.05 else "equally heavy, with larger balls"

@@ -1,0 +1,40 @@
+"""The mass that really moves: the machine as a rigid body, felt at places along its spindle axis."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Body:
+    """Machine and wheel without the autobalancer; places [m] from the centre of mass, toward the wheel positive.
+
+    A point mass is the body whose `inverse_inertia` [1/(kg m²)] is zero: every place then moves alike.
+    """
+
+    mass: float
+    inverse_inertia: float
+    wheel: float
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether transverse inertia and the place of the wheel are known."""
+        return self.inverse_inertia > 0
+
+    def inertance(self, at: float, force_at: float, added: float = 0.0) -> float:
+        """Acceleration at one place per force at another [1/kg], well above the suspension's frequencies.
+
+        1/M + p·a/J; `added` [kg] is what the autobalancer adds to M.
+        Source: Newton–Euler of a free rigid body in the plane.
+
+        >>> round(1 / Body(6.4, 1 / 0.10, 0.2).inertance(0.2, 0.2), 1)
+        1.8
+        """
+        return 1 / (self.mass + added) + at * force_at * self.inverse_inertia
+
+    def effective_mass(self, added: float = 0.0, at: float | None = None) -> float:
+        """Mass felt at a place (the wheel unless told otherwise): 1/m_eff = 1/M + a²/J [kg]."""
+        place = self.wheel if at is None else at
+        return 1 / self.inertance(place, place, added)
+
+    def transmission(self, at: float, added: float = 0.0) -> float:
+        """Motion at a place per motion at the wheel, both caused by a force at the wheel [1]."""
+        return abs(self.inertance(at, self.wheel, added)) / self.inertance(self.wheel, self.wheel, added)

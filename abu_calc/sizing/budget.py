@@ -1,0 +1,109 @@
+"""Step 4: what keeps a real autobalancer from 40 dB: race eccentricity, dry friction, race off the wheel's plane."""
+
+import math
+from bisect import bisect_left
+from dataclasses import dataclass
+from itertools import pairwise
+
+from abu_calc.sizing.capacity import plane_ratio
+from abu_calc.sizing.case import Case
+from abu_calc.units import level_from_velocity, velocity_from_level
+
+FAN_STEPS = 512
+
+
+@dataclass(frozen=True)
+class AccuracyBudget:
+    """Displacements 0–peak at the wheel [m] that stay when the balls have settled, and what the limit permits."""
+
+    race_eccentricity: float
+    rolling_friction: float
+    plane_offset: float
+    residual: float
+    worst: float
+    permitted: float
+    resting_angles: tuple[float, ...]
+
+    @property
+    def within(self) -> bool:
+        """Whether the expected residual is permitted."""
+        return self.residual <= self.permitted
+
+
+def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float, ...]:
+    """Angles [rad] of n balls spread evenly about one direction whose unit vectors add up to `resultant`.
+
+    sin(nδ/2)/sin(δ/2) = |Σe^{iθ}| for the spacing δ between touching (2β) and even round the race (2π/n), to 1/512 of
+    that span; for two balls it is the only stationary arrangement, for more a typical one (n−2 angles are free).
+    """
+    low, high = 2 * contact_half_angle, 2 * math.pi / count
+    if count == 2:
+        half = max(contact_half_angle, math.acos(min(1.0, resultant / 2)))
+        return (-half, half)
+
+    def closing(step: int) -> float:
+        spacing = low + (high - low) * step / FAN_STEPS
+        return -math.sin(count * spacing / 2) / math.sin(spacing / 2)
+
+    step = bisect_left(range(FAN_STEPS), -resultant, key=closing)
+    spacing = low + (high - low) * step / FAN_STEPS
+    return tuple((k - (count - 1) / 2) * spacing for k in range(count))
+
+
+def friction_band(arm: float, pitch_radius: float, ball_radius: float, angles: tuple[float, ...]) -> float:
+    """Largest axis displacement [m] at which dry rolling friction can hold every ball where it is.
+
+    |Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| ≤ (k_r·R_p/r)/cos(g/2), g the largest gap between the directions
+    of the balls modulo 180°; for two balls at ±θ this is (k_r·R_p/r)/min(|sin θ|, |cos θ|).
+    k_r lever arm of rolling friction, R_p pitch radius, r ball radius [m]; infinite when all balls are in one line.
+    Range: hard, clean race, k_r 0.5–5 µm; whatever the speed. Source: derived; Kladiev 1996 has no such limit.
+
+    >>> round(1e6 * friction_band(2e-6, 23e-3, 8e-3, (-math.radians(60), math.radians(60))), 2)
+    11.5
+    """
+    if arm == 0:
+        return 0.0
+    directions = sorted(angle % math.pi for angle in angles)
+    gap = max(after - before for before, after in pairwise([*directions, directions[0] + math.pi]))
+    in_line = math.pi - gap < 1e-9
+    return math.inf if in_line else arm * pitch_radius / ball_radius / math.cos(gap / 2)
+
+
+def permitted_displacement(case: Case, added_mass: float) -> float:
+    """Displacement 0–peak at the wheel [m] that keeps every handle within the limit: √2·v/Ω, background taken off."""
+    allowed = velocity_from_level(case.table.limits.vibration_level_db) ** 2
+    background = case.table.machine.background_level_db
+    if background is not None:
+        allowed -= velocity_from_level(background) ** 2
+    places = [handle.place for handle in case.handles] or [case.body.wheel]
+    transmission = max(case.body.transmission(place, added_mass) for place in places)
+    return math.sqrt(2 * max(allowed, 0.0)) / (case.speed * transmission)
+
+
+def accuracy_budget(
+    case: Case, imbalance: float, added_mass: float, pitch_radius: float, ball_radius: float, angles: tuple[float, ...]
+) -> AccuracyBudget:
+    """The parts of the residual: root of the sum of squares as expected, plain sum as worst."""
+    friction = friction_band(case.friction_arm, pitch_radius, ball_radius, angles)
+    parts = (case.race_eccentricity, friction, plane_rest(case, imbalance, added_mass))
+    return AccuracyBudget(*parts, math.hypot(*parts), sum(parts), permitted_displacement(case, added_mass), angles)
+
+
+def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
+    """Displacement [m] that rests at the wheel when balls in another plane have stilled the race.
+
+    U·(1/M + a_w²/J) − V·(1/M + a_w·a_r/J), V = U·(plane ratio). Range and source as for the plane ratio.
+    """
+    body, ratio = case.body, plane_ratio(case, added_mass)
+    by_imbalance = body.inertance(body.wheel, body.wheel, added_mass)
+    by_balls = ratio * body.inertance(body.wheel, case.race_place, added_mass)
+    return abs(imbalance * (by_imbalance - by_balls))
+
+
+def displacement_level(displacement: float, speed: float) -> float:
+    """Velocity level [dB] of a displacement 0–peak [m] at a speed [rad/s]: v = wΩ/√2.
+
+    >>> round(displacement_level(12e-6, 5800 * math.pi / 30), 1)
+    100.2
+    """
+    return level_from_velocity(displacement * speed / math.sqrt(2))

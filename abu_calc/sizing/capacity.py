@@ -1,0 +1,99 @@
+"""Step 3: the capacity that the balls must have, m(R−r)·… ≥ m₀e + Mε, exactly."""
+
+from dataclasses import dataclass
+
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.contact import SteadyContact
+from abu_calc.sizing.suspension import dynamic_stiffness
+from abu_calc.validity import Range
+
+FRICTION = Range("cutting coefficient f", 0.0, 2.0)
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """Needed capacity [kg m] and its parts, for a machine that carries an autobalancer of `added_mass`."""
+
+    added_mass: float
+    effective_mass: float
+    imbalance_part: float
+    runout_factor: float
+    runout_part: float
+    eccentricity_part: float
+    plane_ratio: float
+    required: float
+    printed_limit: float
+    compliant: float | None
+
+
+def runout_factor(speed: float, natural_frequencies: tuple[float, float], friction: float) -> float:
+    """Share of Mε that a rigid contact asks for: √{[(1−ω_x²/Ω²)² + f²(1−ω_y²/Ω²)²]/(1+f²)} [1].
+
+    Ω speed, ω natural frequencies [rad/s]; f cutting coefficient. Worst place of the runout against the imbalance.
+    Range: rigid contact without separation, f up to 2. It tends to 1 far above resonance.
+    Source: derived by averaging. Printed: Kladiev 1996, (6), has the limit 1, which is on the safe side above resonance.
+
+    >>> round(runout_factor(607.37, (80.0, 120.0), 0.35), 4)
+    0.9802
+    """
+    f = FRICTION.check(friction)
+    x, y = (1 - (w / speed) ** 2 for w in natural_frequencies)
+    return float(((x**2 + f**2 * y**2) / (1 + f**2)) ** 0.5)
+
+
+def plane_ratio(case: Case, added_mass: float = 0.0) -> float:
+    """Balls' imbalance in the race plane per imbalance in the wheel plane that stills the race [1].
+
+    (1/M + a_r·a_w/J)/(1/M + a_r²/J), a places of race and wheel from the centre of mass; 1 in one plane.
+    Range: rigid body well above its suspension. Source: derived. What rests at the wheel is in the accuracy budget.
+    """
+    body, race = case.body, case.race_place
+    return body.inertance(race, body.wheel, added_mass) / body.inertance(race, race, added_mass)
+
+
+def steady_contact(case: Case, added_mass: float, *, damped: bool) -> SteadyContact | None:
+    """The machine pressed to the work, or nothing when the contact does not press radially."""
+    contact = case.contact
+    if contact is None or contact.kind == "face":
+        return None
+    mass = case.body.effective_mass(added_mass)
+    dx, dy = (dynamic_stiffness(case.suspension, axis, case.speed, mass) for axis in (0, 1))
+    stiffness = (dx, dy) if damped else (complex(dx.real), complex(dy.real))
+    compliance = 1 / contact.stiffness if contact.kind == "compliant" else 0.0
+    return SteadyContact(case.speed, stiffness, compliance, contact.sense * contact.cutting_coefficient)
+
+
+def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requirement:
+    """Capacity need [kg m]: m₀e + M·ε·√{…} + M·Δ, the first two times the ratio of the planes.
+
+    m₀e imbalance, M mass felt at the wheel with the autobalancer [kg], ε runout of the wheel (only when the contact
+    presses radially), √{…} of `runout_factor`, Δ race eccentricity [m].
+    Beside it: the printed limit m₀e + Mε (Kladiev 1996, (6)), and what a compliant contact asks for:
+    m₀e + ε·c_n·|D_x − isf·D_y|/(Ω²·|D_x + D_y + c_n(1 + isf)|) + M·Δ.
+    Range: above resonance. Source: derived; practice of the shop floor for Δ.
+    Printed: (6) leaves out the race's eccentricity, the planes, and that balls have a size (see `balls`).
+    """
+    mass = case.body.effective_mass(added_mass)
+    ratio = plane_ratio(case, added_mass)
+    eccentricity = case.body.effective_mass(added_mass, case.race_place) * case.race_eccentricity
+    steady = steady_contact(case, added_mass, damped=False)
+    factor = compliant = None
+    if steady is not None and case.contact is not None:
+        dx, dy = steady.dynamic_stiffness
+        frequencies = tuple(max(0.0, 1 + d.real / (mass * case.speed**2)) ** 0.5 * case.speed for d in (dx, dy))
+        factor = runout_factor(case.speed, (frequencies[0], frequencies[1]), case.contact.cutting_coefficient)
+        if case.contact.kind == "compliant":
+            compliant = (imbalance + abs(steady.balancing_imbalance(case.runout))) * ratio + eccentricity
+    runout = mass * case.runout * (factor or 0.0)
+    return Requirement(
+        added_mass=added_mass,
+        effective_mass=mass,
+        imbalance_part=imbalance,
+        runout_factor=factor or 0.0,
+        runout_part=runout,
+        eccentricity_part=eccentricity,
+        plane_ratio=ratio,
+        required=(imbalance + runout) * ratio + eccentricity,
+        printed_limit=imbalance + mass * case.runout,
+        compliant=compliant,
+    )

@@ -1,0 +1,118 @@
+"""A machine file in SI: the one place where sizing reads what people wrote."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from abu_calc.errors import InputError, Place
+from abu_calc.sizing.body import Body
+from abu_calc.sizing.suspension import Hands, Springs, Suspension
+from abu_calc.spec.machine import Autobalancer, Grinding, Machine
+from abu_calc.standards.hands import hand
+from abu_calc.units import to_si
+
+INERTIA_FACTORS = {"ball": 7 / 5, "roller": 3 / 2}
+"""J: rolling inertia of a solid ball or roller (translation 1 + rotation 2/5 or 1/2)."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Wheel and work under load; `stiffness` is zero unless the contact is compliant."""
+
+    kind: Literal["compliant", "rigid", "face"]
+    press_force: float
+    cutting_coefficient: float
+    stiffness: float
+    sense: int
+
+
+@dataclass(frozen=True)
+class Handle:
+    """Where levels are wanted: a name and a place [m] from the centre of mass."""
+
+    name: str
+    place: float
+
+
+@dataclass(frozen=True)
+class Case:
+    """What sizing needs to know of a machine [SI]; masses without the autobalancer."""
+
+    table: Machine
+    autobalancer: Autobalancer
+    machine_mass: float
+    body: Body
+    suspension: Suspension
+    speed: float
+    speed_range: tuple[float, float]
+    runout: float
+    contact: Contact | None
+    handles: tuple[Handle, ...]
+    race_eccentricity: float
+    drag: float
+    friction_arm: float
+    inertia_factor: float
+    race_offset: float
+
+    @property
+    def race_place(self) -> float:
+        """Place of the race plane from the centre of mass [m]."""
+        return self.body.wheel + self.race_offset
+
+
+def read_case(machine: Machine) -> Case:
+    """The case of a machine file; refused where the file has no [autobalancer]."""
+    abu, top = machine.autobalancer, machine.machine
+    if abu is None:
+        raise InputError(
+            "missing: sizing needs the room there is for the autobalancer",
+            place=Place(key="autobalancer.max_outer_diameter_mm"),
+            remedy="Add a table [autobalancer] with max_outer_diameter_mm and max_width_mm.",
+        )
+    body = _body(machine)
+    low, high = top.speed_range
+    return Case(
+        table=machine,
+        autobalancer=abu,
+        machine_mass=top.mass_kg,
+        body=body,
+        suspension=_suspension(machine, body.effective_mass()),
+        speed=to_si(top.speed_rpm, "rpm"),
+        speed_range=(to_si(low, "rpm"), to_si(high, "rpm")),
+        runout=to_si(machine.wheel.runout, "mm"),
+        contact=_contact(machine.grinding),
+        handles=tuple(Handle(h.name, to_si(h.from_center_of_mass_mm, "mm")) for h in top.handle),
+        race_eccentricity=to_si(abu.race_eccentricity_mm, "mm"),
+        drag=abu.rolling_drag_per_s,
+        friction_arm=to_si(abu.rolling_friction_mm, "mm"),
+        inertia_factor=INERTIA_FACTORS[abu.corrector],
+        race_offset=to_si(abu.plane_offset_mm, "mm"),
+    )
+
+
+def _body(machine: Machine) -> Body:
+    top = machine.machine
+    mass = top.mass_kg + machine.wheel.mass_kg
+    if top.transverse_inertia_kg_m2 is None or top.center_of_mass_to_wheel_mm is None:
+        return Body(mass, 0.0, 0.0)
+    return Body(mass, 1 / top.transverse_inertia_kg_m2, to_si(top.center_of_mass_to_wheel_mm, "mm"))
+
+
+def _suspension(machine: Machine, mass: float) -> Suspension:
+    table = machine.suspension
+    if table.frequencies is None or table.dampings is None:
+        return Hands((hand("x"), hand("y")))
+    wx, wy = (to_si(frequency, "hz") for frequency in table.frequencies)
+    zx, zy = table.dampings
+    return Springs((mass * wx**2, mass * wy**2), (2 * zx * mass * wx, 2 * zy * mass * wy))
+
+
+def _contact(grinding: Grinding | None) -> Contact | None:
+    if grinding is None:
+        return None
+    return Contact(
+        kind=grinding.contact,
+        press_force=grinding.press_force_N,
+        cutting_coefficient=grinding.cutting_coefficient,
+        stiffness=grinding.contact_stiffness_N_per_m if grinding.contact == "compliant" else 0.0,
+        sense=grinding.rotation_sense,
+    )

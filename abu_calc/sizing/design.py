@@ -1,0 +1,43 @@
+"""The finished design: every step's frozen result, side by side."""
+
+from dataclasses import dataclass
+
+from abu_calc.checks import Check
+from abu_calc.fits.seats import BearingSeats
+from abu_calc.sizing.balls import Candidate, Choice
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.drawing import Advice
+from abu_calc.sizing.frequency import FrequencyRegion
+from abu_calc.sizing.imbalance import Imbalance
+from abu_calc.sizing.swing_arm import SwingArmBounds
+from abu_calc.sizing.track import Track
+from abu_calc.sizing.vibration import Vibration
+
+
+@dataclass(frozen=True)
+class Design:
+    """What `size` returns, in the order of the steps; SI inside."""
+
+    case: Case
+    frequency: FrequencyRegion
+    imbalance: Imbalance
+    choice: Choice
+    track: Track
+    runner_up_tracks: tuple[Track, ...]
+    idle: Vibration
+    loaded: Vibration | None
+    seats: tuple[BearingSeats, ...]
+    swing_arm: SwingArmBounds | None
+    drawing: tuple[Advice, ...]
+    checks: tuple[Check, ...]
+    warnings: tuple[str, ...]
+
+    @property
+    def autobalancer(self) -> Candidate:
+        """The chosen one."""
+        return self.choice.best
+
+    @property
+    def system_mass(self) -> float:
+        """Machine, wheel, autobalancer with its balls [kg]."""
+        return self.case.body.mass + self.autobalancer.mass

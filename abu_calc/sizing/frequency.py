@@ -1,0 +1,100 @@
+"""Step 1: is balancing possible at these speeds at all?"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from abu_calc.checks import Check, verdict
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.suspension import dynamic_stiffness, natural_frequency
+from abu_calc.units import from_si
+from abu_calc.validity import Range
+
+Region = Literal["subcritical", "between", "supercritical"]
+
+BALL_SHARE = Range("mass of one ball over the mass that moves", 0.0, 0.1, open_low=True)
+
+
+@dataclass(frozen=True)
+class FrequencyRegion:
+    """Where the working speeds lie [rad/s]; `least_speed` is the lower end of the zone that the rated speed needs."""
+
+    speed: float
+    natural_frequencies: tuple[float, float]
+    region: Region
+    balancing_possible: bool
+    finite_mass_gap: float
+    least_speed: float
+    between_zone: tuple[float, float] | None
+    check: Check
+
+
+def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> float:
+    """How far above the natural frequency lightly damped balls still fail: (Ω−ω)/Ω > (2m/(J·M))^(1/3).
+
+    m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. Range: m/M up to 0.1, light
+    damping of balls and support; more damping of the balls narrows the gap.
+    Source: derived from the averaged motion of two opposite balls; confirmed by integration of the full equations.
+    Printed: Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient.
+
+    >>> round(finite_mass_gap(0.01673, 5.6, 1.0), 4)
+    0.1815
+    """
+    BALL_SHARE.check(ball_mass / mass)
+    return float((2 * ball_mass / (inertia_factor * mass)) ** (1 / 3))
+
+
+def zones(frequencies: tuple[float, float], gap: float) -> tuple[tuple[float, float] | None, float]:
+    """Speeds [rad/s] at which balls balance: a zone between the natural frequencies (or none), and all above a speed.
+
+    Two balls on an anisotropic support balance iff 1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0, that is for
+    ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂; the lower ends move up by the finite-mass gap, to ω/(1−gap).
+    Range: undamped springs; gap below 1 (heavier balls balance nowhere).
+    Source: derived by averaging; the upper zone is Kladiev 1996, (7). Printed: the thesis knows only the upper zone.
+    """
+    low, high = sorted(frequencies)
+    if gap >= 1:
+        return None, float("inf")
+    between = (low / (1 - gap), ((low**2 + high**2) / 2) ** 0.5)
+    return (between if between[0] < between[1] else None), high / (1 - gap)
+
+
+def frequency_region(case: Case, ball_mass: float, added_mass: float) -> FrequencyRegion:
+    """Zones over the whole speed range, with the mass of the autobalancer added and the stiffness kept."""
+    mass = case.body.effective_mass(added_mass)
+    frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
+    gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)
+    between, above = zones(frequencies, gap)
+    low, high = case.speed_range
+    in_between = between is not None and between[0] < low and high < between[1]
+    possible = (low > above or in_between) and all(_recedes(case, speed, mass) for speed in (low, case.speed, high))
+    region: Region = (
+        "supercritical"
+        if case.speed > max(frequencies)
+        else "between"
+        if case.speed > min(frequencies)
+        else "subcritical"
+    )
+    least = between[0] if in_between and between else above
+    check = _check(possible, in_between, low, least)
+    return FrequencyRegion(case.speed, frequencies, region, possible, gap, least, between, check)
+
+
+def _recedes(case: Case, speed: float, mass: float) -> bool:
+    """Whether the support moves against the imbalance on average: Re(1/D_x + 1/D_y) < 0, for any linear support."""
+    return sum((1 / dynamic_stiffness(case.suspension, axis, speed, mass)).real for axis in (0, 1)) < 0
+
+
+def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
+    hertz = from_si(least, "hz")
+    if possible:
+        message = "the lowest speed is above the natural frequencies and the finite-mass gap"
+        if in_between:
+            message = "all speeds lie between the two natural frequencies: they balance there, but with little to spare"
+        message += "; necessary, not sufficient: the simulation must agree"
+        remedy = None
+    else:
+        message = "at some speed of the range the balls go to the heavy side or stay restless, and make things worse"
+        remedy = f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm), or hold the machine more softly."
+    return Check(
+        "ABU101", "frequency region", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least"
+    )

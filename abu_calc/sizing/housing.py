@@ -1,0 +1,116 @@
+"""Housing of the race: dimensions and mass by rules that are stated here and printed in every report."""
+
+import math
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from abu_calc.units import to_si
+
+Design = Literal["one-piece", "bearing-ring", "light"]
+
+STEEL: Final = 7800.0
+ALUMINIUM: Final = 2700.0
+
+HUB_CLEARANCE: Final = to_si(0.5, "mm")
+"""Between balls and hub."""
+
+GROOVE_CLEARANCE: Final = to_si(0.3, "mm")
+"""Between balls and webs, each side."""
+
+
+@dataclass(frozen=True)
+class Rules:
+    """Thicknesses [m] and densities [kg/m³] of one design; the wall of the race comes from the file."""
+
+    text: str
+    web: float
+    hub_wall: float
+    body_wall: float
+    body_density: float
+
+
+RULES: Final[dict[Design, Rules]] = {
+    "one-piece": Rules(
+        "one-piece: steel body with the race ground in it; wall as given, webs 1.5 mm, hub wall 2.5 mm",
+        to_si(1.5, "mm"),
+        to_si(2.5, "mm"),
+        0.0,
+        STEEL,
+    ),
+    "bearing-ring": Rules(
+        "bearing-ring: race ring, wall as given, pressed into a steel body with 2 mm wall, webs 1.5 mm, hub wall 2.5 mm",
+        to_si(1.5, "mm"),
+        to_si(2.5, "mm"),
+        to_si(2.0, "mm"),
+        STEEL,
+    ),
+    "light": Rules(
+        "light: hard steel ring, wall as given, in an aluminium body with 2 mm wall, webs 2 mm, hub wall 3 mm",
+        to_si(2.0, "mm"),
+        to_si(3.0, "mm"),
+        to_si(2.0, "mm"),
+        ALUMINIUM,
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Housing:
+    """Outer dimensions [m] and mass [kg] of a housing without balls."""
+
+    outer_diameter: float
+    width: float
+    mass: float
+
+
+def groove_radius(race_radius: float, ball_radius: float) -> float:
+    """Radius of the toroidal groove [m]: ρ = r + (5/7)(R − r), from 5(R−r) = 7(ρ−r).
+
+    R race radius at the bottom of the groove, r ball radius [m]. Then the ball's natural frequency across the groove
+    equals the speed at any speed, and axial runout shakes out dry friction.
+    Range: a ball held from spinning about the contact normal. Free to spin, w_t² = Ω²[(5/7)(R−r)/(ρ−r) + 2/7], and
+    the resonance sits at ρ = R; a real ball lies between. Source: Kladiev 1996, (12), its meaning derived.
+
+    >>> round(1e3 * groove_radius(30e-3, 8e-3), 3)
+    23.714
+    """
+    return ball_radius + 5 / 7 * (race_radius - ball_radius)
+
+
+def least_race_radius(design: Design, bore_diameter: float, ball_diameter: float) -> float:
+    """Smallest race radius [m] that leaves the hub its wall and the balls their clearance."""
+    return bore_diameter / 2 + RULES[design].hub_wall + HUB_CLEARANCE + ball_diameter
+
+
+def greatest_race_radius(design: Design, outer_diameter: float, wall: float) -> float:
+    """Largest race radius [m] inside an outer diameter."""
+    return outer_diameter / 2 - wall - RULES[design].body_wall
+
+
+def width(design: Design, ball_diameter: float) -> float:
+    """Width of the housing [m]: ball, clearances, two webs."""
+    return ball_diameter + 2 * (GROOVE_CLEARANCE + RULES[design].web)
+
+
+def housing(design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float) -> Housing:
+    """Dimensions and mass of the housing, from rings and discs.
+
+    Ring R…R+wall of steel, its groove filled toward the edges (parabola, a third of the depth on average); body wall,
+    webs and hub of the body's material. Range: rules above; a drawing decides. Source: own rules.
+    """
+    rules = RULES[design]
+    inner_width, whole_width = ball_diameter + 2 * GROOVE_CLEARANCE, width(design, ball_diameter)
+    outer = race_radius + wall
+    hub = bore_diameter / 2 + rules.hub_wall
+    depth = inner_width**2 / (8 * groove_radius(race_radius, ball_diameter / 2))
+    ring = _ring(race_radius, outer, whole_width) + _ring(race_radius - depth / 3, race_radius, inner_width)
+    body = (
+        _ring(outer, outer + rules.body_wall, whole_width)
+        + 2 * _ring(hub, race_radius, rules.web)
+        + _ring(bore_diameter / 2, hub, whole_width)
+    )
+    return Housing(2 * (outer + rules.body_wall), whole_width, STEEL * ring + rules.body_density * body)
+
+
+def _ring(inner: float, outer: float, length: float) -> float:
+    return math.pi * (outer**2 - inner**2) * length

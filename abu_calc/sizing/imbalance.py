@@ -1,0 +1,89 @@
+"""Step 2: the wheel's imbalance, from any of its three sources."""
+
+import math
+from dataclasses import dataclass
+from statistics import fmean
+
+from abu_calc.errors import InputError, Place
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.suspension import resonance_factor
+from abu_calc.standards.balance import permissible_imbalance
+from abu_calc.units import level_from_velocity, to_si, velocity_from_level
+
+NODE_SHARE = 0.05
+"""A handle that moves by less than this share of a point mass's motion says nothing of the imbalance."""
+
+
+@dataclass(frozen=True)
+class Imbalance:
+    """m₀e [kg m] of the wheel with its source in words."""
+
+    value: float
+    source: str
+
+
+def mean_level(levels: tuple[float, ...]) -> float:
+    """Mean of velocity levels [dB], averaged in velocity as the source averages its octaves (Kladiev 1996).
+
+    >>> round(mean_level((100.0, 110.0)), 3)
+    106.366
+    """
+    return level_from_velocity(fmean(velocity_from_level(level) for level in levels))
+
+
+def imbalance_from_level(velocity_rms: float, speed: float, inertance: float, resonance: float = 1.0) -> float:
+    """Imbalance [kg m] that shakes a place with an rms velocity [m/s]: m₀e = √2·v/(Ω·I·g).
+
+    Ω [rad/s]; I inertance from wheel to place [1/kg], 1/M for a point mass; g = MΩ²/|D| resonance factor.
+    Range: one harmonic at Ω; above the suspension's frequencies. Source: Kladiev 1996, for a point mass
+    D = √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is ours.
+
+    >>> v = velocity_from_level(109)
+    >>> round(1e6 * imbalance_from_level(v, 5800 * math.pi / 30, 1 / 5.6), 2)
+    183.75
+    """
+    return math.sqrt(2) * velocity_rms / (speed * abs(inertance) * resonance)
+
+
+def find_imbalance(case: Case) -> Imbalance:
+    """The imbalance from the one source that the file gives."""
+    wheel = case.table.wheel
+    if wheel.imbalance_g_mm is not None:
+        return Imbalance(to_si(wheel.imbalance_g_mm, "g_mm"), "given")
+    if wheel.balance_grade is not None:
+        value = permissible_imbalance(wheel.balance_grade, wheel.mass_kg, case.speed)
+        return Imbalance(value, f"{wheel.balance_grade} of ISO 21940-11 for the wheel at the rated speed")
+    return _measured(case)
+
+
+def _measured(case: Case) -> Imbalance:
+    levels = case.table.wheel.measured_level_db or ()
+    velocity = velocity_from_level(mean_level(levels))
+    background = case.table.machine.background_level_db
+    if background is not None:
+        velocity = _without_background(velocity, background)
+    place = next((h.place for h in case.handles if h.name == case.table.wheel.measured_at), case.body.wheel)
+    inertance = case.body.inertance(place, case.body.wheel)
+    if abs(inertance) < NODE_SHARE / case.body.mass:
+        raise InputError(
+            "the handle is near a node: it hardly moves, whatever the imbalance",
+            place=Place(key="wheel.measured_at"),
+            remedy="Measure at another handle, or near the wheel.",
+        )
+    resonance = resonance_factor(case.suspension, case.speed, case.body.effective_mass())
+    value = imbalance_from_level(velocity, case.speed, inertance, resonance)
+    source = f"measured {', '.join(f'{level:g}' for level in levels)} dB idle, without autobalancer"
+    return Imbalance(value, source)
+
+
+def _without_background(velocity: float, background_level: float) -> float:
+    background = velocity_from_level(background_level)
+    if background >= velocity:
+        raise InputError(
+            "the background is not below the measured level, so nothing is left for the imbalance",
+            place=Place(key="machine.background_level_db"),
+            found=f"{background_level:g} dB",
+            allowed=f"below {level_from_velocity(velocity):.1f} dB",
+            remedy="Give the level with a balanced wheel, or leave the key out.",
+        )
+    return math.sqrt(velocity**2 - background**2)

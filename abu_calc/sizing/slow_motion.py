@@ -1,0 +1,84 @@
+"""The averaged, slow motion of balls about the balanced state: stiffness, rates, settling, best drag.
+
+Averaging the balls' equation over a revolution leaves J θ_k'' + h₀ θ_k' = (Ω²/R_p) Im(F e^{−iθ_k}), F the forward
+circular part of the axis' motion. About F = 0 that is J δθ'' + h₀ δθ' + K δθ = 0 with K_kj = κ_j cos(θ_k − θ_j)
+(Kladiev 1996, eq. (7), is the condition κ > 0). K has rank two: with more than two balls the rest are neutral.
+Leading order in Σm/M: real rates differ by about (m/M)^{1/2}, and a lightly damped pair needs in addition
+(Ω − ω)/Ω > (2m/(J M))^{1/3}.
+"""
+
+import cmath
+import math
+from collections.abc import Sequence
+
+from abu_calc.errors import InputError
+
+
+def ball_stiffness(
+    ball_mass: float, total_mass: float, speed: float, natural_frequencies: tuple[float, float]
+) -> float:
+    """κ = (m Ω⁴/2M) [1/(Ω² − ω₁²) + 1/(Ω² − ω₂²)] [1/s²], M with the balls [kg], frequencies [rad/s].
+
+    Both axes free. Positive exactly where balls balance: above both frequencies, or between the smaller and
+    √((ω₁² + ω₂²)/2). Raises InputError at a resonance.
+
+    >>> round(ball_stiffness(0.05, 1.1, 2.0, (1.1**-0.5, 1.1**-0.5)), 6)
+    0.235294
+    """
+    if speed in natural_frequencies:
+        raise InputError("the averaged motion does not exist at a natural frequency", found=f"{speed:g} rad/s")
+    share = sum(1 / (speed**2 - frequency**2) for frequency in natural_frequencies) / 2
+    return ball_mass * speed**4 / total_mass * share
+
+
+def slow_stiffness(stiffnesses: Sequence[float], angles: Sequence[float]) -> tuple[float, float]:
+    """The two eigenvalues of K that are not neutral, ½(Σκ ∓ |Σ κ e^{2iθ}|) [1/s²]; κ of each ball, θ [rad].
+
+    The smaller comes first. Two equal balls: κ(1 ∓ |cos(θ₂ − θ₁)|). It is zero where all balls lie on one diameter.
+
+    >>> [round(k, 9) for k in slow_stiffness((2.0, 2.0, 2.0), (0.0, 2 * math.pi / 3, 4 * math.pi / 3))]
+    [3.0, 3.0]
+    """
+    total = sum(stiffnesses)
+    tilt = abs(sum(k * cmath.exp(2j * angle) for k, angle in zip(stiffnesses, angles, strict=True)))
+    low, high = sorted(((total - tilt) / 2, (total + tilt) / 2))
+    return low, high
+
+
+def slow_rates(stiffness: float, drag: float, inertia_factor: float) -> tuple[complex, complex]:
+    """The roots s [1/s] of J s² + h₀ s + k = 0, slower first; k [1/s²] an eigenvalue of K, h₀ [1/s].
+
+    >>> slow_rates(2.0, 3.0, 1.0)
+    ((-1+0j), (-2+0j))
+    """
+    root = cmath.sqrt(drag**2 - 4 * inertia_factor * stiffness)
+    return (-drag + root) / (2 * inertia_factor), (-drag - root) / (2 * inertia_factor)
+
+
+def decay_rate(stiffnesses: Sequence[float], angles: Sequence[float], drag: float, inertia_factor: float) -> float:
+    """The slowest rate [1/s] at which a disturbance dies out, neutral directions apart; ≤ 0 where one does not."""
+    return min(-slow_rates(k, drag, inertia_factor)[0].real for k in slow_stiffness(stiffnesses, angles))
+
+
+def settling_estimate(rate: float, remainder: float = 0.1) -> float:
+    """Time [s] in which a disturbance dies down to a remainder: ln(1/remainder)/rate. Raises InputError if rate ≤ 0.
+
+    >>> round(settling_estimate(5.0), 4)
+    0.4605
+    """
+    if not rate > 0:
+        raise InputError(
+            "balls do not settle: the slow motion does not decay", found=f"{rate:g} 1/s", allowed="above 0"
+        )
+    return math.log(1 / remainder) / rate
+
+
+def optimum_drag(stiffness: float, inertia_factor: float) -> float:
+    """The drag h₀ = 2√(J k) [1/s] that damps one slow mode critically: less lets it swing, more lets it creep; k > 0.
+
+    >>> optimum_drag(4.0, 1.0)
+    4.0
+    """
+    if not stiffness > 0:
+        raise InputError("no drag lets the balls settle", found=f"stiffness {stiffness:g} 1/s²", allowed="above 0")
+    return 2 * math.sqrt(inertia_factor * stiffness)

@@ -1,0 +1,73 @@
+"""What holds the machine: springs given by natural frequencies, or two hands, as seen from the wheel plane."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from abu_calc.standards.hands import Hand
+
+
+class Suspension(Protocol):
+    """The reaction of the suspension to a harmonic motion, per axis (0: x, 1: y)."""
+
+    def reaction(self, axis: int, speed: float) -> complex:
+        """Force per displacement [N/m] at the angular frequency `speed` [rad/s], the machine's own mass left out."""
+        ...
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Springs and dampers in x and y, kept when the mass of the autobalancer is added."""
+
+    stiffness: tuple[float, float]
+    damping: tuple[float, float]
+
+    def reaction(self, axis: int, speed: float) -> complex:
+        """c + iΩb [N/m]."""
+        return self.stiffness[axis] + 1j * speed * self.damping[axis]
+
+
+@dataclass(frozen=True)
+class Hands:
+    """Two hands on the handles, ISO 10068:2012 Annex C, model 2; how its elements connect is assumed.
+
+    Palm and arm m1 stand on the ground by element 1, the fingers m2 on m1 by 2; m1 and m2 reach the handle by 3 and 4;
+    the skin masses m3, m4 move with the handle. The hands' x and y are taken as those of the machine.
+    """
+
+    axes: tuple[Hand, Hand]
+
+    def reaction(self, axis: int, speed: float) -> complex:
+        """Force of both hands per displacement of the handle [N/m]: palm and fingers eliminated."""
+        hand = self.axes[axis]
+        z1, z2, z3, z4 = (k + 1j * speed * c for k, c in zip(hand.stiffness, hand.damping, strict=True))
+        m1, m2, m3, m4 = hand.masses
+        palm = z1 + z2 + z3 - m1 * speed**2
+        fingers = z2 + z4 - m2 * speed**2
+        determinant = palm * fingers - z2**2
+        palm_moves = (z3 * fingers + z2 * z4) / determinant
+        fingers_move = (z4 * palm + z2 * z3) / determinant
+        return 2 * (z3 + z4 - z3 * palm_moves - z4 * fingers_move - (m3 + m4) * speed**2)
+
+
+def dynamic_stiffness(suspension: Suspension, axis: int, speed: float, mass: float) -> complex:
+    """D = reaction − mΩ² [N/m], the machine's mass m [kg] at the wheel included."""
+    return suspension.reaction(axis, speed) - mass * speed**2
+
+
+def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float:
+    """Largest of the two axes of mΩ²/|D|: how much more the machine moves than a free mass would (1 far above)."""
+    return max(mass * speed**2 / abs(dynamic_stiffness(suspension, axis, speed, mass)) for axis in (0, 1))
+
+
+def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:
+    """Natural frequency [rad/s] of the mass on the suspension.
+
+    For springs √(c/m). For hands the highest frequency at which Re D = 0 (searched from 1000 Hz down to 0.1 Hz on a
+    grid of 1 %): the machine's bounce on palms and fingers, not the slow swing of the arms.
+    """
+    if isinstance(suspension, Springs):
+        return float((suspension.stiffness[axis] / mass) ** 0.5)
+    speed = 6283.0
+    while speed > 0.628 and dynamic_stiffness(suspension, axis, speed, mass).real < 0:
+        speed /= 1.01
+    return speed

@@ -1,0 +1,180 @@
+# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
+"""A rolling bearing and its two seats."""
+
+import itertools
+from typing import ClassVar, Final, Literal, Self
+
+from pydantic import Field, model_validator
+
+from abu_calc.spec.table import Table, problem
+
+SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
+RingLoad = Literal["rotating", "stationary", "indeterminate"]
+
+
+class Bearing(Table):
+    """A rolling bearing and its two seats, checked by `abu check-fit`."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"designation"})
+
+    name: str = Field(
+        default="bearing",
+        description="Name of the bearing, as reports print it. Default: bearing.",
+        examples=["spindle, drive end"],
+        min_length=1,
+    )
+    designation: str | None = Field(
+        default=None,
+        description="Designation whose sizes are looked up, in quotes; or give bore_mm, outer_mm and width_mm.",
+        examples=["6203"],
+        min_length=1,
+    )
+    bore_mm: float | None = Field(
+        default=None, description="Bore of the bearing [mm]; above 0 … 5000.", examples=[17.0], gt=0, le=5000
+    )
+    outer_mm: float | None = Field(
+        default=None,
+        description="Outer diameter of the bearing [mm]; above bore_mm, up to 8000.",
+        examples=[40.0],
+        gt=0,
+        le=8000,
+    )
+    width_mm: float | None = Field(
+        default=None, description="Width of the ring [mm]; above 0 … 2000.", examples=[12.0], gt=0, le=2000
+    )
+    chamfer_mm: float | None = Field(
+        default=None,
+        description="Chamfer of one edge; the seat is as long as the width less two of them [mm]; 0 … 100.",
+        examples=[0.6],
+        ge=0,
+        le=100,
+    )
+    radial_load_kN: float = Field(
+        default=0.8, description="Radial load [kN]; 0 … 100000. Default: 0.8, assumed.", ge=0, le=1e5
+    )
+    series: Literal["light", "medium", "heavy"] = Field(
+        default="light", description="Series of the bearing: light, medium or heavy. Default: light."
+    )
+    inner_ring_load: RingLoad = Field(
+        default="rotating",
+        description="How the load meets the inner ring: rotating, stationary or indeterminate. Default: rotating, as "
+        "of a turning shaft.",
+    )
+    outer_ring_load: RingLoad = Field(
+        default="stationary",
+        description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: stationary.",
+    )
+    bearing_class: Literal["0", "6", "5", "4", "2"] = Field(
+        default="0",
+        description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, P4, '
+        'P2). Default: "0".',
+    )
+    shaft_fit: str = Field(
+        default="k6",
+        description="Tolerance class of the shaft by ISO 286, small letters. Default: k6.",
+        pattern=r"^[a-z]{1,2}[0-9]{1,2}$",
+    )
+    housing_fit: str = Field(
+        default="H7",
+        description="Tolerance class of the housing by ISO 286, capital letters. Default: H7.",
+        pattern=r"^[A-Z]{1,2}[0-9]{1,2}$",
+    )
+    shaft_rz_um: float | None = Field(
+        default=None,
+        description="Roughness Rz of the shaft [µm]; 0 … 1000. When given, its smoothing is taken off the "
+        "interference.",
+        examples=[4.0],
+        ge=0,
+        le=1000,
+    )
+    housing_rz_um: float | None = Field(
+        default=None,
+        description="Roughness Rz of the housing [µm]; 0 … 1000. When given, its smoothing is taken off the "
+        "interference.",
+        examples=[6.3],
+        ge=0,
+        le=1000,
+    )
+    ring_temperature_difference_K: float | None = Field(
+        default=None,
+        description="Excess of the bearing's temperature over that of its surroundings [K]; 0 … 500. When given, the "
+        "loss of interference is counted.",
+        examples=[10.0],
+        ge=0,
+        le=500,
+    )
+    speed_rpm: float | None = Field(
+        default=None,
+        description="Speed of the ring [rpm]; 0 … 300000. When given, the loss of interference by centrifugal growth "
+        "is counted.",
+        examples=[5800.0],
+        ge=0,
+        le=300_000,
+    )
+    shaft_bore_mm: float | None = Field(
+        default=None,
+        description="Bore of a hollow shaft, for stresses [mm]; 0 (solid) up to the bearing's bore.",
+        examples=[0.0],
+        ge=0,
+        le=5000,
+    )
+    housing_outer_mm: float | None = Field(
+        default=None,
+        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to 20000.",
+        examples=[60.0],
+        gt=0,
+        le=20_000,
+    )
+    housing_material: Literal["steel", "cast-iron", "aluminium"] = Field(
+        default="steel",
+        description="Material of the housing, for stresses: steel, cast-iron or aluminium. Default: steel.",
+    )
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """A designation takes the place of sizes, and sizes that of a designation."""
+        if key == "designation":
+            return (*SIZES, "chamfer_mm")
+        return ("designation",) if key in SIZES else ()
+
+    def unused(self) -> frozenset[str]:
+        """The material of a housing whose stresses are not asked for."""
+        return frozenset({"housing_material"}) if self.housing_outer_mm is None else frozenset()
+
+    @model_validator(mode="after")
+    def _sized_one_way(self) -> Self:
+        given = [key for key in SIZES if getattr(self, key) is not None]
+        if self.designation is not None and given:
+            raise problem(
+                f"designation and {given[0]} both size the bearing",
+                given[0],
+                remedy="keep the designation, or the sizes (the designation may stand in name)",
+            )
+        absent = [key for key in SIZES if key not in given]
+        if self.designation is None and absent:
+            raise problem(
+                "the bearing has no size" if not given else "the bearing's size is not whole",
+                absent[0],
+                found=" and ".join(given) or "none",
+                allowed="designation, or all of " + ", ".join(SIZES),
+                remedy=f"add {' and '.join(absent)}" if given else 'add designation = "…"',
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _sizes_nest(self) -> Self:
+        ascending = ("shaft_bore_mm", "bore_mm", "outer_mm", "housing_outer_mm")
+        known = [(key, value) for key in ascending if (value := getattr(self, key)) is not None]
+        for (inner, small), (outer, large) in itertools.pairwise(known):
+            if small >= large:
+                raise problem(
+                    f"{outer} must be above {inner}", outer, found=f"{outer} = {large:g}, {inner} = {small:g}"
+                )
+        if self.chamfer_mm is not None and self.width_mm is not None and 2 * self.chamfer_mm >= self.width_mm:
+            raise problem(
+                "two chamfers leave no seat",
+                "chamfer_mm",
+                found=f"chamfer_mm = {self.chamfer_mm:g}, width_mm = {self.width_mm:g}",
+                allowed="chamfer_mm below half of width_mm",
+            )
+        return self

@@ -1,0 +1,137 @@
+"""`--set table.key=value`: one entry of a file replaced."""
+
+import re
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from abu_calc.errors import InputError, Place
+from abu_calc.spec.syntax import DECIMAL_COMMA
+from abu_calc.spec.table import Table, table_at
+from abu_calc.spec.text import Part, key_path
+
+_STEP: Final = re.compile(
+    r"""\.?(?:([A-Za-z_][A-Za-z0-9_-]*)|\[(\d{1,6})\]|(?<=\.)(\d{1,6})(?![\w-])|"([^"]*)"|'([^']*)')"""
+)
+EXAMPLE: Final = "--set machine.mass_kg=5.6"
+
+
+@dataclass(frozen=True)
+class Override:
+    """One `--set`: the path and the value, typed as TOML."""
+
+    path: tuple[Part, ...]
+    value: object
+
+    @property
+    def option(self) -> str:
+        """How messages name it."""
+        return f"--set {key_path(self.path)}"
+
+
+def parse_override(text: str) -> Override:
+    """An override as written on the command line; a bare word is text, since shells strip quotes.
+
+    >>> parse_override("bearing.0.shaft_fit=m6")
+    Override(path=('bearing', 0, 'shaft_fit'), value='m6')
+    """
+    key, equals, value = _split(text)
+    if not equals or not key.strip():
+        raise InputError("not an override", place=Place(key="--set"), found=text, allowed=EXAMPLE)
+    path = _path(key.strip())
+    return Override(path, _value(value.strip(), Place(key=f"--set {key_path(path)}")))
+
+
+def apply(document: dict[str, object], overrides: Sequence[Override], model: type[Table]) -> list[str]:
+    """Puts overrides into a document; returns a note for each entry that one of them took the place of."""
+    for override in overrides:
+        _put(document, override)
+    notes = []
+    paths = {override.path for override in overrides}
+    for override in overrides:
+        *parent, key = override.path
+        table = table_at(model, tuple(parent))
+        held = _at(document, parent)
+        if table is None or not isinstance(held, dict) or not isinstance(key, str):
+            continue
+        for other in table.displaced_by(key, override.value):
+            if other in held and (*parent, other) not in paths:
+                del held[other]
+                notes.append(f"{override.option} takes the place of {key_path((*parent, other))}")
+    return notes
+
+
+def _split(text: str) -> tuple[str, str, str]:
+    """Key, "=" and value; a quoted key may hold "=" itself."""
+    parted = re.match(r"""((?:"[^"]*"|'[^']*'|[^="'])*)(=?)(.*)""", text, re.DOTALL)
+    return (parted[1], parted[2], parted[3]) if parted else (text, "", "")
+
+
+def _path(key: str) -> tuple[Part, ...]:
+    path: list[Part] = []
+    place = 0
+    while place < len(key):
+        step = _STEP.match(key, place)
+        if step is None or (place == 0 and key[0] in ".["):
+            raise InputError(
+                "not a key path", place=Place(key="--set"), found=key, allowed="machine.mass_kg, bearing[0].name"
+            )
+        word, index, dotted_index, double, single = step.groups()
+        number = index or dotted_index
+        path.append(int(number) if number is not None else next(w for w in (word, double, single) if w is not None))
+        place = step.end()
+    return tuple(path)
+
+
+def _value(text: str, place: Place) -> object:
+    if not text:
+        raise InputError("the value is missing", place=place, remedy=f"write {place.key}=…")
+    if comma := DECIMAL_COMMA.fullmatch(text):
+        raise InputError("a decimal comma", place=place, found=text, remedy=f"write {comma[1]}.{comma[2]}")
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        if text[0] in "[{\"'":
+            raise InputError(
+                "not a TOML value", place=place, found=text, remedy="close every quote and bracket"
+            ) from None
+        return text
+    return parsed["value"] if len(parsed) == 1 else text
+
+
+def _put(document: dict[str, object], override: Override) -> None:
+    """Sets one entry; a missing table is made, a missing element of an array is not."""
+    held: object = document
+    for step, following in zip(override.path, (*override.path[1:], None), strict=True):
+        place = Place(key=override.option)
+        if isinstance(step, int):
+            if not isinstance(held, list):
+                raise InputError("not an array", place=place, found=f"[{step}]", remedy="name the key without a number")
+            if step >= len(held):
+                raise InputError(
+                    "no such element", place=place, allowed=f"the file has {len(held)} of them, counted from 0"
+                )
+            if following is None:
+                held[step] = override.value
+            held = held[step]
+        elif not isinstance(held, dict):
+            remedy = f"say which one: {step} of element [0]" if isinstance(held, list) else f"set {EXAMPLE[6:]} alike"
+            raise InputError(f'"{step}" is below a key that is no table', place=place, remedy=remedy)
+        elif following is None:
+            held[step] = override.value
+        else:
+            held = held.setdefault(step, [] if isinstance(following, int) else {})
+
+
+def _at(document: dict[str, object], path: Sequence[Part]) -> object:
+    """What stands at a path, or None."""
+    held: object = document
+    for step in path:
+        if isinstance(held, dict) and isinstance(step, str):
+            held = held.get(step)
+        elif isinstance(held, list) and isinstance(step, int) and step < len(held):
+            held = held[step]
+        else:
+            return None
+    return held

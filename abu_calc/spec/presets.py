@@ -1,0 +1,23 @@
+"""The machine files that come with the package."""
+
+from pathlib import Path
+from typing import Final
+
+SUFFIX: Final = ".toml"
+
+
+def folder() -> Path:
+    """Where the presets are: inside the installed package, or beside it in a checkout."""
+    package = Path(__file__).resolve().parent.parent
+    inside = package / "presets"
+    return inside if inside.is_dir() else package.parent / "presets"
+
+
+def names() -> tuple[str, ...]:
+    """The names of all presets, in alphabetical order: their files without suffix."""
+    return tuple(sorted(path.stem for path in folder().glob(f"*{SUFFIX}")))
+
+
+def find(name: str) -> Path | None:
+    """The file of a preset, or None where there is none of this name."""
+    return folder() / f"{name}{SUFFIX}" if name in names() else None

@@ -1,0 +1,52 @@
+"""The JSON Schema of machine files, in Draft 4, which TOML editors (Taplo, Even Better TOML) read."""
+
+from typing import Any, Final
+
+from pydantic.json_schema import models_json_schema
+
+from abu_calc.spec.machine import BearingFile, Machine
+
+DRAFT: Final = "http://json-schema.org/draft-04/schema#"
+_BOUNDS: Final = {"exclusiveMinimum": "minimum", "exclusiveMaximum": "maximum"}
+_DROPPED: Final = ("title", "examples", "$defs")
+
+
+def machine_schema() -> dict[str, Any]:
+    """The schema of machine files: a machine whole, or bearings alone."""
+    _, schema = models_json_schema([(Machine, "validation"), (BearingFile, "validation")])
+    definitions = {name: _draft4(body) for name, body in schema["$defs"].items()}
+    kinds = [{"$ref": f"#/definitions/{model.__name__}"} for model in (Machine, BearingFile)]
+    return {"$schema": DRAFT, "title": "abu-calc machine file", "anyOf": kinds, "definitions": definitions}
+
+
+def _draft4(node: Any) -> Any:
+    """A schema of Draft 2020-12 as pydantic writes it, in the words of Draft 4."""
+    if isinstance(node, list):
+        return [_draft4(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    old: dict[str, Any] = {}
+    for word, value in node.items():
+        if word in _BOUNDS:
+            old |= {_BOUNDS[word]: value, word: True}
+        elif word == "properties":
+            old[word] = {name: _draft4(body) for name, body in value.items()}
+        elif word == "const":
+            old["enum"] = [value]
+        elif word == "$ref":
+            old[word] = value.replace("#/$defs/", "#/definitions/")
+        elif word == "default":
+            # What is absent has no default in TOML, and tables are described by their own keys.
+            old |= {} if value is None or isinstance(value, (dict, list)) else {word: value}
+        elif word not in _DROPPED:
+            old[word] = _draft4(value)
+    return _without_null(old)
+
+
+def _without_null(node: dict[str, Any]) -> dict[str, Any]:
+    """TOML has no null: a key that may be absent is simply not required."""
+    kinds = [kind for kind in node.get("anyOf", []) if kind != {"type": "null"}]
+    if len(kinds) == 1:
+        rest = {word: value for word, value in node.items() if word != "anyOf"}
+        return {**kinds[0], **rest}
+    return {**node, "anyOf": kinds} if kinds else node

@@ -1,0 +1,107 @@
+"""What all tables of a file share: strictness, the defaults in force, the rules between keys."""
+
+from collections.abc import Iterator
+from typing import ClassVar, get_args
+
+from pydantic import BaseModel, ConfigDict
+from pydantic_core import PydanticCustomError, PydanticKnownError
+
+from abu_calc.spec.text import Part
+
+RULE = "rule"
+"""Type of the errors that `problem` makes, among those of pydantic."""
+
+
+class Table(BaseModel):
+    """A table of a file: strict (no text for a number), frozen, every number finite, unknown keys refused."""
+
+    # Built when first used: a file with bearings alone does not pay for the machine.
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset()
+    """Keys without a default that a new file should nevertheless show live."""
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """The keys that make no sense beside `key = value`: an override of one takes the others' place."""
+        return ()
+
+    def unused(self) -> frozenset[str]:
+        """Keys whose default plays no part, given the other keys."""
+        return frozenset()
+
+    def own_defaults(self) -> dict[str, object]:
+        """The defaults in force in this table, in the order of its keys."""
+        silent = self.model_fields_set | self.unused()
+        return {
+            key: value
+            for key, value in ((key, getattr(self, key)) for key in type(self).model_fields)
+            if key not in silent and value is not None and not isinstance(value, (Table, dict)) and value != ()
+        }
+
+    def defaults(self, path: tuple[Part, ...] = ()) -> Iterator[tuple[tuple[Part, ...], object]]:
+        """The defaults in force in this table and those inside it, with their paths."""
+        for key, value in self.own_defaults().items():
+            yield (*path, key), value
+        for key in type(self).model_fields:
+            value = getattr(self, key)
+            if isinstance(value, Table):
+                yield from value.defaults((*path, key))
+            elif isinstance(value, tuple):
+                for index, item in enumerate(value):
+                    if isinstance(item, Table):
+                        yield from item.defaults((*path, key, index))
+
+
+def subtable(model: type[Table], key: str) -> type[Table] | None:
+    """The model of the table or array of tables under a key of a model, if it is one."""
+    field = model.model_fields.get(key)
+    return _table_in(field.annotation) if field else None
+
+
+def _table_in(annotation: object) -> type[Table] | None:
+    if isinstance(annotation, type) and issubclass(annotation, Table):
+        return annotation
+    return next((found for found in map(_table_in, get_args(annotation)) if found), None)
+
+
+def is_array(model: type[Table], key: str) -> bool:
+    """Whether a key of a model takes an array (of tables, or of numbers)."""
+    return "tuple" in str(model.model_fields[key].annotation)
+
+
+def table_at(model: type[Table], path: tuple[Part, ...]) -> type[Table] | None:
+    """The model of the table at a path below `model`."""
+    found: type[Table] | None = model
+    for part in path:
+        if isinstance(part, str) and found is not None:
+            found = subtable(found, part)
+    return found
+
+
+def all_tables(model: type[Table], path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], type[Table]]]:
+    """Every table below a model, with its path."""
+    for key in model.model_fields:
+        if inner := subtable(model, key):
+            yield (*path, key), inner
+            yield from all_tables(inner, (*path, key))
+
+
+def problem(
+    message: str, *key: Part, found: str | None = None, allowed: str | None = None, remedy: str | None = None
+) -> PydanticCustomError:
+    """A broken rule between keys, told of `key` (a path below the table that raises it)."""
+    facts = {"message": message, "key": key, "found": found, "allowed": allowed, "remedy": remedy}
+    return PydanticCustomError(RULE, "{message}", facts)
+
+
+def boxed(value: object) -> object:
+    """A single value as a list of one, for keys that take either."""
+    return value if isinstance(value, (list, tuple, dict)) else [value]
+
+
+def whole(value: object) -> object:
+    """The value itself unless it is true or false, which Python takes for 1 and 0."""
+    if isinstance(value, bool):
+        raise PydanticKnownError("int_type")
+    return value

@@ -1,0 +1,139 @@
+"""The wheel, and where its imbalance is known from."""
+
+from typing import Annotated, ClassVar, Final, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from abu_calc.spec.table import Table, boxed, problem
+
+Level = Annotated[float, Field(ge=0, le=200)]
+BalanceGrade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
+"""The grades of ISO 21940-11:2016, table 1."""
+
+SOURCES: Final = ("imbalance_g_mm", "balance_grade", "measured_level_db")
+RUNOUTS: Final = ("runout_mm", "runout_tir_mm")
+
+
+class Wheel(Table):
+    """The wheel, its runout, and exactly one source of its imbalance."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"imbalance_g_mm"})
+
+    mass_kg: float = Field(
+        description="Mass of the wheel with its flanges [kg]; 0.0001 … 5000, hand grinders 0.05 … 2.",
+        examples=[0.6],
+        ge=0.0001,
+        le=5000,
+    )
+    diameter_mm: float = Field(
+        description="Outer diameter of the wheel [mm]; 1 … 5000, hand grinders 50 … 230.",
+        examples=[150.0],
+        ge=1,
+        le=5000,
+    )
+    runout_mm: float = Field(
+        default=0.0,
+        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; 0 … 10, mounted "
+        "wheels 0.02 … 0.2. Default: 0, a true wheel. Or give runout_tir_mm.",
+        ge=0,
+        le=10,
+    )
+    runout_tir_mm: float | None = Field(
+        default=None,
+        description="Total indicated runout of the outer surface, as the dial gauge shows it: twice runout_mm, and "
+        "instead of it [mm]; 0 … 20.",
+        examples=[0.08],
+        ge=0,
+        le=20,
+    )
+    runout_angle_deg: float = Field(
+        default=0.0,
+        description="Where the high spot stands, from the imbalance in the sense of rotation [degrees]; -360 … 360. "
+        "Sizing takes the worst angle whatever stands here. Default: 0, at the imbalance.",
+        ge=-360,
+        le=360,
+    )
+    imbalance_g_mm: float | None = Field(
+        default=None,
+        description="Imbalance of the wheel [g·mm]; 0 … 1e9, hand grinders 20 … 1000. One of three sources: this, "
+        "balance_grade or measured_level_db.",
+        examples=[150.0],
+        ge=0,
+        le=1e9,
+    )
+    balance_grade: BalanceGrade | None = Field(
+        default=None,
+        description="Balance quality grade by ISO 21940-11, of the wheel's mass at the rated speed: G4000, G1600, "
+        "G630, G250, G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm.",
+        examples=["G16"],
+    )
+    measured_level_db: (
+        Annotated[
+            tuple[Level, ...],
+            Field(strict=False, min_length=1),
+            BeforeValidator(boxed, json_schema_input_type=Level | Annotated[tuple[Level, ...], Field(min_length=1)]),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="Velocity level measured idle, without autobalancer: one number, or a list that is averaged in "
+        "velocity [dB re 5e-8 m/s]; 0 … 200, hand grinders 95 … 120. Instead of imbalance_g_mm.",
+        examples=[111.0],
+    )
+    measured_at: str | None = Field(
+        default=None,
+        description="With measured_level_db: name of the handle where it was measured. Without it: the wheel plane.",
+        examples=["front"],
+        min_length=1,
+    )
+
+    @property
+    def runout(self) -> float:
+        """Eccentricity of the outer surface [mm], from either key."""
+        return self.runout_mm if self.runout_tir_mm is None else self.runout_tir_mm / 2
+
+    @property
+    def grade(self) -> float | None:
+        """The balance grade as a number [mm/s], G 6.3 → 6.3."""
+        return None if self.balance_grade is None else float(self.balance_grade[1:])
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """One source of the imbalance takes the place of the others, one runout that of the other."""
+        if key in SOURCES:
+            others = tuple(source for source in SOURCES if source != key)
+            return others if key == "measured_level_db" else (*others, "measured_at")
+        return tuple(other for other in RUNOUTS if other != key) if key in RUNOUTS else ()
+
+    def unused(self) -> frozenset[str]:
+        """The default of runout_mm, when the runout is given as the gauge shows it."""
+        return frozenset() if self.runout_tir_mm is None else frozenset({"runout_mm"})
+
+    @model_validator(mode="after")
+    def _one_source_of_imbalance(self) -> Self:
+        given = [key for key in SOURCES if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise problem(
+                "exactly one source of the imbalance is needed",
+                *given[1:2],
+                found=" and ".join(given) or "none",
+                allowed="one of " + ", ".join(SOURCES),
+                remedy="keep one of them" if given else "add imbalance_g_mm, the imbalance in g·mm",
+            )
+        if self.measured_at is not None and self.measured_level_db is None:
+            raise problem(
+                "measured_at goes with measured_level_db only",
+                "measured_at",
+                remedy=f"leave measured_at out: the imbalance is given by {given[0]}",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _one_runout(self) -> Self:
+        if "runout_mm" in self.model_fields_set and self.runout_tir_mm is not None:
+            raise problem(
+                "runout_mm and runout_tir_mm say the same thing twice",
+                "runout_tir_mm",
+                remedy="keep one: runout_tir_mm (dial gauge) is twice runout_mm (eccentricity)",
+            )
+        return self

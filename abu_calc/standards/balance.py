@@ -1,0 +1,33 @@
+"""Balance quality grades."""
+
+from abu_calc.standards.tables import toml_table, unknown
+from abu_calc.validity import Range
+
+_MASS = Range("rotor mass", 0.0, 1e6, "kg", open_low=True)
+_SPEED = Range("rotor speed", 0.0, 1e5, "rad/s", open_low=True)
+
+
+def balance_grades() -> dict[str, float]:
+    """The grades by name, coarsest first, with e·Ω [m/s]. Source: ISO 21940-11:2016.
+
+    >>> balance_grades()["G6.3"]
+    0.0063
+    """
+    return {f"G{grade:g}": grade / 1000 for grade in toml_table("balance_grades")["grades"]}
+
+
+def permissible_imbalance(grade: str, mass: float, speed: float) -> float:
+    """Permissible residual imbalance U [kg m] of a rotor: U = (e·Ω)·m/Ω.
+
+    m mass [kg], Ω service speed [rad/s]; in user units U [g·mm] = 9549·G·m[kg]/n[rpm]. Range: rotors in a constant
+    (rigid) state; mass above 0 … 1e6 kg, speed above 0 … 1e5 rad/s (RangeError), a grade of the list (InputError).
+    Source: ISO 21940-11:2016.
+
+    >>> from abu_calc.units import to_si
+    >>> round(1e6 * permissible_imbalance("G6.3", 2.0, to_si(10000, "rpm")), 2)
+    12.03
+    """
+    grades = balance_grades()
+    if grade not in grades:
+        raise unknown("balance grade", grade, grades)
+    return grades[grade] * _MASS.check(mass) / _SPEED.check(speed)

@@ -1,0 +1,91 @@
+"""Balls: stock diameters and materials."""
+
+from dataclasses import dataclass
+from functools import cache
+
+from abu_calc.standards.tables import toml_table, unknown
+from abu_calc.units import from_si, to_si
+from abu_calc.validity import Range
+
+STOCK_TOLERANCE = 0.01e-3
+"""How far [m] a diameter may be from the stock size it means: sources round 19.844 mm to 19.84."""
+
+_ROUNDING = 1e-9
+_STOCKED = Range("ball diameter", 3.0, 30.0, "mm", remedy="Choose a stock diameter in this range.")
+
+
+@dataclass(frozen=True)
+class Material:
+    """Density [kg/m³], Young's modulus [Pa], Poisson's ratio, thermal expansion [1/K]."""
+
+    name: str
+    density: float
+    youngs_modulus: float
+    poisson_ratio: float
+    expansion: float
+
+
+@cache
+def stock_diameters() -> tuple[float, ...]:
+    """Diameters [m] that balls are stocked in, ascending, 3 … 30 mm, metric and inch. Source: ISO 3290-1:2014.
+
+    >>> [d for d in stock_diameters() if 15.9e-3 < d < 17e-3]
+    [0.016, 0.0165, 0.01666875]
+    """
+    table = toml_table("balls")
+    return tuple(to_si(d, "mm") for d in sorted((*table["metric"], *table["inch"])))
+
+
+def nearest_stock(diameter: float) -> float:
+    """The stock diameter [m] nearest to `diameter` [m]; of two equally near the smaller.
+
+    Range: 3 … 30 mm, else RangeError. Source: ISO 3290-1:2014.
+
+    >>> nearest_stock(0.0159)
+    0.015875
+    """
+    _STOCKED.check(round(from_si(diameter, "mm"), 6))
+    return min(stock_diameters(), key=lambda d: round(abs(d - diameter), 12))
+
+
+def stock_diameter(diameter: float) -> float | None:
+    """The stock diameter [m] that `diameter` [m] means (nearest, within 0.01 mm), or None when it means none.
+
+    >>> stock_diameter(0.01984), stock_diameter(0.0157)
+    (0.01984375, None)
+    """
+    near = min(stock_diameters(), key=lambda d: abs(d - diameter))
+    return near if abs(near - diameter) <= STOCK_TOLERANCE + _ROUNDING else None
+
+
+def system_of(diameter: float) -> str | None:
+    """Whether a stock diameter [m] is "metric" or "inch"; None when it is no stock size.
+
+    >>> system_of(0.016), system_of(0.015875)
+    ('metric', 'inch')
+    """
+    stock = stock_diameter(diameter)
+    if stock is None:
+        return None
+    return "metric" if any(to_si(d, "mm") == stock for d in toml_table("balls")["metric"]) else "inch"
+
+
+def material(name: str) -> Material:
+    """The material of balls. Unknown names are refused with InputError.
+
+    >>> material("steel").density
+    7800.0
+    """
+    return _material("balls", name)
+
+
+def seat_material(name: str) -> Material:
+    """The material of a ring, shaft or housing: steel, cast-iron, aluminium (handbook mean values)."""
+    return _material("seats", name)
+
+
+def _material(group: str, name: str) -> Material:
+    materials = toml_table("materials")[group]
+    if name not in materials:
+        raise unknown("material", name, materials)
+    return Material(name, **materials[name])

@@ -1,0 +1,103 @@
+"""Limits of size: ISO 286-2 for shafts and housings, ISO 492 for the rings of bearings."""
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Literal
+
+from abu_calc.errors import RangeError
+from abu_calc.standards.tables import csv_rows, unknown
+from abu_calc.units import from_si, to_si
+from abu_calc.validity import Range
+
+Seat = Literal["shaft", "housing"]
+Ring = Literal["inner", "outer"]
+BearingType = Literal["radial", "tapered"]
+_Row = tuple[float, float, float, float]
+
+_FILES = {"shaft": "iso286_shafts", "housing": "iso286_holes"}
+_SIZES = Range("size", 3.0, 500.0, "mm", remedy="The tables hold ISO 286-2 from 3 to 500 mm.")
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Lower and upper limit deviation [m] from the nominal size."""
+
+    lower: float
+    upper: float
+
+    @property
+    def middle(self) -> float:
+        """Deviation [m] of the middle of the field."""
+        return (self.lower + self.upper) / 2
+
+    @property
+    def tolerance(self) -> float:
+        """Width [m] of the field."""
+        return self.upper - self.lower
+
+
+@cache
+def tolerance_classes(seat: Seat) -> tuple[str, ...]:
+    """The tolerance classes that are tabulated for shafts or for housings.
+
+    >>> tolerance_classes("housing")[:4]
+    ('F7', 'G6', 'G7', 'H6')
+    """
+    return tuple(dict.fromkeys(row[0] for row in csv_rows(_FILES[seat])))
+
+
+def part_limits(seat: Seat, tolerance_class: str, size: float) -> Limits:
+    """Limit deviations of a shaft or housing of nominal size [m], by the row of the standard's table.
+
+    Range: 3 … 500 mm (RangeError); a tabulated class (InputError). Source: ISO 286-2:2010.
+
+    >>> part_limits("shaft", "k6", 0.080)
+    Limits(lower=2e-06, upper=2.1e-05)
+    """
+    if tolerance_class not in tolerance_classes(seat):
+        raise unknown(f"tolerance class of a {seat}", tolerance_class, tolerance_classes(seat))
+    _SIZES.check(_millimetres(size))
+    rows = [_numbers(row[1:]) for row in csv_rows(_FILES[seat]) if row[0] == tolerance_class]
+    return _look_up(rows, size, f"size for {tolerance_class}", "Choose another tolerance class.")
+
+
+def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> Limits:
+    """Limit deviations of a ring's single-plane mean diameter, bore (inner) or outside (outer), nominal size [m].
+
+    Range: the rows of the table, which are fewer for the finer classes (RangeError); a tabulated class (InputError).
+    Source: ISO 492:2014, GOST 520-2011.
+
+    >>> ring_limits("radial", "outer", "0", 0.140)
+    Limits(lower=-1.8e-05, upper=0.0)
+    """
+    rows = [row[2:] for row in csv_rows("iso492") if row[:2] == (bearing_type, ring)]
+    classes = tuple(dict.fromkeys(row[0] for row in rows))
+    if bearing_class not in classes:
+        raise unknown(f"accuracy class of a {bearing_type} bearing", bearing_class, classes)
+    found = [_numbers((over, to, "0", lower)) for name, over, to, lower in rows if name == bearing_class]
+    what = f"{'bore' if ring == 'inner' else 'outside diameter'} of a {bearing_type} bearing of class {bearing_class}"
+    return _look_up(found, size, what, "Choose a coarser class, or a bearing in this range.")
+
+
+def _numbers(row: tuple[str, ...]) -> _Row:
+    over, to, upper, lower = map(float, row)
+    return over, to, upper, lower
+
+
+def _millimetres(size: float) -> float:
+    # 80 mm written in metres and back must stay in the row "up to and including 80"
+    return round(from_si(size, "mm"), 6)
+
+
+def _look_up(rows: list[_Row], size: float, what: str, remedy: str) -> Limits:
+    millimetres = _millimetres(size)
+    for over, to, upper, lower in rows:
+        if over < millimetres <= to:
+            # freed of the noise of binary fractions, so that −15 µm is the number nearest to −15e-6 m
+            return Limits(round(to_si(lower, "um"), 12), round(to_si(upper, "um"), 12))
+    raise RangeError(
+        f"{what} is outside the table",
+        found=f"{millimetres:g} mm",
+        allowed=f"over {rows[0][0]:g} up to {rows[-1][1]:g} mm",
+        remedy=remedy,
+    )
