@@ -1,5 +1,5 @@
 """`python -m abu_calc`."""
 
-from abu_calc.cli.app import main
+from abu_calc.cli.start import main
 
 main()

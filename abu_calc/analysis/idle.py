@@ -20,10 +20,11 @@ def idle_checks(response: Response, settling_limit: float) -> tuple[Check, ...]:
     else:
         message = "the balls help, but do not still the axis"
     settled = response.settling_time is not None and response.settling_time <= settling_limit
+    start = "from the hard start, balls bunched on the heavy side"
     return (
         Check("ABU701", "simulated balancing", verdict(balanced), message, amplitude, limit, "µm",
               None if balanced else "Leave the speed's forbidden region, add capacity or drag, or simulate longer."),
-        Check("ABU702", "settling time", verdict(settled and balanced), "from the hard start, balls bunched on the heavy "
-              "side" if balanced else "settled in a place that does not balance", response.settling_time,
+        Check("ABU702", "settling time", verdict(settled and balanced),
+              start if balanced else "settled in a place that does not balance", response.settling_time,
               settling_limit, "s", None if settled and balanced else "Drag nearer to the optimum, or more capacity."),
     )  # fmt: skip

@@ -19,6 +19,9 @@ from abu_calc.validity import Range
 
 ACCURACY = Range("accuracy", 1e-6, 0.5)
 
+LAST_TOLERANCE = 1e-12
+"""Below, rounding decides."""
+
 
 @dataclass(frozen=True)
 class Cost:
@@ -77,10 +80,10 @@ def tolerances(accuracy: float) -> tuple[float, ...]:
     """Tolerances to try, a decade apart: from the loosest that usually is good enough to the last above rounding.
 
     >>> tolerances(0.01)[:3]
-    (0.001, 0.0001, 1e-05)
+    (0.0002, 2e-05, 2e-06)
     """
-    first = round(math.log10(min(1e-3, accuracy / 10)))
-    return tuple(float(f"1e{power}") for power in range(first, -13, -1))
+    first = min(2e-4, accuracy / 50)
+    return tuple(float(f"{first / 10**k:.3g}") for k in range(math.floor(math.log10(first / LAST_TOLERANCE)) + 1))
 
 
 def difference(scene: Scene, coarse: Response, fine: Response) -> float:

@@ -65,14 +65,15 @@ def run(arguments: list[str]) -> int:
     except AbuError as error:
         return fail(command, error, as_json)
     except (KeyboardInterrupt, typer.Abort):
-        print("Interrupted; nothing was written.", file=sys.stderr)
-        return INTERRUPTED
+        status = INTERRUPTED
     except BrokenPipeError:
         return 0
     except Exception as error:
         if os.environ.get("ABU_DEBUG"):
             raise
         return fail(command, error, as_json)
+    if status == INTERRUPTED:
+        print("Interrupted; nothing was written.", file=sys.stderr)
     return status if isinstance(status, int) else 0
 
 

@@ -35,7 +35,6 @@ def sized(loaded: Loaded, *, explain: bool = False, accuracy: float = 0.01) -> O
     from abu_calc.checks import overall
     from abu_calc.cli.load import located, machine_of, source_of
     from abu_calc.dynamics.from_design import idle_scene
-    from abu_calc.report.explain import explanation_blocks
     from abu_calc.report.simulation import scene_model
     from abu_calc.report.size import size_model, size_result
     from abu_calc.report.size_text import size_blocks
@@ -59,6 +58,8 @@ def sized(loaded: Loaded, *, explain: bool = False, accuracy: float = 0.01) -> O
         machine.machine.name, design.case.autobalancer, result, status, checks, warnings, loaded.defaults_used
     )
     if explain:
+        from abu_calc.report.explain import explanation_blocks
+
         blocks += explanation_blocks(result, model)
     return Outcome("size", result, blocks, source_of(loaded), checks, model, warnings, status)
 

@@ -23,7 +23,7 @@ def validate(
         except InputError as error:
             faults.append(error)
             continue
-        defaults = {path: value for path, value in loaded.defaults_used}
+        defaults = dict(loaded.defaults_used)
         results.append({"file": file, "sha256": loaded.sha256, "defaults": defaults, "warnings": list(loaded.warnings)})
         blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
     if len(faults) == 1:

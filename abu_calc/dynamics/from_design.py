@@ -12,7 +12,7 @@ from abu_calc.sizing.suspension import Springs
 AHEAD = math.radians(20)
 """The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
 
-DECAY_TIMES = 12.0
+DECAY_TIMES = 8.0
 LONGEST_REVOLUTIONS = 400.0
 LEAST_REVOLUTIONS = 40.0
 
@@ -21,7 +21,7 @@ def idle_scene(design: Design) -> Scene | None:
     """The machine idling at full speed with its balls bunched on the heavy side; None on supports without a scene yet.
 
     The axis starts at rest at its place, the balls at rest in the race, neighbours touching, their middle 20° ahead of
-    the imbalance. Planar springs; the mass is that felt at the wheel, without balls. It lasts twelve decay times of the
+    the imbalance. Planar springs; the mass is that felt at the wheel, without balls. It lasts eight decay times of the
     slow motion of the balls, between 40 and 400 revolutions.
     """
     case, one = design.case, design.autobalancer
@@ -52,7 +52,7 @@ def idle_scene(design: Design) -> Scene | None:
 
 
 def _duration(design: Design) -> float:
-    """Twelve decay times of the slow motion of the balls where it decays, within bounds counted in revolutions."""
+    """Eight decay times of the slow motion of the balls where it decays, within bounds counted in revolutions."""
     case, one = design.case, design.autobalancer
     revolution = 2 * math.pi / case.speed
     stiffnesses = (design.track.ball_stiffness,) * one.ball_count

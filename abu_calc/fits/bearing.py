@@ -1,13 +1,16 @@
 """A bearing with its two seats, in SI, as the formulas of this room take it."""
 
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 from abu_calc.errors import InputError
 from abu_calc.standards.bearings import Dimensions, bearing
 from abu_calc.standards.limits import BearingType
 from abu_calc.units import from_si, to_si
 from abu_calc.validity import Range
+
+if TYPE_CHECKING:
+    from abu_calc.spec.bearing import Bearing as BearingTable
 
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
 Series = Literal["light", "medium", "heavy"]
@@ -20,51 +23,6 @@ _OTHERS = (
     ("temperature_difference", Range("ring temperature difference", 0.0, 500.0, "K")),
     ("speed", Range("ring speed", 0.0, 1e5, "rad/s")),
 )
-
-
-class BearingTable(Protocol):
-    """What is read of a `[[bearing]]` table; None where a key is absent."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def designation(self) -> str | None: ...
-    @property
-    def bore_mm(self) -> float | None: ...
-    @property
-    def outer_mm(self) -> float | None: ...
-    @property
-    def width_mm(self) -> float | None: ...
-    @property
-    def chamfer_mm(self) -> float | None: ...
-    @property
-    def radial_load_kN(self) -> float | None: ...  # noqa: N802
-    @property
-    def series(self) -> Series: ...
-    @property
-    def inner_ring_load(self) -> RingLoad: ...
-    @property
-    def outer_ring_load(self) -> RingLoad: ...
-    @property
-    def bearing_class(self) -> str: ...
-    @property
-    def shaft_fit(self) -> str: ...
-    @property
-    def housing_fit(self) -> str: ...
-    @property
-    def shaft_rz_um(self) -> float | None: ...
-    @property
-    def housing_rz_um(self) -> float | None: ...
-    @property
-    def ring_temperature_difference_K(self) -> float | None: ...  # noqa: N802
-    @property
-    def speed_rpm(self) -> float | None: ...
-    @property
-    def shaft_bore_mm(self) -> float | None: ...
-    @property
-    def housing_outer_mm(self) -> float | None: ...
-    @property
-    def housing_material(self) -> str: ...
 
 
 @dataclass(frozen=True)
@@ -112,7 +70,7 @@ class Bearing:
         _ascending("two chamfers", 2 * (self.outer_chamfer or 0), "outer ring width", self.outer_width)
 
 
-def from_table(table: BearingTable) -> Bearing:
+def from_table(table: "BearingTable") -> Bearing:
     """The bearing that a table describes; a designation is looked up, an explicit chamfer goes before its own.
 
     A bearing given by sizes alone is taken as radial. InputError: neither designation nor all sizes, sizes that
@@ -146,7 +104,7 @@ def from_table(table: BearingTable) -> Bearing:
     )
 
 
-def _by_designation(table: BearingTable) -> Dimensions:
+def _by_designation(table: "BearingTable") -> Dimensions:
     found = bearing(table.designation or "")
     for key, value in (("bore_mm", found.bore), ("outer_mm", found.outer), ("width_mm", found.inner_width)):
         given = getattr(table, key)
@@ -160,7 +118,7 @@ def _by_designation(table: BearingTable) -> Dimensions:
     return found
 
 
-def _by_sizes(table: BearingTable) -> Dimensions:
+def _by_sizes(table: "BearingTable") -> Dimensions:
     if table.bore_mm is None or table.outer_mm is None or table.width_mm is None:
         raise InputError(
             "the size of the bearing is not known",
@@ -171,7 +129,7 @@ def _by_sizes(table: BearingTable) -> Dimensions:
     return Dimensions("", "radial", bore, outer, width, 0.0, width, 0.0)
 
 
-def _chamfers(table: BearingTable, size: Dimensions) -> tuple[float | None, float | None]:
+def _chamfers(table: "BearingTable", size: Dimensions) -> tuple[float | None, float | None]:
     """Of the inner and the outer ring; not known where neither the table nor a designation tells."""
     if table.chamfer_mm is not None or table.designation is None:
         given = _si(table.chamfer_mm, "mm")

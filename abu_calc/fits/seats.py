@@ -1,15 +1,19 @@
 """Both seats of a bearing, judged: what `abu check-fit` prints."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from abu_calc.checks import Check
 from abu_calc.fits.advice import advised_class, load_intensity, recommended_class
-from abu_calc.fits.bearing import Bearing, BearingTable, from_table
+from abu_calc.fits.bearing import Bearing, from_table
 from abu_calc.fits.interference import Interval, probable_interference
 from abu_calc.fits.joint import Joint, housing_joint, shaft_joint
 from abu_calc.fits.judgement import seat_checks
 from abu_calc.standards.limits import Limits, Seat
 from abu_calc.units import from_si
+
+if TYPE_CHECKING:
+    from abu_calc.spec.bearing import Bearing as BearingTable
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,7 @@ class BearingSeats:
         return self.shaft.checks + self.housing.checks
 
 
-def seat_bearing(table: BearingTable) -> BearingSeats:
+def seat_bearing(table: "BearingTable") -> BearingSeats:
     """Judge the seats of the bearing that a `[[bearing]]` table describes.
 
     InputError or RangeError: unknown designation, tolerance class or accuracy class, a size outside their tables.

@@ -13,7 +13,6 @@ from typing import Any, Final
 from abu_calc.report.blocks import Block, Heading, Paragraph
 from abu_calc.report.quantities import number
 
-
 PARTS: Final = re.compile(r"\n|\s(?=(?:Range|Source|Printed|Raises):)")
 """Where what a formula says of itself is broken into paragraphs."""
 
@@ -131,8 +130,8 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.swing_arm:growth_rate",
         ),
         (
-            "c_n < {contact_stiffness_limit_N_per_m} N/m (series), {contact_stiffness_limit_exact_N_per_m} N/m (exact, at "
-            "Z* = {worst_contact_angle_deg}°)",
+            "c_n < {contact_stiffness_limit_N_per_m} N/m (series), {contact_stiffness_limit_exact_N_per_m} N/m (exact, "
+            "at Z* = {worst_contact_angle_deg}°)",
             "h_sh > {damping_limit_N_s_per_m} N·s/m; at Ω = 2ω₀* = 2 · {resonance_rpm} rpm the arm grows at "
             "{parametric_growth_rate_per_s} 1/s",
         ),
@@ -144,13 +143,16 @@ STEPS: Final[Mapping[str, Step]] = {
 }
 """Steps in the order of the pipeline."""
 
+OPTIONAL: Final = {"swing-arm": "swing_arm", "seats": "fits"}
+"""Steps that a result may lack, and its key."""
+
 
 def explanation_blocks(result: Mapping[str, Any], model: Mapping[str, Any]) -> tuple[Block, ...]:
     """Every step that the result has, formulas and numbers."""
     values = _namespace(result, model)
     blocks: list[Block] = [Heading("FORMULAS, WITH THE NUMBERS OF THIS MACHINE")]
     for name, step in STEPS.items():
-        if name == "swing-arm" and not result.get("swing_arm") or name == "seats" and not result.get("fits"):
+        if name in OPTIONAL and not result.get(OPTIONAL[name]):
             continue
         blocks += step_blocks(step, tuple(line.format_map(values) for line in step.numbers))
     return tuple(blocks)

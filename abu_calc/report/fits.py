@@ -22,8 +22,8 @@ ROWS = (
     ("recommended class", "recommended_fit"),
 )
 CONVENTION = (
-    "Interference is positive when tight; limits from the nominal size, lower … upper. Probable interference: mean ∓ root "
-    "of the sum of squared half tolerances, outward to whole µm. Limits: ISO 286-2:2010; rings: ISO 492 / GOST 520."
+    "Interference is positive when tight; limits from the nominal size, lower … upper. Probable interference: mean ∓ "
+    "root of the sum of squared half tolerances, outward to whole µm. Parts: ISO 286-2:2010, rings: ISO 492 / GOST 520."
 )
 
 

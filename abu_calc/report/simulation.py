@@ -50,8 +50,9 @@ def simulation_result(simulation: Simulation) -> dict[str, Any]:
 def scene_model(scene: Scene) -> dict[str, Any]:
     """The SI numbers and states that were integrated."""
     names, balls = scene.support.names, range(1, len(scene.race.ball_masses) + 1)
+    angles = [f"theta{k}" for k in balls]
     return {
-        "states": [*names, *(f"{name}'" for name in names), *(f"theta{k}" for k in balls), *(f"theta{k}'" for k in balls)],
+        "states": [*names, *(f"{name}'" for name in names), *angles, *(f"{angle}'" for angle in angles)],
         "mass_kg": [list(row) for row in scene.support.mass],
         "damping_N_s_per_m": [list(row) for row in scene.support.damping],
         "stiffness_N_per_m": [list(row) for row in scene.support.stiffness],

@@ -12,8 +12,8 @@ from abu_calc.sizing.housing import RULES
 from abu_calc.spec.machine import Autobalancer
 
 CONVENTIONS = (
-    "Amplitudes are 0–peak, velocities of levels rms, levels 20 lg(v / 5e-8 m/s) in the louder of x and y; interference "
-    "is positive when tight; angles are measured in the rotor from the imbalance, in the sense of rotation."
+    "Amplitudes are 0–peak, velocities of levels rms, levels 20 lg(v / 5e-8 m/s) in the louder of x and y; "
+    "interference is positive when tight; angles of balls are measured from the imbalance in the sense of rotation."
 )
 START = (
     "Scene idle: full speed, axis at rest, balls at rest in the race, bunched side by side 20° ahead of the imbalance; "
@@ -52,7 +52,7 @@ def size_blocks(
 
 def _verdict(result: dict[str, Any], status: Status, checks: Sequence[Check]) -> list[Block]:
     abu, levels = result["autobalancer"], result["vibration"]
-    balls = f"{abu['ball_count']} × Ø{abu['ball_diameter_mm']:g} mm"
+    balls = _balls(abu)
     failed = [check for check in checks if check.status != "pass"]
     if not failed:
         settle = next((run["settling_time_s"] for run in result["simulation"]), None)
@@ -70,13 +70,20 @@ def _verdict(result: dict[str, Any], status: Status, checks: Sequence[Check]) ->
     ]
 
 
+def _balls(abu: dict[str, Any]) -> str:
+    """Count and size, inch sizes to the micrometre."""
+    return f"{abu['ball_count']} × Ø{round(abu['ball_diameter_mm'], 3):g} mm"
+
+
 def _design(table: Autobalancer, result: dict[str, Any]) -> list[Block]:
     abu = result["autobalancer"]
     kind = "rollers" if table.corrector == "roller" else "balls"
-    balls = f"{abu['ball_count']} × Ø{abu['ball_diameter_mm']:g} mm"
-    keys = ("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm", "mass_g",
-            "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa", "hoop_stress_MPa",
-            "carry_over_rpm", "optimum_drag_per_s")  # fmt: skip
+    balls = _balls(abu)
+    keys = (
+        *("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm"),
+        *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),
+        *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s"),
+    )
     rows = ((f"{table.ball_material} {kind}", "n × 2r", balls), *facts(abu, *keys).rows)
     return [Heading("Design"), Facts(rows), Paragraph(f"Housing {RULES[table.design].text}.")]
 
@@ -127,8 +134,7 @@ def _alternatives(result: dict[str, Any]) -> list[Block]:
         return []
     keys = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um")
     rows = tuple(
-        (f"{one['ball_count']} × Ø{one['ball_diameter_mm']:g}", *(_bare(key, one[key]) for key in keys), one["why_not"])
-        for one in result["alternatives"]
+        (_balls(one), *(_bare(key, one[key]) for key in keys), one["why_not"]) for one in result["alternatives"]
     )
     header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "why not")
     return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4}))]

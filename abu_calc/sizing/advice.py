@@ -31,7 +31,7 @@ def design_checks(
         _budget(one),
         _mass(case, one),
         *_plane(case, one),
-        *track_checks(case, track),
+        *track_checks(case, one, track),
         *vibration_checks(case, idle),
         *_power(case),
         *(arm.checks if arm else ()),
@@ -54,8 +54,8 @@ def _capacity(case: Case, one: Candidate) -> Check:
 def _budget(one: Candidate) -> Check:
     budget = one.budget
     return Check(
-        "ABU202", "accuracy budget", verdict(budget.within), "race eccentricity and dry friction, expected, against what "
-        "the limit permits", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
+        "ABU202", "accuracy budget", verdict(budget.within), "race eccentricity and dry friction, expected, against "
+        "what the limit permits", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
         None if budget.within else "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
     )  # fmt: skip
 
@@ -77,7 +77,8 @@ def _plane(case: Case, one: Candidate) -> tuple[Check, ...]:
     if not case.body.is_rigid:
         return (
             Check(
-                "ABU205", "race plane", "not-done", "the race is off the wheel's plane, and the rigid body is not known",
+                "ABU205", "race plane", "not-done",
+                "the race is off the wheel's plane, and the rigid body is not known",
                 remedy="Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm.",
             ),
         )  # fmt: skip
@@ -85,8 +86,9 @@ def _plane(case: Case, one: Candidate) -> tuple[Check, ...]:
     near = rest <= permitted
     return (
         Check(
-            "ABU205", "race plane", verdict(near), f"the balls need {one.requirement.plane_ratio:.3f} × the imbalance, and "
-            "this stays at the wheel", rest, permitted, "µm", None if near else "Bring the race nearer to the wheel.",
+            "ABU205", "race plane", verdict(near), f"the balls need {one.requirement.plane_ratio:.3f} × the imbalance, "
+            "and this stays at the wheel", rest, permitted, "µm",
+            None if near else "Bring the race nearer to the wheel.",
         ),
     )  # fmt: skip
 

@@ -1,7 +1,6 @@
 """Step 5: which balls, how many, on which race radius."""
 
 from bisect import bisect_left
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from abu_calc.sizing.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
@@ -10,10 +9,12 @@ from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import Housing, housing
 from abu_calc.sizing.pins import ball_counts, ball_diameters, impossible, race_radii
+from abu_calc.sizing.strength import Strength, strength
 from abu_calc.standards.balls import material
-from abu_calc.units import from_si
+from abu_calc.units import from_si, to_si
 
 RUNNERS_UP = 4
+LARGER_RACES = 12
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,7 @@ class Candidate:
     requirement: Requirement
     housing: Housing
     budget: AccuracyBudget
+    strength: Strength
     mass_fraction: float
 
     @property
@@ -58,56 +60,85 @@ class Choice:
 def choose(case: Case, imbalance: float) -> Choice:
     """The best of every stock diameter × count up to n* × race radius in the envelope.
 
-    Enough capacity comes first, then the accuracy budget, then the mass fraction, then the least mass (ties: the smaller
-    ball). Of each diameter and count the smallest sufficient race stands for the rest: with a larger one both mass and
-    friction band grow.
+    Enough capacity comes first, then strength, the accuracy budget, the mass fraction, and the least mass (ties: the
+    smaller ball). Of each diameter and count the smallest sufficient race stands for the rest: a larger one is heavier.
     """
     found = sorted(candidates(case, imbalance), key=lambda one: _rank(case, one))
     if not found:
         raise impossible("ball_count", case.autobalancer.ball_count or 2, "so many do not fit round any race")
     best, others = found[0], found[1:]
-    front = [one for one in others if _on_front(one, found) and _sound(case, one)]
-    picked = (front + [one for one in others if one not in front])[:RUNNERS_UP]
+    first = {id(one) for one in _front([one for one in found if _sound(case, one)])}
+    picked = sorted(others, key=lambda one: id(one) not in first)[:RUNNERS_UP]
     picked.sort(key=lambda one: _rank(case, one))
     return Choice(best, tuple((one, _why_not(case, one, best)) for one in picked), len(found))
 
 
-def candidates(case: Case, imbalance: float) -> Iterator[Candidate]:
-    """For every diameter and count the smallest race that suffices, or the largest there is if none does."""
-    for diameter in ball_diameters(case):
-        radii = race_radii(case, diameter)
-        if not radii:
-            continue
-        for count in ball_counts(case, diameter, radii[-1]):
-            yield _smallest(case, imbalance, diameter, count, radii)
+def candidates(case: Case, imbalance: float) -> list[Candidate]:
+    """For every diameter and count the smallest race that suffices; where none does at all, the largest there is."""
+    tried = [
+        (diameter, count, radii)
+        for diameter in ball_diameters(case)
+        if (radii := race_radii(case, diameter))
+        for count in ball_counts(case, diameter, radii[-1])
+    ]
+    found = [_smallest(case, imbalance, *each) for each in tried]
+    return [one for one in found if one] or [
+        evaluate(case, imbalance, count, diameter, radii[-1]) for diameter, count, radii in tried
+    ]
 
 
 def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_radius: float) -> Candidate:
     """One candidate in full: the need is that of the machine which carries it, so no iteration is left over."""
-    abu = case.autobalancer
-    ball_mass = corrector_mass(abu.corrector, diameter, material(abu.ball_material).density)
+    ball_mass, body = _ball_mass(case, diameter), _housing(case, diameter, race_radius)
     pitch = race_radius - diameter / 2
     beta = half_angle(diameter / 2, pitch)
-    body = housing(abu.design, race_radius, diameter, 1e-3 * abu.bore_diameter_mm, 1e-3 * abu.min_wall_mm)
     mass = body.mass + count * ball_mass
     need = required_capacity(case, imbalance, mass)
     angles = fan(count, imbalance * need.plane_ratio / (ball_mass * pitch), beta)
     budget = accuracy_budget(case, imbalance, mass, pitch, diameter / 2, angles)
     held = capacity(count, ball_mass, pitch, beta)
-    return Candidate(count, diameter, ball_mass, race_radius, held, need, body, budget, mass / case.machine_mass)
+    stress = strength(case, ball_mass, diameter, race_radius, body.outer_diameter)
+    share = mass / case.machine_mass
+    return Candidate(count, diameter, ball_mass, race_radius, held, need, body, budget, stress, share)
 
 
-def _smallest(case: Case, imbalance: float, diameter: float, count: int, radii: tuple[float, ...]) -> Candidate:
+def _smallest(case: Case, imbalance: float, diameter: float, count: int, radii: tuple[float, ...]) -> Candidate | None:
+    """The smallest race with enough capacity; if it rests too far off, one of a dozen larger ones that does not.
+
+    The band of friction may narrow at first with the race, while the balls open.
+    """
     free = case.autobalancer.ball_count is None
 
     def suffices(radius: float) -> bool:
         beta = half_angle(diameter / 2, radius - diameter / 2)
-        fits = count <= (best_count(beta) if free else most_balls(beta))
-        return fits and _enough(case, evaluate(case, imbalance, count, diameter, radius))
+        if count > (best_count(beta) if free else most_balls(beta)):
+            return False
+        held = capacity(count, _ball_mass(case, diameter), radius - diameter / 2, beta)
+        need = required_capacity(case, imbalance, _mass(case, count, diameter, radius)).required
+        return held >= case.autobalancer.capacity_margin * need
 
     if not suffices(radii[-1]):
-        return evaluate(case, imbalance, count, diameter, radii[-1])
-    return evaluate(case, imbalance, count, diameter, radii[bisect_left(radii, True, key=suffices)])
+        return None
+    first = bisect_left(radii, True, key=suffices)
+    smallest = evaluate(case, imbalance, count, diameter, radii[first])
+    if smallest.budget.within:
+        return smallest
+    larger = radii[first + 1 :]
+    tried = (evaluate(case, imbalance, count, diameter, each) for each in larger[:: len(larger) // LARGER_RACES + 1])
+    return next((one for one in tried if one.budget.within), smallest)
+
+
+def _ball_mass(case: Case, diameter: float) -> float:
+    return corrector_mass(case.autobalancer.corrector, diameter, material(case.autobalancer.ball_material).density)
+
+
+def _housing(case: Case, diameter: float, radius: float) -> Housing:
+    abu = case.autobalancer
+    return housing(abu.design, radius, diameter, to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm"))
+
+
+def _mass(case: Case, count: int, diameter: float, radius: float) -> float:
+    return _housing(case, diameter, radius).mass + count * _ball_mass(case, diameter)
 
 
 def _enough(case: Case, one: Candidate) -> bool:
@@ -119,24 +150,30 @@ def _light(case: Case, one: Candidate) -> bool:
 
 
 def _sound(case: Case, one: Candidate) -> bool:
-    return _enough(case, one) and one.budget.within and _light(case, one)
+    return _enough(case, one) and one.strength.enough and one.budget.within and _light(case, one)
 
 
 def _rank(case: Case, one: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
     shortage = max(0.0, case.autobalancer.capacity_margin - one.capacity_ratio)
     excess = 0.0 if one.budget.within else one.budget.residual
-    return (shortage, excess, not _light(case, one), round(one.mass, 9), one.ball_diameter)
+    return (shortage, not one.strength.enough, excess, not _light(case, one), round(one.mass, 9), one.ball_diameter)
 
 
-def _on_front(one: Candidate, among: list[Candidate]) -> bool:
-    """Whether no other is both lighter and more accurate."""
-    return not any(other.mass < one.mass and other.budget.residual < one.budget.residual for other in among)
+def _front(sound: list[Candidate]) -> list[Candidate]:
+    """Those than which no other is both lighter and more accurate; `sound` comes sorted by mass."""
+    front: list[Candidate] = []
+    for one in sound:
+        if not front or one.budget.residual < front[-1].budget.residual:
+            front.append(one)
+    return front
 
 
 def _why_not(case: Case, one: Candidate, best: Candidate) -> str:
     if not _enough(case, one):
         return f"carries only {one.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
+    if not one.strength.enough:
+        return "stressed more than its material bears"
     if not one.budget.within:
         return f"rests at {from_si(one.budget.residual, 'um'):.1f} µm, more than the limit permits"
     if not _light(case, one):

@@ -104,6 +104,6 @@ def displacement_level(displacement: float, speed: float) -> float:
     """Velocity level [dB] of a displacement 0–peak [m] at a speed [rad/s]: v = wΩ/√2.
 
     >>> round(displacement_level(12e-6, 5800 * math.pi / 30), 1)
-    100.2
+    100.3
     """
     return level_from_velocity(displacement * speed / math.sqrt(2))

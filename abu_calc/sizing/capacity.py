@@ -31,10 +31,10 @@ def runout_factor(speed: float, natural_frequencies: tuple[float, float], fricti
 
     Ω speed, ω natural frequencies [rad/s]; f cutting coefficient. Worst place of the runout against the imbalance.
     Range: rigid contact without separation, f up to 2. It tends to 1 far above resonance.
-    Source: derived by averaging. Printed: Kladiev 1996, (6), has the limit 1, which is on the safe side above resonance.
+    Source: derived by averaging. Printed: Kladiev 1996, (6), has the limit 1, on the safe side above resonance.
 
     >>> round(runout_factor(607.37, (80.0, 120.0), 0.35), 4)
-    0.9802
+    0.9803
     """
     f = FRICTION.check(friction)
     x, y = (1 - (w / speed) ** 2 for w in natural_frequencies)

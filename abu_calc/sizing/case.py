@@ -100,7 +100,7 @@ def _body(machine: Machine) -> Body:
 def _suspension(machine: Machine, mass: float) -> Suspension:
     table = machine.suspension
     if table.frequencies is None or table.dampings is None:
-        return Hands((hand("x"), hand("y")))
+        return Hands((hand("x"), hand("z")))
     wx, wy = (to_si(frequency, "hz") for frequency in table.frequencies)
     zx, zy = table.dampings
     return Springs((mass * wx**2, mass * wy**2), (2 * zx * mass * wx, 2 * zy * mass * wy))

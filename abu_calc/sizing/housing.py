@@ -38,7 +38,7 @@ RULES: Final[dict[Design, Rules]] = {
         STEEL,
     ),
     "bearing-ring": Rules(
-        "bearing-ring: race ring, wall as given, pressed into a steel body with 2 mm wall, webs 1.5 mm, hub wall 2.5 mm",
+        "bearing-ring: race ring, wall as given, pressed into a steel body of 2 mm wall, webs 1.5 mm, hub wall 2.5 mm",
         to_si(1.5, "mm"),
         to_si(2.5, "mm"),
         to_si(2.0, "mm"),

@@ -31,7 +31,8 @@ class Hands:
     """Two hands on the handles, ISO 10068:2012 Annex C, model 2; how its elements connect is assumed.
 
     Palm and arm m1 stand on the ground by element 1, the fingers m2 on m1 by 2; m1 and m2 reach the handle by 3 and 4;
-    the skin masses m3, m4 move with the handle. The hands' x and y are taken as those of the machine.
+    the skin masses m3, m4 move with the handle. Assumed: forearms push toward the work, so the hands' z is the
+    machine's y, and their x its x.
     """
 
     axes: tuple[Hand, Hand]
@@ -63,7 +64,7 @@ def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:
     """Natural frequency [rad/s] of the mass on the suspension.
 
     For springs √(c/m). For hands the highest frequency at which Re D = 0 (searched from 1000 Hz down to 0.1 Hz on a
-    grid of 1 %): the machine's bounce on palms and fingers, not the slow swing of the arms.
+    grid of 1 %): the machine and the arms.
     """
     if isinstance(suspension, Springs):
         return float((suspension.stiffness[axis] / mass) ** 0.5)

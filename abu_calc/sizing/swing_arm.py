@@ -86,14 +86,14 @@ def series_gain(friction: float, ratio: float) -> float:
 def stiffness_limit(arm: Arm, speed: float, gain: float) -> float:
     """Largest contact stiffness that keeps the arm supercritical [N/m]: (J_O·Ω² − c_sh·l²)/(g·l²).
 
-    g of `contact_gain` or `series_gain`; J_O inertia with autobalancer, c_sh joint stiffness reduced to the arm length l.
+    g of `contact_gain` or `series_gain`; J_O inertia with autobalancer, c_sh joint stiffness reduced to the length l.
     Range: necessary, not sufficient (finite mass of the balls). Source: Kovalenko 2010, (13) and (14).
     """
     return (arm.inertia * speed**2 - arm.joint_stiffness * arm.length**2) / (gain * arm.length**2)
 
 
 def resonance(arm: Arm, gain: float) -> float:
-    """ω₀* = √{(c_sh·l² + c_n·l²·g*)/J_O} [rad/s]; parametric resonance is at twice that. Source: Kovalenko 2010, (15)."""
+    """ω₀* = √{(c_sh·l² + c_n·l²·g*)/J_O} [rad/s]; parametric resonance at twice that. Kovalenko 2010, (15)."""
     return arm.length * math.sqrt((arm.joint_stiffness + arm.contact_stiffness * gain) / arm.inertia)
 
 
@@ -170,5 +170,6 @@ def _checks(arm: Arm, limit: float, damping: float, angle: float | None) -> tupl
               "frequency can overcome", arm.joint_damping, damping, "N·s/m",
               None if damped else "More damping in the joint, or less imbalance.", "least"),
         Check("ABU503", "arm pressed to the work", verdict(pressed), "resting angle beyond the touching angle", degrees,
-              from_si(arm.touch_angle, "deg"), "°", None if pressed else "A larger pressing moment or a softer joint.", "least"),
+              from_si(arm.touch_angle, "deg"), "°",
+              None if pressed else "A larger pressing moment or a softer joint.", "least"),
     )  # fmt: skip

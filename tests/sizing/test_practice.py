@@ -101,20 +101,37 @@ def test_levels_of_the_budget() -> None:
     assert 1e6 * permitted_displacement(read_case(machine()), 0.2) == pytest.approx(32.81, abs=0.01)
 
 
-@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
 @pytest.mark.parametrize("mass", [5.0, 5.7, 6.4])
-def test_hands_hardly_matter_at_97_hz_but_do_at_29(axis: int, mass: float) -> None:
-    """They change the amplitude by −7…+0.5 % at 97 Hz and −28…−6 % at 29 Hz over axes and masses; x and y here."""
-    hands = Hands((hand("x"), hand("y")))
+def test_hands_hardly_matter_at_97_hz_but_do_at_29(axis: str, mass: float) -> None:
+    """They change the amplitude by −7…+0.5 % at 97 Hz and by −28…−6 % at 29 Hz, over axes and masses."""
+    hands = Hands((hand(axis), hand(axis)))
 
     def change(hertz: float) -> float:
         speed = 2 * math.pi * hertz
-        return mass * speed**2 / abs(dynamic_stiffness(hands, axis, speed, mass)) - 1
+        return mass * speed**2 / abs(dynamic_stiffness(hands, 0, speed, mass)) - 1
 
-    assert -0.075 < change(96.7) < 0.01
-    assert -0.29 < change(29.2) < 0.06
+    assert -0.0715 < change(96.7) < 0.0055
+    assert -0.285 < change(29.2) < -0.055
 
 
-def test_hands_hold_far_below_high_speeds() -> None:
-    hands = Hands((hand("x"), hand("y")))
-    assert max(natural_frequency(hands, axis, 6.0) for axis in (0, 1)) < 2 * math.pi * 43
+def test_hands_move_with_the_machine_at_a_few_hertz() -> None:
+    """Modes at 1.6–2.6 Hz for 5–6.4 kg, read to a tenth."""
+    found = [
+        natural_frequency(Hands((hand(axis), hand(axis))), 0, mass) / (2 * math.pi)
+        for axis in "xyz"
+        for mass in (5.0, 6.4)
+    ]
+    assert 1.5 < min(found) < 1.7 and 2.5 < max(found) < 2.7
+
+
+def test_hand_model_by_its_matrices() -> None:
+    """The closed form against the matrix of palm, fingers and handle, solved as a linear system."""
+    np = pytest.importorskip("numpy")
+    h, w = hand("z"), 2 * math.pi * 29.2
+    z1, z2, z3, z4 = (k + 1j * w * c for k, c in zip(h.stiffness, h.damping, strict=True))
+    m1, m2, m3, m4 = h.masses
+    inner = np.array([[z1 + z2 + z3 - m1 * w**2, -z2], [-z2, z2 + z4 - m2 * w**2]])
+    palm, fingers = np.linalg.solve(inner, [z3, z4])
+    force = 2 * ((z3 + z4) - z3 * palm - z4 * fingers - (m3 + m4) * w**2)
+    assert Hands((h, h)).reaction(1, w) == pytest.approx(complex(force))

@@ -209,7 +209,11 @@ def test_pinned_values_are_respected() -> None:
 
 
 def test_a_rounded_inch_size_is_the_stock_size() -> None:
-    best = size(machine(autobalancer__ball_diameter_mm=19.84, autobalancer__ball_count=2)).autobalancer
+    best = size(
+        machine(
+            autobalancer__ball_diameter_mm=19.84, autobalancer__ball_count=2, autobalancer__max_outer_diameter_mm=85.0
+        )
+    ).autobalancer
     assert 1e3 * best.ball_diameter == pytest.approx(19.844, abs=1e-3)
 
 
@@ -267,7 +271,7 @@ def test_regions_over_the_whole_speed_range(
 def test_hands_hold_the_machine_too() -> None:
     design = size(machine(suspension={"model": "hands"}))
     assert design.frequency.balancing_possible
-    assert 15 < max(design.frequency.natural_frequencies) / (2 * math.pi) < 45
+    assert 1 < max(design.frequency.natural_frequencies) / (2 * math.pi) < 3
 
 
 def test_a_race_off_the_wheels_plane_needs_the_rigid_body() -> None:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from abu_calc.errors import InputError
 from abu_calc.sizing.slow_motion import (
     ball_stiffness,
     decay_rate,
@@ -13,7 +14,6 @@ from abu_calc.sizing.slow_motion import (
     slow_rates,
     slow_stiffness,
 )
-from abu_calc.errors import InputError
 from tests.dynamics.scenes import dimensionless
 from tests.dynamics.test_equations import rotating_frame_eigenvalues
 

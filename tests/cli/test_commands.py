@@ -1,0 +1,282 @@
+"""The commands as their users see them."""
+
+import csv
+import io
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+from hypothesis import given, settings
+
+from abu_calc.cli import app
+from tests.cli.runner import abu
+from tests.sizing.machines import BASE
+from tests.sizing.test_properties import machines
+
+PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
+KEYS = {
+    "system_mass_kg", "effective_mass_kg", "frequency", "imbalance_g_mm", "required_capacity_g_mm",
+    "required_capacity_limit_g_mm", "required_capacity_compliant_g_mm", "autobalancer", "alternatives",
+    "accuracy_budget", "fits", "swing_arm", "vibration", "vibration_loaded", "simulation",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def designs() -> dict[str, dict]:
+    """The JSON of every preset with an autobalancer."""
+    seen = {name: abu("size", name, "--json") for name in PRESETS}
+    assert all(one.status == 0 for one in seen.values()), {name: one.err for name, one in seen.items()}
+    return {name: one.document for name, one in seen.items()}
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_every_preset_passes(designs: dict[str, dict], name: str) -> None:
+    document = designs[name]
+    assert document["status"] == "pass" and all(check["status"] == "pass" for check in document["checks"])
+    result, table = document["result"], tomllib.loads(abu("presets", name).out)
+    assert result.keys() >= KEYS
+    abu_ = result["autobalancer"]
+    assert abu_["mass_fraction"] <= 0.05
+    assert abu_["outer_diameter_mm"] <= table["autobalancer"]["max_outer_diameter_mm"]
+    assert abu_["width_mm"] <= table["autobalancer"]["max_width_mm"]
+    assert "ball_count" not in table["autobalancer"]
+    idle = result["simulation"][0]
+    assert idle["scene"] == "idle" and idle["settling_time_s"] < 1.0 and idle["error_estimate"] <= 0.01
+    assert result["vibration"]["reduction_db"] > 5
+    assert 2 <= len(result["alternatives"]) <= 4 and all(one["why_not"] for one in result["alternatives"])
+    states = document["model"]["scenes"]["idle"]["states"]
+    assert len(states) == 4 + 2 * abu_["ball_count"]
+
+
+def test_envelope_of_the_face_machine(designs: dict[str, dict]) -> None:
+    found = designs["avtovaz-707-370"]["result"]["autobalancer"]
+    assert found["outer_diameter_mm"] <= 68 and found["width_mm"] <= 32
+
+
+def test_levels_of_the_straight_machine_are_as_published(designs: dict[str, dict]) -> None:
+    """Published: 102–103 dB at most with the autobalancer, 111 dB without; read from octaves, so ± 1.5 dB."""
+    result = designs["avtovaz-707-222"]["result"]
+    assert result["vibration"]["level_before_db"] == pytest.approx(111.0)
+    assert result["vibration_loaded"]["level_after_db"] == pytest.approx(102.5, abs=1.5)
+    assert result["vibration"]["level_after_db"] == pytest.approx(100.4, abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "count", "diameter", "idle"),
+    [
+        ("avtovaz-707-222", 2, 16.0, True),
+        ("avtovaz-707-222", 4, 16.0, False),
+        ("avtovaz-707-370", 3, 16.0, False),
+        ("avtovaz-707-305", 3, 19.844, False),
+    ],
+)
+def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int, diameter: float, idle: bool) -> None:
+    """Two for idling and four under load on the straight machine; three on the others."""
+    pins = ["--set", f"autobalancer.ball_count={count}", "--set", f"autobalancer.ball_diameter_mm={diameter}"]
+    rest = ["--set", "grinding.contact=face"] if idle else []
+    document = abu("size", name, "--json", *pins, *rest).document
+    assert document["result"]["autobalancer"]["ball_count"] == count
+    assert document["result"]["autobalancer"]["ball_diameter_mm"] == pytest.approx(diameter, abs=1e-3)
+    capacity = next(check for check in document["checks"] if check["code"] == "ABU201")
+    assert capacity["status"] == "pass", capacity
+
+
+def test_two_balls_do_not_suffice_under_load() -> None:
+    pins = ["--set", "autobalancer.ball_count=2", "--set", "autobalancer.ball_diameter_mm=16.0"]
+    seen = abu("size", "avtovaz-707-222", "--json", *pins)
+    assert seen.status == 1 and seen.document["status"] == "fail"
+    assert seen.document["result"]["autobalancer"]["capacity_ratio"] < 1.2
+
+
+def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
+    seen = abu("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
+               "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
+    document = seen.document
+    failed = {check["code"]: check for check in document["checks"] if check["status"] == "fail"}
+    assert seen.status == 1 and {"ABU101", "ABU701"} <= failed.keys()
+    assert "worse" in failed["ABU701"]["message"]
+    assert document["result"]["frequency"] | {} == document["result"]["frequency"]
+    assert document["result"]["frequency"]["region"] == "subcritical"
+    assert not document["result"]["frequency"]["balancing_possible"]
+
+
+def test_hands_are_sized_and_what_was_not_simulated_is_named() -> None:
+    seen = abu("size", "avtovaz-707-370", "--set", "suspension.model=hands", "--json")
+    assert seen.document["result"]["simulation"] == []
+    assert any("idle" in warning and "hands" in warning for warning in seen.document["warnings"])
+
+
+def test_report_reads_like_a_calculation_note() -> None:
+    seen = abu("size", "avtovaz-707-222")
+    lines = seen.out.splitlines()
+    assert seen.status == 0 and max(map(len, lines)) <= 80
+    assert lines[1].strip().startswith("PASS")
+    order = ["Design", "Checks", "Warnings", "Defaults used (not in the file)", "Frequencies and capacity"]
+    places = [lines.index(title) for title in order]
+    assert places == sorted(places)
+
+
+def test_explain_puts_the_numbers_in() -> None:
+    plain, told = abu("size", "swing-arm-grinder").out, abu("size", "swing-arm-grinder", "--explain").out
+    assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
+    assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)
+    for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
+        seen = abu("explain", step)
+        assert seen.status == 0 and "Source:" in seen.out
+
+
+def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:
+    seen = abu("size", "avtovaz-707-370", "--json")
+    assert seen.document["abu"]["command"] == "size" and seen.document["abu"]["schema"] == 1
+    assert len(seen.document["input"]["sha256"]) == 64
+    assert "warning" in seen.err
+    assert seen.out.isascii()
+
+
+@pytest.mark.parametrize("suffix", [".json", ".toml", ".csv", ".txt"])
+def test_output_formats(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"design{suffix}"
+    assert abu("size", "avtovaz-707-370", "--output", str(path), "--quiet").out == ""
+    text = path.read_text(encoding="utf-8")
+    if suffix == ".json":
+        assert json.loads(text)["result"]["autobalancer"]["ball_count"] == 5
+    elif suffix == ".toml":
+        assert tomllib.loads(text)["result"]["autobalancer"]["ball_count"] == 5
+    elif suffix == ".csv":
+        rows = {row["path"]: row for row in csv.DictReader(io.StringIO(text))}
+        assert rows["autobalancer.ball_count"]["value"] == "5"
+        assert rows["autobalancer.capacity_g_mm"]["unit"] == "g·mm"
+    else:
+        assert text.startswith("AvtoVAZ") and max(map(len, text.splitlines())) <= 80
+    before = path.read_bytes()
+    seen = abu("size", "avtovaz-707-222", "--output", str(path))
+    assert seen.status == 2 and "--force" in seen.err and path.read_bytes() == before
+    assert abu("size", "avtovaz-707-222", "--output", str(path), "--force", "-q").status == 0
+    assert path.read_bytes() != before and list(tmp_path.iterdir()) == [path]
+
+
+def test_init_writes_what_size_takes(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    assert abu("init", str(file)).status == 0
+    assert abu("validate", str(file)).status == 0
+    assert abu("size", str(file), "--quiet").status == 0
+    assert abu("init", str(file)).status == 2
+    copy = tmp_path / "copy.toml"
+    assert abu("init", "--preset", "msh-230", str(copy)).status == 0
+    assert copy.read_text(encoding="utf-8") == abu("presets", "msh-230").out
+    schema = json.loads(abu("schema").out)
+    jsonschema.Draft4Validator(schema).validate(tomllib.loads(file.read_text(encoding="utf-8")))
+
+
+def test_validate_tells_every_file(tmp_path: Path) -> None:
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text("[machine]\n", encoding="utf-8")
+    seen = abu("validate", "msh-230", "swing-arm-grinder")
+    assert seen.status == 0 and "msh-230: right" in seen.out
+    seen = abu("validate", "msh-230", str(wrong))
+    assert seen.status == 2 and "wrong.toml" in seen.err
+
+
+def test_presets_say_where_each_value_comes_from() -> None:
+    for preset in json.loads(abu("presets", "--json").out)["result"]["presets"]:
+        text = abu("presets", preset["name"]).out.split("[expected]")[0]
+        for line in text.splitlines():
+            if "=" in line and not line.startswith(("#", "name", "model")):
+                assert "#" in line and ("assumed: " in line or any(c.isdigit() for c in line.split("#")[1]) or
+                                        "worked example" in line), line  # fmt: skip
+
+
+def test_check_fit_of_the_source() -> None:
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--json")
+    shaft, housing = seen.document["result"]
+    assert seen.status == 1
+    assert shaft["interference_um"] == [2, 36] and housing["interference_um"] == [-30, 28]
+    assert shaft["recommended_fit"] == "m6"
+    options = ("--bore", "80", "--outer", "140", "--width", "33", "--chamfer", "2", "--radial-load-kN", "3",
+               "--series", "light", "--shaft", "m6", "--housing", "M7", "--bearing-class", "0", "--json")  # fmt: skip
+    seen = abu("check-fit", *options)
+    shaft, housing = seen.document["result"]
+    assert seen.status == 0
+    assert shaft["interference_um"] == [11, 45] and housing["interference_um"] == [-18, 40]
+    assert seen.document["input"] is None
+
+
+# verify
+def test_presets_keep_what_they_expect() -> None:
+    seen = abu("verify")
+    assert seen.status == 0, seen.out
+
+
+def test_verify_tells_differences_and_update_keeps_comments(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    text = abu("presets", "msh-230").out.replace('"autobalancer.ball_count" = ', '"autobalancer.ball_count" = 1')
+    file.write_text(text, encoding="utf-8")
+    seen = abu("verify", str(file))
+    assert seen.status == 1 and "autobalancer.ball_count" in seen.out
+    assert abu("verify", "--update", str(tmp_path / "machine.toml")).status == 0
+    after = file.read_text(encoding="utf-8")
+    assert after.split("[expected]")[0] == text.split("[expected]")[0]
+    assert '"autobalancer.ball_count" = 5\n' in after
+    assert abu("verify", str(tmp_path)).status == 0
+    (tmp_path / "other.toml").write_text(text.split("[expected]")[0], encoding="utf-8")
+    assert abu("verify", str(tmp_path)).status == 0  # a folder may hold files that expect nothing
+    seen = abu("verify", str(tmp_path / "other.toml"))
+    assert seen.status == 2 and "--update" in seen.err
+
+
+def test_verify_knows_tolerances(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    text = abu("presets", "mmg-3200k-knife-shaft").out.split("[expected]")[0]
+    expected = '[expected]\n"fits.0.hoop_stress_MPa" = 80.0\n"fits.0.interference_um" = [2.0, 36.0]\n'
+    file.write_text(text + expected, encoding="utf-8")
+    assert abu("verify", str(file)).status == 1  # it is 78.0
+    file.write_text(text + expected + '[expected.tolerance]\n"fits.0.hoop_stress_MPa" = 0.05\n', encoding="utf-8")
+    assert abu("verify", str(file)).status == 0
+    file.write_text(text + expected + '"fits.0.no_such_key" = 1\n', encoding="utf-8")
+    assert abu("verify", str(file)).status == 1
+
+
+# What must hold whatever happens
+@given(machines())
+@settings(max_examples=8, deadline=None, derandomize=True)
+def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
+    """Random machines through the whole command, simulation included."""
+    tables = {name: dict(table) for name, table in BASE.items()}
+    for path, value in changes.items():
+        table, _, key = path.partition("__")
+        tables.setdefault(table, {}).update({key: value} if key else value)
+    options = [f"{table}.{key}={json.dumps(value)}" for table, keys in tables.items() for key, value in keys.items()]
+    seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
+    document = seen.document
+    assert seen.status in (0, 1, 2, 3) and "bug" not in seen.err
+    if seen.status in (0, 1):
+        passed = all(check["status"] == "pass" for check in document["checks"])
+        assert (seen.status == 0) is passed is (document["status"] == "pass")
+        if passed:
+            abu_ = document["result"]["autobalancer"]
+            assert abu_["capacity_g_mm"] >= document["result"]["required_capacity_g_mm"]
+    else:
+        assert document["error"]["message"]
+
+
+def test_a_crash_is_a_bug_with_status_3(monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash(*_: object) -> None:
+        raise ZeroDivisionError("by design")
+
+    monkeypatch.delenv("ABU_DEBUG", raising=False)
+    monkeypatch.setattr("abu_calc.sizing.size", crash)
+    seen = abu("size", "msh-230", "--json")
+    assert seen.status == 3 and seen.document["error"]["kind"] == "bug" and "Traceback" not in seen.err
+
+
+def test_an_interruption_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("abu_calc.sizing.size", interrupt)
+    output = tmp_path / "design.json"
+    seen = abu("size", "msh-230", "--output", str(output))
+    assert seen.status == app.INTERRUPTED and "Interrupted" in seen.err and not output.exists()
