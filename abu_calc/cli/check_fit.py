@@ -1,14 +1,16 @@
 """`abu check-fit [MACHINE]`: bearing seats of a file, or of one bearing given by options."""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
-from abu_calc.spec.bearing import Bearing
-from abu_calc.spec.read import Loaded
+
+if TYPE_CHECKING:
+    from abu_calc.spec.bearing import Bearing
+    from abu_calc.spec.read import Loaded
 
 OPTIONS = {
     "name": "--name",
@@ -62,7 +64,7 @@ def check_fit(
     return _outcome((bearing,), None, defaults)
 
 
-def fitted(loaded: Loaded) -> Outcome:
+def fitted(loaded: "Loaded") -> Outcome:
     """The outcome for the bearings of a file that is read already."""
     from abu_calc.cli.load import located, source_of
 
@@ -75,7 +77,7 @@ def fitted(loaded: Loaded) -> Outcome:
         return _outcome(loaded.machine.bearing, source_of(loaded), defaults)
 
 
-def _from_options(given: dict[str, Any]) -> tuple[Bearing, tuple[tuple[str, object], ...]]:
+def _from_options(given: dict[str, Any]) -> tuple["Bearing", tuple[tuple[str, object], ...]]:
     """The bearing that the options describe, and the defaults in force; refused as a file would be, by option."""
     from pydantic import ValidationError
 

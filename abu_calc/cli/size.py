@@ -1,12 +1,14 @@
 """`abu size MACHINE`: from one file about a machine to a sized and simulated design."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from abu_calc.cli.command import Machine, Overrides, add_command
 from abu_calc.report.outcome import Outcome
-from abu_calc.spec.read import Loaded
+
+if TYPE_CHECKING:
+    from abu_calc.spec.read import Loaded
 
 LATER = {
     "grinding": "the scene `grinding`",
@@ -28,7 +30,7 @@ def size(
     return sized(load(machine, set_), explain=explain, accuracy=accuracy)
 
 
-def sized(loaded: Loaded, *, explain: bool = False, accuracy: float = 0.01) -> Outcome:
+def sized(loaded: "Loaded", *, explain: bool = False, accuracy: float = 0.01) -> Outcome:
     """The outcome of sizing a file that is read already."""
     from abu_calc.analysis.idle import idle_checks
     from abu_calc.analysis.simulate import simulate
@@ -64,7 +66,7 @@ def sized(loaded: Loaded, *, explain: bool = False, accuracy: float = 0.01) -> O
     return Outcome("size", result, blocks, source_of(loaded), checks, model, warnings, status)
 
 
-def _not_simulated(loaded: Loaded, no_idle: bool) -> list[str]:
+def _not_simulated(loaded: "Loaded", no_idle: bool) -> list[str]:
     """Scenes the file calls for that cannot be simulated yet."""
     missing = [what for table, what in LATER.items() if getattr(loaded.machine, table, None) is not None]
     if no_idle:

@@ -2,7 +2,7 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,8 +12,9 @@ from abu_calc.cli.deliver import Delivery
 from abu_calc.errors import InputError, Place
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.outcome import Outcome
-from abu_calc.spec.machine import Machine, expected_tolerances, expected_values
-from abu_calc.spec.read import Loaded
+
+if TYPE_CHECKING:
+    from abu_calc.spec.read import Loaded
 
 
 def verify(
@@ -27,6 +28,7 @@ def verify(
 ) -> Outcome:
     """Recompute files that have [expected] and compare; without files, the presets."""
     from abu_calc.cli.load import load
+    from abu_calc.spec.machine import expected_values
 
     blocks: list[Block] = []
     checks: list[Check] = []
@@ -57,10 +59,11 @@ def verify(
     )
 
 
-def recompute(loaded: Loaded) -> dict[str, Any]:
+def recompute(loaded: "Loaded") -> dict[str, Any]:
     """The result of a file as paths in [expected] name it, its status included."""
     from abu_calc.cli.check_fit import fitted
     from abu_calc.cli.size import sized
+    from abu_calc.spec.machine import Machine
 
     whole = isinstance(loaded.machine, Machine) and loaded.machine.autobalancer is not None
     outcome = sized(loaded) if whole else fitted(loaded)
@@ -69,9 +72,10 @@ def recompute(loaded: Loaded) -> dict[str, Any]:
 
 
 def _compare(
-    loaded: Loaded, found: dict[str, Any], blocks: list[Block], checks: list[Check], results: list[dict[str, Any]]
+    loaded: "Loaded", found: dict[str, Any], blocks: list[Block], checks: list[Check], results: list[dict[str, Any]]
 ) -> None:
     from abu_calc.report.expected import compare, shown_value
+    from abu_calc.spec.machine import expected_tolerances, expected_values
 
     differences = compare(expected_values(loaded.machine), expected_tolerances(loaded.machine), found)
     failed = [each for each in differences if not each.passed]
@@ -92,12 +96,13 @@ def _compare(
         blocks += [Heading(loaded.file), Grid(("path", "expected", "found", "deviation", "allowed"), rows)]
 
 
-def _update(loaded: Loaded, found: dict[str, Any]) -> dict[str, Any]:
+def _update(loaded: "Loaded", found: dict[str, Any]) -> dict[str, Any]:
     """Write the values into the file's [expected], its comments and layout kept."""
     import tomlkit
 
     from abu_calc.report.expected import current
     from abu_calc.report.files import write
+    from abu_calc.spec.machine import expected_values
 
     path = Path(loaded.file)
     if not path.is_file():

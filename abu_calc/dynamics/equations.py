@@ -1,4 +1,4 @@
-"""The one set of equations of motion: a linear support and one race of balls (Kladiev 1996, eq. (1), completed).
+"""The one set of equations of motion: a linear support and one race of balls.
 
 With q the support's coordinates, r = P q = (x, y) the race centre, θ_k a ball's angle in the rotor, γ_k = θ_k + Ωt:
 
@@ -10,7 +10,11 @@ Eliminating γ'' leaves the balls' force as F₀ − A r'', with s = (sin γ, �
     A = Σ m (I − s sᵀ/J)        F₀ = Σ m R_p [ γ'² (cos γ, sin γ) − (h₀/J) θ' s ],
 
 so that r'' solves a 2 × 2 system and the cost grows linearly with the number of balls. A is symmetric and positive
-semidefinite for J ≥ 1: the system can always be solved. J = 7/5 for a rolling ball, 1 as printed (a point).
+semidefinite for J ≥ 1: the system can always be solved. J = 7/5 for a rolling ball, 3/2 for a roller.
+
+Range: constant speed Ω, balls in the plane of the race that may pass through each other. Source: Kladiev 1996, (1),
+re-derived by Lagrange's equations. Printed: (1) has J = 1, so its balls move faster by √(7/5), and no damping of the
+support, so its free vibration never dies.
 """
 
 import math

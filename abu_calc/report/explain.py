@@ -138,7 +138,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "simulation": Step(
         "Simulation",
-        ("dynamics.equations:assemble", "analysis.response:settling_time", "analysis.simulate:simulate"),
+        ("dynamics.equations:", "analysis.response:settling_time", "analysis.simulate:simulate"),
     ),
 }
 """Steps in the order of the pipeline."""
@@ -173,17 +173,22 @@ def spoken(formula: str) -> str:
     >>> spoken("sizing.body:Body.effective_mass")
     'effective mass'
     """
-    return formula.split(":")[1].split(".")[-1].replace("_", " ")
+    return formula.rstrip(":").replace(":", ".").split(".")[-1].replace("_", " ")
 
 
 def formula_text(formula: str) -> str:
-    """What a formula, named `module:function`, says of itself, its examples left out; a line a paragraph."""
+    """What a formula, named `module:function`, says of itself, its examples left out; a line a paragraph.
+
+    A module without a function speaks for all of it. Indented lines, which are equations, are kept as they are.
+    """
     module, _, name = formula.partition(":")
     found: Any = importlib.import_module(f"abu_calc.{module}")
-    for part in name.split("."):
+    for part in filter(None, name.split(".")):
         found = getattr(found, part)
     text = (inspect.getdoc(found) or "").split(">>>")[0].replace("`", "")
-    return "\n".join(" ".join(paragraph.split()) for paragraph in text.split("\n\n")).rstrip()
+    return "\n".join(
+        part if part.startswith("    ") else " ".join(part.split()) for part in text.split("\n\n")
+    ).rstrip()
 
 
 def _namespace(result: Mapping[str, Any], model: Mapping[str, Any]) -> dict[str, str]:

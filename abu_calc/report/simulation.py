@@ -3,6 +3,7 @@
 from typing import Any
 
 from abu_calc.analysis.simulate import Simulation
+from abu_calc.dynamics.equations import assemble
 from abu_calc.dynamics.scene import Scene
 from abu_calc.units import from_si, wrapped_deg
 
@@ -49,10 +50,8 @@ def simulation_result(simulation: Simulation) -> dict[str, Any]:
 
 def scene_model(scene: Scene) -> dict[str, Any]:
     """The SI numbers and states that were integrated."""
-    names, balls = scene.support.names, range(1, len(scene.race.ball_masses) + 1)
-    angles = [f"theta{k}" for k in balls]
     return {
-        "states": [*names, *(f"{name}'" for name in names), *angles, *(f"{angle}'" for angle in angles)],
+        "states": list(assemble(scene).states),
         "mass_kg": [list(row) for row in scene.support.mass],
         "damping_N_s_per_m": [list(row) for row in scene.support.damping],
         "stiffness_N_per_m": [list(row) for row in scene.support.stiffness],
@@ -63,4 +62,4 @@ def scene_model(scene: Scene) -> dict[str, Any]:
         "drag_per_s": scene.race.drag,
         "inertia_factor": scene.race.inertia_factor,
         "start_angles_rad": list(scene.race.start_angles),
-    }  # fmt: skip
+    }
