@@ -6,7 +6,6 @@ from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.sizing.ball_ring import half_angle
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.slow_motion import decay_rate
 from abu_calc.sizing.suspension import Springs
 
 AHEAD = math.radians(20)
@@ -53,10 +52,9 @@ def idle_scene(design: Design) -> Scene | None:
 
 def _duration(design: Design) -> float:
     """Eight decay times of the slow motion of the balls where it decays, within bounds counted in revolutions."""
-    case, one = design.case, design.autobalancer
+    case = design.case
     revolution = 2 * math.pi / case.speed
-    stiffnesses = (design.track.ball_stiffness,) * one.ball_count
-    rate = decay_rate(stiffnesses, one.budget.resting_angles, case.drag, case.inertia_factor)
+    _, rate = design.track.decay_rates[0]
     wanted = DECAY_TIMES / rate if rate > 0 else math.inf
     longest = max(LONGEST_REVOLUTIONS * revolution, 3 * case.table.limits.settling_time_s)
     return min(max(wanted, LEAST_REVOLUTIONS * revolution), longest)

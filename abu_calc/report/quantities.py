@@ -34,7 +34,7 @@ QUANTITIES: Final[Mapping[str, Quantity]] = {
     "race_radius_mm": Quantity("race radius", "R"),
     "pitch_radius_mm": Quantity("pitch radius", "R − r"),
     "groove_radius_mm": Quantity("groove radius (± 0.2)", "ρ"),
-    "capacity_g_mm": Quantity("capacity, balls touching", "m(R−r)·sin nβ/sin β"),
+    "capacity_g_mm": Quantity("capacity, balls touching", "mR_p·sin nβ/sin β"),
     "capacity_ratio": Quantity("capacity / need", "", 3),
     "outer_diameter_mm": Quantity("outer diameter", "", 4),
     "width_mm": Quantity("width", "", 4),

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from abu_calc.analysis.simulate import Simulation
 from abu_calc.report.fits import seats_result
 from abu_calc.report.outcome import finite
 from abu_calc.report.simulation import simulation_result
@@ -18,7 +19,7 @@ from abu_calc.units import from_si
 Result = dict[str, Any]
 
 
-def size_result(design: Design, simulations: Sequence[Any]) -> Result:
+def size_result(design: Design, simulations: Sequence[Simulation]) -> Result:
     """Everything `abu size` tells, in the order in which it is printed."""
     need = design.autobalancer.requirement
     return {
@@ -37,7 +38,7 @@ def size_result(design: Design, simulations: Sequence[Any]) -> Result:
         "accuracy_budget": _budget(design.autobalancer.budget),
         "vibration": _vibration(design.idle),
         "vibration_loaded": None if design.loaded is None else _vibration(design.loaded),
-        "simulation": [simulation_result(simulation) for simulation in simulations],
+        "simulation": [simulation_result(run) | _other_drags(design.track, run) for run in simulations],
         "fits": [row for bearing in design.seats for row in seats_result(bearing)],
         "swing_arm": None if design.swing_arm is None else _swing_arm(design.swing_arm),
         "drawing": [
@@ -123,6 +124,18 @@ def _budget(budget: AccuracyBudget) -> Result:
 def _vibration(vibration: Vibration) -> Result:
     handles = [{"name": name, **_levels(levels)} for name, levels in vibration.places]
     return {**_levels(vibration.worst), "handles": handles}
+
+
+def _other_drags(race: Track, run: Simulation) -> Result:
+    """Settling at a third and at three times the drag: the simulated time, scaled by the rates of the slow motion."""
+    (_, rate), *others = race.decay_rates
+    time = run.response.settling_time
+    return {
+        "settling_estimates": [
+            {"drag_per_s": drag, "settling_time_s": time * rate / other if time and other > 0 and rate > 0 else None}
+            for drag, other in others
+        ]
+    }
 
 
 def _levels(levels: Levels) -> Result:

@@ -17,7 +17,8 @@ CONVENTIONS = (
 )
 START = (
     "Scene idle: full speed, axis at rest, balls at rest in the race, bunched side by side 20° ahead of the imbalance; "
-    "planar springs, rolling inertia, viscous drag; no race eccentricity and no dry friction (see the accuracy budget)."
+    "planar springs, rolling inertia, viscous drag. Balls pass through each other; race eccentricity and dry friction "
+    "stand in the accuracy budget instead."
 )
 
 
@@ -123,7 +124,15 @@ def _simulation(result: dict[str, Any]) -> list[Block]:
             Heading(f"Simulation: {run['scene']}"),
             facts(run, "duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db",
                   "error_estimate"),
-            Facts((("balls rest at", "θ", angles), ("cost", "", f"{work}, {cost['wall_s']:.2f} s"))),
+            Facts(
+                tuple(
+                    (f"settling at a drag of {other['drag_per_s']:g} 1/s", "about", shown("settling_time_s", time))
+                    for other in run["settling_estimates"]
+                    if (time := other["settling_time_s"]) is not None
+                )
+            ),
+            Paragraph(f"The balls rest at {angles} from the imbalance."),
+            Paragraph(f"Cost: {work}, {cost['wall_s']:.2f} s."),
             Paragraph(START),
         ]  # fmt: skip
     return blocks

@@ -5,6 +5,7 @@ import textwrap
 from collections.abc import Iterable
 
 from rich.console import Console
+from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -12,8 +13,9 @@ from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 
 STYLES = {"pass": "bold green", "fail": "bold red", "not-done": "bold yellow", "warning": "yellow"}
 WIDEST = 100
-FACT_WIDTHS = (36, 16, 12)
-"""Label, symbol, value: the same in every block, so that a report has one left edge."""
+MARGIN, GAP = 2, 2
+FACT_WIDTHS = (35, 17)
+"""Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
 
 
 def console(*, color: bool = True, stderr: bool = False) -> Console:
@@ -38,14 +40,14 @@ def as_text(blocks: Iterable[Block], width: int = 80) -> str:
     return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines()) + "\n"
 
 
-def _rendered(block: Block, width: int) -> Text | Table:
+def _rendered(block: Block, width: int) -> Text | Padding:
     match block:
         case Heading(text):
             return Text(text, style="bold")
         case Paragraph(text, mark, indent):
             return Text(fill(text, width, indent), style=STYLES.get(mark or "", ""))
         case Facts(rows):
-            return _facts(rows)
+            return _facts(rows, width)
         case Grid():
             return _grid(block)
 
@@ -58,21 +60,19 @@ def fill(text: str, width: int, indent: int) -> str:
     )
 
 
-def _facts(rows: tuple[tuple[str, str, str], ...]) -> Table:
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(width=0)
-    for least in FACT_WIDTHS:
-        table.add_column(overflow="fold", min_width=least)
-    for label, symbol, value in rows:
-        table.add_row("", label, symbol, value)
-    return table
+def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Padding:
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, GAP, 0, 0))
+    for column in (*FACT_WIDTHS, width - MARGIN - sum(FACT_WIDTHS) - 2 * GAP):
+        table.add_column(width=column, overflow="fold")
+    for row in rows:
+        table.add_row(*row)
+    return Padding(table, (0, 0, 0, MARGIN), expand=False)
 
 
-def _grid(grid: Grid) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
-    table.add_column(width=0)
+def _grid(grid: Grid) -> Padding:
+    table = Table(box=None, pad_edge=False, padding=(0, GAP, 0, 0), header_style="dim")
     for index, title in enumerate(grid.header):
         table.add_column(title, justify="right" if index in grid.right else "left", overflow="fold")
     for row in grid.rows:
-        table.add_row("", *(Text(cell, style=STYLES.get(cell, "")) for cell in row))
-    return table
+        table.add_row(*(Text(cell, style=STYLES.get(cell, "")) for cell in row))
+    return Padding(table, (0, 0, 0, MARGIN), expand=False)

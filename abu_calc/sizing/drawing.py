@@ -58,7 +58,7 @@ def drawing(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
         Advice("bore and spindle", "bore H6, spindle js6"),
         Advice("balls", "of one lot, grade 20 (ISO 3290)"),
         Advice("housing without balls", "balanced to G6.3 (ISO 21940-11)"),
-        Advice("oil", f"so that the drag is about {abu.rolling_drag_per_s:g} 1/s {_optimum(track)}; VG 46 "
+        Advice("oil", f"so that the drag is about {abu.rolling_drag_per_s:g} 1/s{_optimum(track)}; VG 46 "
                "gives 3 to 50 by slip, more when cold; state grade and volume"),
         Advice("web or cover", "must carry the wall: a free ring would go oval by "
                f"{from_si(track.free_ring_ovality, 'um'):.1f} µm under two opposite balls"),

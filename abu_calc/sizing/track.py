@@ -7,7 +7,7 @@ from abu_calc.checks import Check, verdict
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import groove_radius
-from abu_calc.sizing.slow_motion import ball_stiffness, optimum_drag, slow_stiffness
+from abu_calc.sizing.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
 from abu_calc.sizing.stress import ring_flexure
 from abu_calc.units import GRAVITY, from_si, to_si
 
@@ -16,13 +16,17 @@ LEAST_HARDNESS_HRC = 58.0
 
 @dataclass(frozen=True)
 class Track:
-    """Groove, ovality of a free ring, slow motion of the balls [SI]; null where there is none."""
+    """Groove, ovality of a free ring, slow motion of the balls [SI]; null where there is none.
+
+    `decay_rates`: drag and slowest rate [1/s] at the drag of the file, a third of it and three times it.
+    """
 
     groove_radius: float | None
     free_ring_ovality: float
     carry_over: float
     ball_stiffness: float
     optimum_drag: float | None
+    decay_rates: tuple[tuple[float, float], ...]
 
 
 def carry_over_speed(pitch_radius: float) -> float:
@@ -48,7 +52,12 @@ def track(case: Case, one: Candidate, frequencies: tuple[float, float]) -> Track
         carry_over=carry_over_speed(one.pitch_radius),
         ball_stiffness=kappa,
         optimum_drag=optimum_drag(slowest, case.inertia_factor) if slowest > 0 else None,
+        decay_rates=tuple((drag, _rate(case, one, kappa, drag)) for drag in (case.drag, case.drag / 3, 3 * case.drag)),
     )
+
+
+def _rate(case: Case, one: Candidate, kappa: float, drag: float) -> float:
+    return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, drag, case.inertia_factor)
 
 
 def track_checks(case: Case, one: Candidate, race: Track) -> tuple[Check, ...]:
