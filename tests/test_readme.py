@@ -16,6 +16,6 @@ def test_the_example_is_real_output() -> None:
 
 
 def test_every_command_is_named() -> None:
-    listed = re.findall(r"^  (\S+) ", abu("--help").out.split("Commands:")[1], re.MULTILINE)
+    listed = re.findall(r"^  (\S+) ", abu("--help").out.split("Commands:")[1].split("\n\n")[0], re.MULTILINE)
     assert len(listed) >= 8
     assert all(f"`abu {name}" in README for name in listed)
