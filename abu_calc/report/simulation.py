@@ -1,21 +1,17 @@
 """A simulation as a result: SI in, keys and units of the interface out."""
 
+from collections.abc import Sequence
 from typing import Any
 
+from abu_calc.analysis.idle import LeftOut
 from abu_calc.analysis.simulate import Simulation
 from abu_calc.dynamics.equations import assemble
 from abu_calc.dynamics.scene import Scene
+from abu_calc.report.outcome import finite
 from abu_calc.units import from_si, wrapped_deg
 
-LEFT_OUT = (
-    ("gravity", "turns the balls by hundredths of a degree at such speeds"),
-    ("dry_rolling_friction", "counted in the accuracy budget instead"),
-    ("ball_contact", "balls pass through each other; they matter only while settling"),
-    ("race_eccentricity", "counted in the accuracy budget instead"),
-)
 
-
-def simulation_result(simulation: Simulation) -> dict[str, Any]:
+def simulation_result(simulation: Simulation, left_out: Sequence[LeftOut] = ()) -> dict[str, Any]:
     """What `abu simulate` tells of one scene."""
     response, cost = simulation.response, simulation.cost
     final = response.final
@@ -36,7 +32,10 @@ def simulation_result(simulation: Simulation) -> dict[str, Any]:
             "ball_angles_deg": [wrapped_deg(angle) for angle in final.ball_angles],
             "ball_speeds_rpm": [from_si(speed, "rpm") for speed in final.ball_speeds],
         },
-        "effects": [{"name": name, "included": False, "weight": None, "why": why} for name, why in LEFT_OUT],
+        "effects": [
+            {"name": effect.name, "included": False, "weight": finite(effect.weight), "why": effect.why}
+            for effect in left_out
+        ],
         "cost": {
             "integrator": cost.integrator,
             "tolerance": cost.tolerance,

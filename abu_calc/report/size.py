@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from abu_calc.analysis.idle import left_out
 from abu_calc.analysis.simulate import Simulation
 from abu_calc.report.fits import seats_result
 from abu_calc.report.outcome import finite
@@ -38,7 +39,7 @@ def size_result(design: Design, simulations: Sequence[Simulation]) -> Result:
         "accuracy_budget": _budget(design.autobalancer.budget),
         "vibration": _vibration(design.idle),
         "vibration_loaded": None if design.loaded is None else _vibration(design.loaded),
-        "simulation": [simulation_result(run) | _other_drags(design.track, run) for run in simulations],
+        "simulation": [_run(design, run) for run in simulations],
         "fits": [row for bearing in design.seats for row in seats_result(bearing)],
         "swing_arm": None if design.swing_arm is None else _swing_arm(design.swing_arm),
         "drawing": [
@@ -122,8 +123,15 @@ def _budget(budget: AccuracyBudget) -> Result:
 
 
 def _vibration(vibration: Vibration) -> Result:
-    handles = [{"name": name, **_levels(levels)} for name, levels in vibration.places]
+    handles = [
+        {"name": place.name, **_levels(place.levels), "effective_mass_kg": place.effective_mass}
+        for place in vibration.places
+    ]
     return {**_levels(vibration.worst), "handles": handles}
+
+
+def _run(design: Design, run: Simulation) -> Result:
+    return simulation_result(run, left_out(design, run.response)) | _other_drags(design.track, run)
 
 
 def _other_drags(race: Track, run: Simulation) -> Result:

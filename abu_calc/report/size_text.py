@@ -106,13 +106,17 @@ def _vibration(result: dict[str, Any]) -> list[Block]:
     rows = []
     for state, key in (("idle", "vibration"), ("under load", "vibration_loaded")):
         for place in (result[key] or {}).get("handles", ()):
-            levels = [f"{place[name]:.1f}" for name in ("level_before_db", "level_after_db", "reduction_db")]
-            rows.append((state, place["name"], *levels))
-    header = ("", "place", "before, dB", "after, dB", "reduction, dB")
-    blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset({2, 3, 4}))]
+            keys = ("level_before_db", "level_after_db", "reduction_db", "effective_mass_kg")
+            rows.append((state, place["name"], *(_tenths(place[key]) for key in keys)))
+    header = ("", "place", "before, dB", "after, dB", "reduction, dB", "felt mass, kg")
+    blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset({2, 3, 4, 5}))]
     if result["vibration_loaded"]:
         blocks.append(Paragraph("Under load is information, not a check: it rests on the contact's stiffness."))
     return blocks
+
+
+def _tenths(value: float | None) -> str:
+    return "–" if value is None else f"{value:.1f}"
 
 
 def _simulation(result: dict[str, Any]) -> list[Block]:

@@ -108,9 +108,23 @@ def _power(case: Case) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def design_warnings(case: Case, one: Candidate) -> tuple[str, ...]:
+def design_warnings(case: Case, one: Candidate, loaded: Vibration | None) -> tuple[str, ...]:
     """What a reader must know that no check says."""
-    return (*_body_warnings(case), *_contact_warnings(case, one), *_choice_warnings(case, one))
+    return (
+        *_body_warnings(case),
+        *_contact_warnings(case, one),
+        *_choice_warnings(case, one),
+        *_loaded_warnings(loaded),
+    )
+
+
+def _loaded_warnings(loaded: Vibration | None) -> list[str]:
+    if loaded is None or loaded.worst.after is not None:
+        return []
+    return [
+        "No level under load is given with the autobalancer: the balls cannot balance at these speeds, or this contact "
+        "asks for more than they carry."
+    ]
 
 
 def _body_warnings(case: Case) -> list[str]:

@@ -3,12 +3,17 @@
 import math
 from dataclasses import dataclass
 
+from abu_calc.errors import RangeError
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.track import Track
+from abu_calc.standards.limits import part_limits
 from abu_calc.units import from_si, to_si
 
+SOFT_ARM = to_si(10, "um")
+"""Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
 OVALITY = to_si(3, "um")
+WAVINESS = to_si(2.5, "um")
 DENT = to_si(1, "um")
 
 
@@ -33,46 +38,70 @@ def extra_level(residual: float, part: float) -> float:
 
 
 def drawing(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
-    """Advice for the drawing; the values are engineering practice (assumed), the costs are computed from the budget."""
+    """Advice for the drawing; requirements are engineering practice (assumed), costs are computed from the budget.
+
+    What only changes the capacity, or what the balls themselves balance, costs nothing.
+    """
+    return (*_race(case, one, track), *_seat_and_balls(case, one), *_running(case, track))
+
+
+def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
     budget, abu = one.budget, case.autobalancer
-    rest = math.hypot(budget.rolling_friction, budget.plane_offset)
     eccentricity = from_si(case.race_eccentricity, "um")
-    groove = (
-        f"R {from_si(track.groove_radius, 'mm'):.2f} ± 0.2 mm across the race"
-        if track.groove_radius is not None
-        else "cylindrical, straight within 2 µm"
-    )
-    dent = DENT * one.pitch_radius / _dent_half_width(one)
+    others = math.hypot(budget.rolling_friction, budget.plane_offset)
+    smooth = math.hypot(budget.race_eccentricity, budget.plane_offset)
+    arm = case.friction_arm or SOFT_ARM
+    groove = f"R {from_si(track.groove_radius, 'mm'):.2f} ± 0.2 mm across" if track.groove_radius else "straight ± 2 µm"
     return (
-        Advice("race", f"R {from_si(one.race_radius, 'mm'):.2f} ± 0.05 mm at the bottom"),
-        Advice("groove", groove),
-        Advice(
-            "race to bore, all in", f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm) with bore "
-            "clearance and spindle; grind bore and race in one set-up", _cost(rest, case.race_eccentricity),
-        ),
+        Advice("race", f"R {from_si(one.race_radius, 'mm'):.2f} ± 0.05 mm at the bottom (capacity only)", 0.0),
+        Advice("groove", f"{groove} (shakes out friction, no level of its own)", 0.0),
+        Advice("race to bore, all in", f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm) with bore "
+               "clearance and spindle; grind bore and race in one set-up", _cost(others, case.race_eccentricity)),
         Advice("race circularity", "3 µm; two lobes of 1.5 µm leave 3 µm", _cost(budget.residual, OVALITY)),
-        Advice("race surface", "Ra ≤ 0.16 µm, no dents: one of 1 µm depth holds a ball", _cost(budget.residual, dent)),
-        Advice("race hardness", f"60–63 HRC, case ≥ 0.5 mm after grinding (given: {abu.race_hardness_HRC:g} HRC)"),
+        Advice("race waviness", "k lobes of amplitude a leave k·a: 5 × 0.5 µm", _cost(budget.residual, WAVINESS)),
+        Advice("race surface", "Ra ≤ 0.16 µm, no dents: one of 1 µm depth holds a ball",
+               _cost(budget.residual, DENT * one.pitch_radius / _dent_half_width(one))),
+        Advice("race hardness", f"60–63 HRC, case ≥ 0.5 mm after grinding (given: {abu.race_hardness_HRC:g}); a soft "
+               "race has a lever arm of 10 µm", _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction)),
         Advice("rolling friction", f"lever arm ≤ {1e3 * abu.rolling_friction_mm:g} µm: hard, ground, clean, oiled",
-               _cost(math.hypot(budget.race_eccentricity, budget.plane_offset), budget.rolling_friction)),
-        Advice("bore and spindle", "bore H6, spindle js6"),
-        Advice("balls", "of one lot, grade 20 (ISO 3290)"),
-        Advice("housing without balls", "balanced to G6.3 (ISO 21940-11)"),
-        Advice("oil", f"so that the drag is about {abu.rolling_drag_per_s:g} 1/s{_optimum(track)}; VG 46 "
-               "gives 3 to 50 by slip, more when cold; state grade and volume"),
+               _cost(smooth, budget.rolling_friction)),
+    )  # fmt: skip
+
+
+def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
+    clearance = _bore_clearance(to_si(case.autobalancer.bore_diameter_mm, "mm"))
+    rest = math.hypot(one.budget.rolling_friction, one.budget.plane_offset)
+    play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at worst"
+    cost = None if clearance is None else _cost(rest, clearance / 2)
+    return (
+        Advice("bore and spindle", f"bore H6, spindle js6{play}", cost),
+        Advice("balls", "of one lot, grade 20 (ISO 3290): 0.5 µm of diameter, which they balance", 0.0),
+        Advice("housing without balls", "balanced to G6.3 (ISO 21940-11), the rest is balanced by the balls", 0.0),
+    )  # fmt: skip
+
+
+def _running(case: Case, track: Track) -> tuple[Advice, ...]:
+    optimum = "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
+    return (
+        Advice("oil", f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
+               "to 50 by slip, more when cold; state grade and volume"),
         Advice("web or cover", "must carry the wall: a free ring would go oval by "
                f"{from_si(track.free_ring_ovality, 'um'):.1f} µm under two opposite balls"),
         Advice("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
     )  # fmt: skip
 
 
+def _bore_clearance(bore: float) -> float | None:
+    """Largest clearance of a bore H6 on a spindle js6 [m] (ISO 286-2), where both are tabulated."""
+    try:
+        return part_limits("housing", "H6", bore).upper - part_limits("shaft", "js6", bore).lower
+    except RangeError:
+        return None
+
+
 def _cost(rest: float, part: float) -> float | None:
     cost = extra_level(rest, part)
     return cost if math.isfinite(cost) else None
-
-
-def _optimum(track: Track) -> str:
-    return "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
 
 
 def _dent_half_width(one: Candidate) -> float:

@@ -1,5 +1,6 @@
 """Step 7: velocity levels before and after, idle and under load, at every handle."""
 
+import cmath
 import math
 from dataclasses import dataclass
 
@@ -13,69 +14,87 @@ from abu_calc.units import level_from_velocity, velocity_from_level
 
 @dataclass(frozen=True)
 class Levels:
-    """Levels [dB] at one place without and with the autobalancer."""
+    """Levels [dB] without and with the autobalancer; `after` is null where balls cannot balance."""
 
     before: float
-    after: float
+    after: float | None
 
     @property
-    def reduction(self) -> float:
+    def reduction(self) -> float | None:
         """before − after [dB]."""
-        return self.before - self.after
+        return None if self.after is None else self.before - self.after
+
+
+@dataclass(frozen=True)
+class Place:
+    """A handle, or the wheel plane; `effective_mass` [kg] is imbalance at the wheel over the motion it makes here."""
+
+    name: str
+    effective_mass: float | None
+    levels: Levels
 
 
 @dataclass(frozen=True)
 class Vibration:
     """Levels where the machine is held (the wheel plane when no handle is given); `worst` is the loudest place."""
 
-    places: tuple[tuple[str, Levels], ...]
+    places: tuple[Place, ...]
     worst: Levels
 
 
-def idle_vibration(case: Case, imbalance: float, one: Candidate) -> Vibration:
+def idle_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration:
     """Idle levels: before, the whole imbalance without autobalancer; after, what the accuracy budget leaves.
 
     v = Ω·w/√2 rms of the displacement w at the wheel, times the motion of the place per motion of the wheel; in the
-    louder of x and y; the background added as energy. Range: steady state at the rated speed. Source: Kladiev 1996
-    (level and limit); the rigid body and the budget are ours.
+    louder of x and y; the background added as energy; what the balls cannot carry is added to w.
+    Range: steady state at the rated speed, where balls can balance (`possible`), else there is no level after.
+    Source: Kladiev 1996 (level and limit); the rigid body and the budget are ours.
     """
-    resonance = resonance_factor(case.suspension, case.speed, case.body.effective_mass())
-    before = imbalance / case.body.effective_mass() * resonance
-    return _vibration(case, before, one.budget.residual, one.mass)
+    before = _displacement(case, imbalance, 0.0)
+    missing = max(0.0, imbalance * one.requirement.plane_ratio - one.capacity)
+    after = one.budget.residual + _displacement(case, missing, one.mass)
+    return _vibration(case, before, after if possible else None, one.mass)
 
 
-def loaded_vibration(case: Case, imbalance: float, one: Candidate) -> Vibration | None:
+def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration | None:
     """Levels under load by steady contact without separation: information, the contact's stiffness is uncertain.
 
     Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the forward
-    whirl, and what stays is added to the budget's residual as squares. A face contact does not press radially: idle.
+    whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, or where the
+    contact asks for more than they carry. A face contact does not press radially: idle.
     """
     if case.contact is None:
         return None
     bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, one.mass, damped=True)
     if bare is None or loaded is None:
-        return idle_vibration(case, imbalance, one)
-    angle = math.radians(case.table.wheel.runout_angle_deg)
-    runout = case.runout * complex(math.cos(angle), math.sin(angle))
+        return idle_vibration(case, imbalance, one, possible)
+    runout = cmath.rect(case.runout, math.radians(case.table.wheel.runout_angle_deg))
     before = max(map(abs, bare.axis(imbalance, runout)))
-    balanced = max(map(abs, loaded.axis(loaded.balancing_imbalance(runout), runout)))
-    return _vibration(case, before, math.hypot(balanced, one.budget.residual), one.mass)
+    balancing = loaded.balancing_imbalance(runout)
+    carried = abs(balancing - imbalance) * one.requirement.plane_ratio <= one.capacity
+    if not (possible and carried) or loaded.balls_increase_imbalance:
+        return _vibration(case, before, None, one.mass)
+    after = math.hypot(max(map(abs, loaded.axis(balancing, runout))), one.budget.residual)
+    return _vibration(case, before, after, one.mass)
 
 
-def _vibration(case: Case, before: float, after: float, added_mass: float) -> Vibration:
+def _displacement(case: Case, imbalance: float, added_mass: float) -> float:
+    """Displacement 0–peak at the wheel [m] by an imbalance at the wheel, in the louder axis."""
+    mass = case.body.effective_mass(added_mass)
+    return imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
+
+
+def _vibration(case: Case, before: float, after: float | None, added_mass: float) -> Vibration:
     handles = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    places = tuple(
-        (
-            name,
-            Levels(
-                _level(case, before * case.body.transmission(place)),
-                _level(case, after * case.body.transmission(place, added_mass)),
-            ),
-        )
-        for name, place in handles
-    )
-    worst = Levels(max(levels.before for _, levels in places), max(levels.after for _, levels in places))
-    return Vibration(places, worst)
+    places = []
+    for name, place in handles:
+        bare = _level(case, before * case.body.transmission(place))
+        fitted = None if after is None else _level(case, after * case.body.transmission(place, added_mass))
+        inertance = abs(case.body.inertance(place, case.body.wheel, added_mass))
+        places.append(Place(name, 1 / inertance if inertance else None, Levels(bare, fitted)))
+    loudest = [place.levels.after for place in places if place.levels.after is not None]
+    worst = Levels(max(place.levels.before for place in places), max(loudest, default=None))
+    return Vibration(tuple(places), worst)
 
 
 def _level(case: Case, displacement: float) -> float:
@@ -88,13 +107,19 @@ def _level(case: Case, displacement: float) -> float:
 
 def vibration_checks(case: Case, idle: Vibration) -> tuple[Check, ...]:
     """The idle level against the limit, and that the autobalancer lowers it."""
-    limit, after = case.table.limits.vibration_level_db, idle.worst.after
-    lower = idle.worst.reduction > 0
+    limit, before, after = case.table.limits.vibration_level_db, idle.worst.before, idle.worst.after
+    names = ("ABU401", "idle vibration level"), ("ABU402", "level lowered")
+    if after is None:
+        reason = "not known, since the balls cannot balance at these speeds"
+        return tuple(
+            Check(*name, "not-done", reason, None, allowed, "dB")
+            for name, allowed in zip(names, (limit, before), strict=True)
+        )
+    lower = after < before
     return (
-        Check("ABU401", "idle vibration level", verdict(after <= limit), "expected with the autobalancer at the worst "
-              "handle, limit of the file", after, limit, "dB",
+        Check(*names[0], verdict(after <= limit), "expected with the autobalancer at the worst handle, limit of the "
+              "file", after, limit, "dB",
               None if after <= limit else "Smaller race eccentricity, a harder and cleaner race, larger balls."),
-        Check("ABU402", "level lowered", verdict(lower), "with the autobalancer against without, idle", after,
-              idle.worst.before, "dB",
+        Check(*names[1], verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
               None if lower else "The wheel is balanced better than balls can do: no autobalancer is needed."),
     )  # fmt: skip

@@ -12,6 +12,7 @@ from abu_calc.errors import InputError
 from abu_calc.sizing import size
 from abu_calc.sizing.ball_ring import capacity, half_angle
 from abu_calc.sizing.balls import choose
+from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.capacity import required_capacity
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.design import Design
@@ -95,6 +96,7 @@ def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
         assert best.capacity >= abu.capacity_margin * best.requirement.required
         assert best.budget.residual <= best.budget.permitted
         assert best.mass_fraction <= abu.max_mass_fraction
+        assert design.idle.worst.after is not None
         assert design.idle.worst.after <= design.case.table.limits.vibration_level_db
         assert design.frequency.balancing_possible
     assert not any(math.isnan(number) for number in _numbers(best) + _numbers(design.idle) + _numbers(design.track))
@@ -317,3 +319,38 @@ def test_a_handle_at_a_node_says_nothing_of_the_imbalance() -> None:
             )
         )
     assert caught.value.place.key == "wheel.measured_at"
+
+
+def test_what_the_balls_cannot_carry_stays_in_the_level() -> None:
+    """Two 5 mm balls against 250 g·mm: the rest shakes the machine, beside the budget."""
+    design = size(machine(autobalancer__ball_diameter_mm=5.0, autobalancer__ball_count=2))
+    one = design.autobalancer
+    left = (250e-6 - one.capacity) / (6.2 + one.mass)
+    resonance = 1 / (1 - (2.5 * 60 / 5800) ** 2)  # damping changes it by 3e-4
+    expected = displacement_level(left * resonance + one.budget.residual, 5800 * math.pi / 30)
+    assert design.idle.worst.after == pytest.approx(expected, abs=0.01)
+
+
+def test_handles_of_a_rigid_body() -> None:
+    """265, 116 and 169 g·mm make 111 dB at the wheel of a point mass, at a front and a rear handle: masses as these."""
+    handles = [{"name": "front", "from_center_of_mass_mm": 100.0}, {"name": "rear", "from_center_of_mass_mm": -200.0}]
+    design = size(
+        machine(
+            machine__transverse_inertia_kg_m2=0.1, machine__center_of_mass_to_wheel_mm=200.0, machine__handle=handles
+        )
+    )
+    front, rear = design.idle.places
+    mass = 6.2 + design.autobalancer.mass
+    assert front.effective_mass == pytest.approx(1 / (1 / mass + 0.2))
+    assert rear.effective_mass == pytest.approx(1 / (0.4 - 1 / mass))
+    assert front.levels.before > rear.levels.before
+    assert design.idle.worst.before == front.levels.before
+
+
+def test_costs_of_the_drawing_add_up_to_the_budget() -> None:
+    """What the eccentricity costs is the budget with it against the budget without it."""
+    design = size(machine(autobalancer__race_eccentricity_mm=0.02))
+    line = next(each for each in design.drawing if each.feature == "race to bore, all in")
+    budget = design.autobalancer.budget
+    assert line.cost_db == pytest.approx(20 * math.log10(budget.residual / budget.rolling_friction))
+    assert all(each.cost_db is None or each.cost_db >= 0 for each in design.drawing)
