@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from abu_calc.errors import RangeError
+from abu_calc.errors import Place, RangeError
 
 
 @dataclass(frozen=True)
@@ -16,6 +16,8 @@ class Range:
     unit: str = ""
     open_low: bool = False
     remedy: str | None = None
+    key: str | None = None
+    """Key path of the entry of a file that the quantity comes from, where there is one."""
 
     def __str__(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
@@ -34,5 +36,9 @@ class Range:
             return value
         unit = f" {self.unit}" if self.unit else ""
         raise RangeError(
-            f"{self.name} is outside its range", found=f"{value:g}{unit}", allowed=str(self), remedy=self.remedy
+            f"{self.name} is outside its range",
+            place=Place(key=self.key),
+            found=f"{value:g}{unit}",
+            allowed=str(self),
+            remedy=self.remedy,
         )

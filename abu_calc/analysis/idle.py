@@ -8,29 +8,45 @@ from abu_calc.sizing.design import Design
 from abu_calc.units import GRAVITY, from_si
 
 BALANCED_SHARE = 0.1
-LEAST_UM = 1.0
+WORK = 250_000
+"""Evaluations that a simulation within `abu size` may take, some seconds."""
 
 
-def idle_checks(response: Response, settling_limit: float) -> tuple[Check, ...]:
-    """Balls that balance (axis amplitude under a tenth of that without them, or 1 µm), and soon enough."""
-    amplitude, before = from_si(response.axis_amplitude, "um"), from_si(response.unbalanced_amplitude, "um")
-    limit = max(BALANCED_SHARE * before, LEAST_UM)
-    balanced = amplitude <= limit
+def idle_checks(design: Design, response: Response) -> tuple[Check, ...]:
+    """Balls that balance (a tenth of the imbalance is left, or of 1 % of all balls'), and soon enough.
+
+    Not done where the balls, side by side, cannot carry the imbalance: simulated ones pass through each other.
+    """
+    one, limit = design.autobalancer, design.case.table.limits.settling_time_s
+    moved = design.imbalance.value * abs(one.requirement.plane_ratio)
+    names = ("ABU701", "simulated balancing"), ("ABU702", "settling time")
+    if one.capacity < moved:
+        reason = "the balls cannot carry the imbalance side by side; simulated ones pass through each other"
+        return tuple(Check(*name, "not-done", reason, remedy="More or larger balls.") for name in names)
+    left, allowed = response.residual_imbalance, BALANCED_SHARE * max(moved, 0.01 * one.static_moment)
+    balanced, settled = left <= allowed, response.settling_time is not None and response.settling_time <= limit
     if balanced:
-        message = "the balls end opposite the imbalance and still the axis"
-    elif response.axis_amplitude > response.unbalanced_amplitude:
-        message = "the balls make it worse: they do not go opposite the imbalance"
+        message = "imbalance left: the balls end opposite the imbalance"
+    elif left > moved:
+        message = "imbalance left: the balls make it worse, they gather on the heavy side"
     else:
-        message = "the balls help, but do not still the axis"
-    settled = response.settling_time is not None and response.settling_time <= settling_limit
+        message = "imbalance left: the balls help, but do not balance"
     start = "from the hard start, balls bunched on the heavy side"
+    drag = design.track.optimum_drag
+    sooner = "" if drag is None else f" {drag:.0f} 1/s"
     return (
-        Check("ABU701", "simulated balancing", verdict(balanced), message, amplitude, limit, "µm",
-              None if balanced else "Leave the speed's forbidden region, add capacity or drag, or simulate longer."),
-        Check("ABU702", "settling time", verdict(settled and balanced),
-              start if balanced else "settled in a place that does not balance", response.settling_time,
-              settling_limit, "s", None if settled and balanced else "Drag nearer to the optimum, or more capacity."),
+        Check(*names[0], verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm",
+              None if balanced else "Leave the forbidden speeds, or bring the drag nearer to the optimum."),
+        Check(*names[1], verdict(settled and balanced), start if balanced else "settled where it does not balance",
+              response.settling_time, limit, "s",
+              None if settled and balanced else f"Drag nearer to the optimum{sooner}, or more capacity."),
     )  # fmt: skip
+
+
+def not_simulated(reason: str) -> Check:
+    """The check of a simulation that gave no number to be trusted."""
+    return Check("ABU701", "simulated balancing", "not-done", f"no trustworthy simulation: {reason}",
+                 remedy="A drag nearer to the optimum, or less accuracy (--accuracy).")  # fmt: skip
 
 
 @dataclass(frozen=True)

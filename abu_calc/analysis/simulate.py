@@ -17,7 +17,7 @@ from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
-ACCURACY = Range("accuracy", 1e-6, 0.5)
+ACCURACY = Range("accuracy", 1e-6, 0.5, key="--accuracy")
 
 LAST_TOLERANCE = 1e-12
 """Below, rounding decides."""
@@ -45,11 +45,14 @@ class Simulation:
     warnings: tuple[str, ...]
 
 
-def simulate(scene: Scene, accuracy: float = 0.01, sample_times: Sequence[float] = ()) -> Simulation:
+def simulate(
+    scene: Scene, accuracy: float = 0.01, sample_times: Sequence[float] = (), most_evaluations: int = 50_000_000
+) -> Simulation:
     """The finer of two runs, a decade of tolerance apart, whose results differ by no more than `accuracy`.
 
-    `sample_times` [s] are further moments to hold in the trajectory. Raises NotTrustworthyError when no tolerance
-    reaches the accuracy: the motion is then chaotic, or decided by less than rounding.
+    `sample_times` [s] are further moments to hold in the trajectory; `most_evaluations` bounds the work of all runs.
+    Raises NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is
+    then chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
     started = time.perf_counter()
@@ -62,7 +65,7 @@ def simulate(scene: Scene, accuracy: float = 0.01, sample_times: Sequence[float]
     evaluations, steps, error = 0, 0, math.inf
     before: Response | None = None
     for tolerance in tolerances(accuracy):
-        trajectory = scipy_.integrate(equations, tolerance, moments)
+        trajectory = scipy_.integrate(equations, tolerance, moments, most_evaluations - evaluations)
         response = evaluate(scene, trajectory)
         evaluations, steps = evaluations + trajectory.evaluations, steps + trajectory.steps
         error = difference(scene, before, response) if before else math.inf

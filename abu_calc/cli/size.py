@@ -32,11 +32,12 @@ def size(
 
 def sized(loaded: "Loaded", *, explain: bool = False, accuracy: float = 0.01) -> Outcome:
     """The outcome of sizing a file that is read already."""
-    from abu_calc.analysis.idle import idle_checks
+    from abu_calc.analysis.idle import WORK, idle_checks, not_simulated
     from abu_calc.analysis.simulate import simulate
     from abu_calc.checks import overall
     from abu_calc.cli.load import located, machine_of, source_of
     from abu_calc.dynamics.from_design import idle_scene
+    from abu_calc.errors import NotTrustworthyError
     from abu_calc.report.simulation import scene_model
     from abu_calc.report.size import size_model, size_result
     from abu_calc.report.size_text import size_blocks
@@ -46,10 +47,14 @@ def sized(loaded: "Loaded", *, explain: bool = False, accuracy: float = 0.01) ->
     with located(loaded):
         design = size_design(machine)
         scene = idle_scene(design)
-        simulations = [] if scene is None else [simulate(scene, accuracy)]
-    checks = design.checks
+        checks, simulations = design.checks, []
+        try:
+            if scene is not None:
+                simulations = [simulate(scene, accuracy, most_evaluations=WORK)]
+        except NotTrustworthyError as error:
+            checks += (not_simulated(str(error).splitlines()[0]),)
     for simulation in simulations:
-        checks += idle_checks(simulation.response, machine.limits.settling_time_s)
+        checks += idle_checks(design, simulation.response)
     warnings = (*loaded.warnings, *design.warnings, *(w for run in simulations for w in run.warnings))
     warnings += tuple(_not_simulated(loaded, scene is None))
     result, model = size_result(design, simulations), size_model(design)

@@ -1,6 +1,7 @@
 """`abu verify [FILE|FOLDER …]`: hold machine files to the results they expect."""
 
 import sys
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -129,13 +130,22 @@ def _named(files: list[str] | None) -> list[str]:
     found: list[str] = []
     for file in files:
         if Path(file).is_dir():
-            inside = sorted(str(path) for path in Path(file).glob("*.toml"))
+            inside = sorted(str(path) for path in Path(file).glob("*.toml") if _may_expect(path))
             if not inside:
-                raise InputError("no .toml file in this folder", place=Place(file))
+                raise InputError("no machine file with [expected] in this folder", place=Place(file))
             found += inside
         else:
             found.append(file)
     return found
+
+
+def _may_expect(path: Path) -> bool:
+    """Whether a file in a folder is a machine's and expects something; one that cannot be read is not passed over."""
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        return True
+    return "machine" in tables and "expected" in tables
 
 
 def _asked_for(files: list[str] | None, file: str) -> bool:

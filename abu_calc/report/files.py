@@ -58,7 +58,7 @@ def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> None:
     """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force."""
     if suffixes and path.suffix.lower() not in suffixes:
-        raise OutputError("unknown format", found=path.name, allowed="a name ending in " + " ".join(suffixes))
+        raise OutputError("unknown format", found=str(path), allowed="a name ending in " + " ".join(suffixes))
     if path.is_dir():
         raise OutputError(f"{path} is a folder", remedy="Give a file's name.")
     if not path.absolute().parent.is_dir():
@@ -69,19 +69,21 @@ def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> 
 
 def write(path: Path, text: str) -> None:
     """Write a file whole or not at all: beside it first, then put in its place."""
+    try:
+        _write(path, text)
+    except OSError as error:
+        raise OutputError(f"{path} cannot be written: {error.strerror}") from error
+
+
+def _write(path: Path, text: str) -> None:
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.absolute().parent)
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
             file.write(text)
-        if path.exists():
-            Path(name).chmod(path.stat().st_mode)
-        else:
-            Path(name).chmod(0o666 & ~_umask())
+        Path(name).chmod(path.stat().st_mode if path.exists() else 0o666 & ~_umask())
         Path(name).replace(path)
-    except BaseException as error:
+    except BaseException:
         Path(name).unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise OutputError(f"{path} cannot be written: {error.strerror}") from error
         raise
 
 

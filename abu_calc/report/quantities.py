@@ -48,6 +48,8 @@ QUANTITIES: Final[Mapping[str, Quantity]] = {
     "race_eccentricity_um": Quantity("race eccentricity", "Δ", 3),
     "rolling_friction_um": Quantity("dry friction band", "k_r·R_p/r", 3),
     "plane_offset_um": Quantity("race plane off the wheel's", "", 3),
+    "capacity_shortfall_um": Quantity("imbalance beyond the capacity", "", 3),
+    "rolling_friction_reached_um": Quantity("friction band where balls came to rest", "", 3),
     "residual_um": Quantity("expected residual (root of squares)", "", 3),
     "worst_um": Quantity("worst residual (plain sum)", "", 3),
     "permitted_um": Quantity("permitted by the limit", "", 3),

@@ -9,7 +9,7 @@ from abu_calc.report.fits import seats_result
 from abu_calc.report.outcome import finite
 from abu_calc.report.simulation import simulation_result
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import AccuracyBudget
+from abu_calc.sizing.budget import AccuracyBudget, friction_band
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.frequency import FrequencyRegion
 from abu_calc.sizing.swing_arm import SwingArmBounds
@@ -36,7 +36,7 @@ def size_result(design: Design, simulations: Sequence[Simulation]) -> Result:
             autobalancer(one, race) | {"why_not": why}
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ],
-        "accuracy_budget": _budget(design.autobalancer.budget),
+        "accuracy_budget": _budget(design.autobalancer.budget) | _reached(design, simulations),
         "vibration": _vibration(design.idle),
         "vibration_loaded": None if design.loaded is None else _vibration(design.loaded),
         "simulation": [_run(design, run) for run in simulations],
@@ -115,11 +115,21 @@ def _budget(budget: AccuracyBudget) -> Result:
         "race_eccentricity_um": budget.race_eccentricity,
         "rolling_friction_um": budget.rolling_friction,
         "plane_offset_um": budget.plane_offset,
+        "capacity_shortfall_um": budget.shortfall,
         "residual_um": budget.residual,
         "worst_um": budget.worst,
         "permitted_um": budget.permitted,
     }
     return {key: finite(from_si(value, "um")) for key, value in parts.items()}
+
+
+def _reached(design: Design, simulations: Sequence[Simulation]) -> Result:
+    """The friction band at the angles where the simulated balls came to rest."""
+    one, arm = design.autobalancer, design.case.friction_arm
+    for run in simulations:
+        band = friction_band(arm, one.pitch_radius, one.ball_diameter / 2, run.response.final.ball_angles)
+        return {"rolling_friction_reached_um": finite(from_si(band, "um"))}
+    return {}
 
 
 def _vibration(vibration: Vibration) -> Result:

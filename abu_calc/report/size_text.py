@@ -57,7 +57,7 @@ def _verdict(result: dict[str, Any], status: Status, checks: Sequence[Check]) ->
     failed = [check for check in checks if check.status != "pass"]
     if not failed:
         settle = next((run["settling_time_s"] for run in result["simulation"]), None)
-        soon = f", settled in {number(settle, 2)} s" if settle is not None else ""
+        soon = ", not simulated" if settle is None else f", settled in {number(settle, 2)} s"
         text = (
             f"PASS: {balls} on a race of R {abu['race_radius_mm']:g} mm balance this machine. Idle "
             f"{levels['level_before_db']:.1f} → {levels['level_after_db']:.1f} dB{soon}, "
@@ -98,7 +98,7 @@ def _need(result: dict[str, Any]) -> list[Block]:
               "required_capacity_compliant_g_mm"),
         Heading("Accuracy budget, displacements at the wheel"),
         facts(result["accuracy_budget"], *(key for key, value in result["accuracy_budget"].items()
-              if value or key != "plane_offset_um")),
+              if value or key not in ("plane_offset_um", "capacity_shortfall_um"))),
     ]  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from bisect import bisect_left
 from dataclasses import dataclass
 
 from abu_calc.sizing.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
-from abu_calc.sizing.budget import AccuracyBudget, accuracy_budget, fan
+from abu_calc.sizing.budget import AccuracyBudget, Balls, accuracy_budget, fan
 from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import Housing, housing
@@ -36,6 +36,11 @@ class Candidate:
     def pitch_radius(self) -> float:
         """R − r [m]."""
         return self.race_radius - self.ball_diameter / 2
+
+    @property
+    def static_moment(self) -> float:
+        """Σ m·R_p [kg m]: what all balls in one place would cause."""
+        return self.ball_count * self.ball_mass * self.pitch_radius
 
     @property
     def mass(self) -> float:
@@ -94,9 +99,10 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     beta = half_angle(diameter / 2, pitch)
     mass = body.mass + count * ball_mass
     need = required_capacity(case, imbalance, mass)
-    angles = fan(count, imbalance * need.plane_ratio / (ball_mass * pitch), beta)
-    budget = accuracy_budget(case, imbalance, mass, pitch, diameter / 2, angles)
     held = capacity(count, ball_mass, pitch, beta)
+    angles = fan(count, imbalance * abs(need.plane_ratio) / (ball_mass * pitch), beta)
+    balls = Balls(count, ball_mass, diameter / 2, pitch, held)
+    budget = accuracy_budget(case, imbalance, need, balls, angles)
     stress = strength(case, ball_mass, diameter, race_radius, body.outer_diameter)
     share = mass / case.machine_mass
     return Candidate(count, diameter, ball_mass, race_radius, held, need, body, budget, stress, share)

@@ -5,8 +5,9 @@ from bisect import bisect_left
 from dataclasses import dataclass
 from itertools import pairwise
 
-from abu_calc.sizing.capacity import plane_ratio
+from abu_calc.sizing.capacity import Requirement, plane_ratio
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.suspension import resonance_factor
 from abu_calc.units import level_from_velocity, velocity_from_level
 
 FAN_STEPS = 512
@@ -19,6 +20,7 @@ class AccuracyBudget:
     race_eccentricity: float
     rolling_friction: float
     plane_offset: float
+    shortfall: float
     residual: float
     worst: float
     permitted: float
@@ -28,6 +30,17 @@ class AccuracyBudget:
     def within(self) -> bool:
         """Whether the expected residual is permitted."""
         return self.residual <= self.permitted
+
+
+@dataclass(frozen=True)
+class Balls:
+    """The balls of one candidate [SI]: how many, mass and radius of one, pitch radius, what they can carry [kg m]."""
+
+    count: int
+    mass: float
+    radius: float
+    pitch_radius: float
+    capacity: float
 
 
 def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float, ...]:
@@ -81,12 +94,25 @@ def permitted_displacement(case: Case, added_mass: float) -> float:
 
 
 def accuracy_budget(
-    case: Case, imbalance: float, added_mass: float, pitch_radius: float, ball_radius: float, angles: tuple[float, ...]
+    case: Case,
+    imbalance: float,
+    need: Requirement,
+    balls: Balls,
+    angles: tuple[float, ...],
 ) -> AccuracyBudget:
-    """The parts of the residual: root of the sum of squares as expected, plain sum as worst."""
-    friction = friction_band(case.friction_arm, pitch_radius, ball_radius, angles)
-    parts = (case.race_eccentricity, friction, plane_rest(case, imbalance, added_mass))
-    return AccuracyBudget(*parts, math.hypot(*parts), sum(parts), permitted_displacement(case, added_mass), angles)
+    """The parts of the residual: root of the sum of squares as expected, plain sum as worst.
+
+    What the balls cannot carry of the idle imbalance comes on top of both. Friction can hold no more than all balls in
+    one place would cause.
+    """
+    carried = imbalance * abs(need.plane_ratio)
+    most = (balls.count * balls.mass * balls.pitch_radius + carried) / need.effective_mass
+    friction = min(friction_band(case.friction_arm, balls.pitch_radius, balls.radius, angles), most)
+    parts = (case.race_eccentricity, friction, plane_rest(case, imbalance, need.added_mass))
+    resonance = resonance_factor(case.suspension, case.speed, need.effective_mass)
+    missing = max(0.0, carried - balls.capacity) / need.effective_mass * resonance
+    permitted = permitted_displacement(case, need.added_mass)
+    return AccuracyBudget(*parts, missing, math.hypot(*parts) + missing, sum(parts) + missing, permitted, angles)
 
 
 def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:

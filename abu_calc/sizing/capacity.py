@@ -7,7 +7,7 @@ from abu_calc.sizing.contact import SteadyContact
 from abu_calc.sizing.suspension import dynamic_stiffness
 from abu_calc.validity import Range
 
-FRICTION = Range("cutting coefficient f", 0.0, 2.0)
+FRICTION = Range("cutting coefficient f", 0.0, 2.0, key="grinding.cutting_coefficient")
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,8 @@ def runout_factor(speed: float, natural_frequencies: tuple[float, float], fricti
 def plane_ratio(case: Case, added_mass: float = 0.0) -> float:
     """Balls' imbalance in the race plane per imbalance in the wheel plane that stills the race [1].
 
-    (1/M + a_r·a_w/J)/(1/M + a_r²/J), a places of race and wheel from the centre of mass; 1 in one plane.
+    (1/M + a_r·a_w/J)/(1/M + a_r²/J), a places of race and wheel from the centre of mass; 1 in one plane, negative for a
+    race beyond the node of the wheel, where the balls gather on the other side.
     Range: rigid body well above its suspension. Source: derived. What rests at the wheel is in the accuracy budget.
     """
     body, race = case.body, case.race_place
@@ -83,7 +84,7 @@ def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requir
         frequencies = tuple(max(0.0, 1 + d.real / (mass * case.speed**2)) ** 0.5 * case.speed for d in (dx, dy))
         factor = runout_factor(case.speed, (frequencies[0], frequencies[1]), case.contact.cutting_coefficient)
         if case.contact.kind == "compliant":
-            compliant = (imbalance + abs(steady.balancing_imbalance(case.runout))) * ratio + eccentricity
+            compliant = (imbalance + abs(steady.balancing_imbalance(case.runout))) * abs(ratio) + eccentricity
     runout = mass * case.runout * (factor or 0.0)
     return Requirement(
         added_mass=added_mass,
@@ -93,7 +94,7 @@ def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requir
         runout_part=runout,
         eccentricity_part=eccentricity,
         plane_ratio=ratio,
-        required=(imbalance + runout) * ratio + eccentricity,
+        required=(imbalance + runout) * abs(ratio) + eccentricity,
         printed_limit=imbalance + mass * case.runout,
         compliant=compliant,
     )

@@ -11,7 +11,14 @@ from abu_calc.validity import Range
 
 Region = Literal["subcritical", "between", "supercritical"]
 
-BALL_SHARE = Range("mass of one ball over the mass that moves", 0.0, 0.1, open_low=True)
+BALL_SHARE = Range(
+    "mass of one ball over the mass felt at the wheel",
+    0.0,
+    0.5,
+    open_low=True,
+    remedy="Smaller balls, or a heavier machine.",
+    key="autobalancer.ball_diameter_mm",
+)
 
 
 @dataclass(frozen=True)
@@ -31,8 +38,8 @@ class FrequencyRegion:
 def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> float:
     """How far above the natural frequency lightly damped balls still fail: (Ω−ω)/Ω > (2m/(J·M))^(1/3).
 
-    m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. Range: m/M up to 0.1, light
-    damping of balls and support; more damping of the balls narrows the gap.
+    m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. Range: m/M up to 0.5 (an
+    estimate above 0.1), light damping of balls and support; more damping of the balls narrows the gap.
     Source: derived from the averaged motion of two opposite balls; confirmed by integration of the full equations.
     Printed: Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient.
 

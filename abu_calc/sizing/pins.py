@@ -8,6 +8,8 @@ from abu_calc.standards.balls import stock_diameter, stock_diameters
 from abu_calc.units import from_si, to_si
 
 RADIUS_STEP_MM = 0.5
+MOST_BALLS = 64
+"""Nobody counts in more; only very large races would hold them."""
 
 
 def ball_diameters(case: Case) -> tuple[float, ...]:
@@ -51,7 +53,7 @@ def ball_counts(case: Case, diameter: float, race_radius: float) -> range:
     beta = half_angle(diameter / 2, race_radius - diameter / 2)
     count = case.autobalancer.ball_count
     if count is None:
-        return range(2, max(2, best_count(beta)) + 1)
+        return range(2, min(MOST_BALLS, max(2, best_count(beta))) + 1)
     if count <= most_balls(beta):
         return range(count, count + 1)
     if case.autobalancer.ball_diameter_mm is None:

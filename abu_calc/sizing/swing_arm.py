@@ -9,9 +9,10 @@ from abu_calc.spec.machine import SwingArm
 from abu_calc.units import from_si, to_si
 from abu_calc.validity import Range
 
-FRICTION = Range("cutting coefficient f", 0.0, 0.8)
-RADIUS_RATIO = Range("disk radius over arm length R/l", 0.0, 1.0)
-MODULATION = Range("κ = l·ds/J", 0.0, 0.3)
+FRICTION = Range("cutting coefficient f", 0.0, 0.8, key="swing_arm.cutting_coefficient")
+RADIUS_RATIO = Range("disk radius over arm length R/l", 0.0, 1.0, key="swing_arm.arm_length_mm")
+LEAST_SINE = 1e-6
+MODULATION = Range("κ = l·ds/J", 0.0, 0.3, key="swing_arm.moment_of_inertia_kg_m2")
 
 
 @dataclass(frozen=True)
@@ -116,13 +117,24 @@ def growth_rate(arm: Arm, imbalance: float, natural: float) -> float:
     return kappa * natural / 2 - arm.joint_damping * arm.length**2 / (2 * arm.inertia)
 
 
+def arm_stiffness(arm: Arm) -> float:
+    """Static stiffness while cutting, reduced to the arm's length [N/m]: c^(p) = c_sh + c_n·g(Z).
+
+    Negative at small contact angles, where friction lifts the wheel by itself: the arm then does not stand (static
+    divergence). Range: one contact point. Source: Kovalenko 2010, (3); the divergence is ours.
+    """
+    return arm.joint_stiffness + arm.contact_stiffness * contact_gain(
+        arm.contact_angle, arm.friction, arm.disk_radius / arm.length
+    )
+
+
 def pressed_angle(arm: Arm) -> float | None:
-    """Resting angle of the arm while cutting [rad], or nothing when the contact throws it off. Kovalenko 2010, (5')."""
-    l, f = arm.length, arm.friction  # noqa: E741
-    lever = (l * math.sin(arm.contact_angle) + f * (arm.disk_radius - l * math.cos(arm.contact_angle))) * l
-    gain = lever * arm.contact_stiffness * math.sin(arm.contact_angle)
-    stiffness = arm.joint_stiffness * l**2 + gain
-    return (arm.pressing_moment + gain * arm.touch_angle) / stiffness if stiffness > 0 else None
+    """Resting angle of the arm while cutting [rad], or nothing where the arm does not stand. Kovalenko 2010, (5')."""
+    stiffness = arm_stiffness(arm)
+    if stiffness <= 0:
+        return None
+    contact = stiffness - arm.joint_stiffness
+    return (arm.pressing_moment / arm.length**2 + contact * arm.touch_angle) / stiffness
 
 
 def swing_arm_bounds(case: Case, table: SwingArm, imbalance: float, added_mass: float) -> SwingArmBounds:
@@ -130,14 +142,16 @@ def swing_arm_bounds(case: Case, table: SwingArm, imbalance: float, added_mass: 
     arm = read_arm(case, table, added_mass)
     ratio = arm.disk_radius / arm.length
     worst, series = worst_contact_angle(arm.friction, ratio), series_gain(arm.friction, ratio)
+    exact = contact_gain(worst, arm.friction, ratio)
     natural = resonance(arm, series)
     lowest = case.speed_range[0]
     limit = stiffness_limit(arm, lowest, series)
     damping = damping_limit(arm, imbalance, natural)
     angle = pressed_angle(arm)
     return SwingArmBounds(
-        limit, stiffness_limit(arm, lowest, contact_gain(worst, arm.friction, ratio)), worst, natural, damping,
-        growth_rate(arm, imbalance, natural), angle, _checks(arm, limit, damping, angle),
+        limit, stiffness_limit(arm, lowest, exact), worst, natural, damping,
+        growth_rate(arm, imbalance, natural), angle,
+        _checks(arm, min(limit, stiffness_limit(arm, lowest, exact)), damping, angle),
     )  # fmt: skip
 
 
@@ -159,17 +173,27 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
 
 
 def _checks(arm: Arm, limit: float, damping: float, angle: float | None) -> tuple[Check, ...]:
-    stiff, damped = arm.contact_stiffness < limit, arm.joint_damping > damping
-    pressed = angle is not None and angle > arm.touch_angle
-    degrees = None if angle is None else from_si(angle, "deg")
+    stiff, damped, stiffness = arm.contact_stiffness < limit, arm.joint_damping > damping, arm_stiffness(arm)
     return (
         Check("ABU501", "arm contact stiffness", verdict(stiff), "supercritical at the lowest speed and the worst "
-              "contact angle (safe-side series); necessary, not sufficient", arm.contact_stiffness, limit, "N/m",
-              None if stiff else "A longer arm, more inertia, a higher speed, or a softer wheel."),
+              "contact angle (the safer of series and exact); necessary, not sufficient", arm.contact_stiffness, limit,
+              "N/m", None if stiff else "A longer arm, more inertia, a higher speed, or a softer wheel."),
         Check("ABU502", "arm joint damping", verdict(damped), "above what parametric resonance at twice the natural "
               "frequency can overcome", arm.joint_damping, damping, "N·s/m",
               None if damped else "More damping in the joint, or less imbalance.", "least"),
-        Check("ABU503", "arm pressed to the work", verdict(pressed), "resting angle beyond the touching angle", degrees,
-              from_si(arm.touch_angle, "deg"), "°",
-              None if pressed else "A larger pressing moment or a softer joint.", "least"),
+        Check("ABU504", "arm stands while cutting", verdict(stiffness > 0), "static stiffness with the contact,"
+              " negative where friction lifts the wheel by itself (static divergence)", stiffness, 0.0, "N/m",
+              None if stiffness > 0 else "Turn the contact angle nearer to 90°, or a much stiffer joint.", "least"),
+        _pressing(arm, angle),
     )  # fmt: skip
+
+
+def _pressing(arm: Arm, angle: float | None) -> Check:
+    """N = c_n·l·(φ − φ₀)·sin Z presses only when the arm stands and does not point along the normal."""
+    name, touch = ("ABU503", "arm pressed to the work"), from_si(arm.touch_angle, "deg")
+    if angle is None or math.sin(arm.contact_angle) < LEAST_SINE:
+        return Check(*name, "not-done", "the arm does not stand, or points along the normal, so that no force presses",
+                     None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
+    pressed = angle > arm.touch_angle
+    return Check(*name, verdict(pressed), "resting angle beyond the touching angle", from_si(angle, "deg"), touch, "°",
+                 None if pressed else "A larger pressing moment or a softer joint.", "least")  # fmt: skip

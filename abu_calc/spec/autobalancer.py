@@ -78,9 +78,9 @@ class Autobalancer(Table):
     )
     race_hardness_HRC: float = Field(
         default=60.0,
-        description="Hardness of the race [HRC]; 20 … 70, at least 58 for balls not to dent it. Default: 60, assumed.",
+        description="Hardness of the race [HRC]; 20 … 68, at least 58 for balls not to dent it. Default: 60, assumed.",
         ge=20,
-        le=70,
+        le=68,
     )
     min_wall_mm: float = Field(
         default=2.5,

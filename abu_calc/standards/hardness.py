@@ -23,7 +23,7 @@ def vickers(hrc: float) -> float:
     697.0
     """
     rows = _rows()
-    Range("hardness", rows[0][0], rows[-1][0], "HRC").check(hrc)
+    Range("hardness", rows[0][0], rows[-1][0], "HRC", key="autobalancer.race_hardness_HRC").check(hrc)
     upper = max(1, bisect_left(rows, (hrc, 0.0)))
     (low, low_hv), (high, high_hv) = rows[upper - 1], rows[upper]
     return low_hv + (hrc - low) / (high - low) * (high_hv - low_hv)

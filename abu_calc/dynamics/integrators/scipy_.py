@@ -23,12 +23,15 @@ LOOSE, ORDER = 1e-3, 8
 """Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
 tolerance alike, they would agree without being right."""
 
-MOST_STEPS = 1_000_000
-"""Some five minutes of work; a scene that needs more is stiff or too long for this method."""
+MOST_EVALUATIONS = 12_000_000
+"""Some minutes of work; a scene that needs more is stiff or too long for this method."""
 
 
 def integrate(
-    equations: Equations, tolerance: float, sample_times: Sequence[float] | NDArray[np.float64]
+    equations: Equations,
+    tolerance: float,
+    sample_times: Sequence[float] | NDArray[np.float64],
+    most_evaluations: int = MOST_EVALUATIONS,
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending.
 
@@ -59,7 +62,7 @@ def integrate(
             # SciPy's own guess depends on the unit of time (1e-6 of it for motion from rest).
             first_step=min(longest / 100, samples[-1]),
         )
-        states, steps = _march(solver, samples)
+        states, steps = _march(solver, samples, most_evaluations)
     return Trajectory(
         t=samples,
         y=states,
@@ -72,15 +75,15 @@ def integrate(
     )
 
 
-def _march(solver: "DOP853", samples: NDArray[np.float64]) -> tuple[NDArray[np.float64], int]:
+def _march(solver: "DOP853", samples: NDArray[np.float64], most_evaluations: int) -> tuple[NDArray[np.float64], int]:
     """The states at the samples, and the steps it took to get past them."""
     states = np.empty((len(solver.y), len(samples)))
     done = int(samples[0] == 0)
     states[:, :done] = solver.y[:, None]
     steps = 0
     while solver.status == "running":
-        if steps == MOST_STEPS:
-            raise _lost(solver, f"more than {MOST_STEPS} steps")
+        if solver.nfev > most_evaluations:
+            raise _lost(solver, f"more work than allowed, {solver.nfev} evaluations")
         message = solver.step()
         if message is not None or not np.isfinite(solver.y).all():
             raise _lost(solver, message or "a state is no longer finite")

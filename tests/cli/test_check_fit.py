@@ -1,0 +1,97 @@
+"""`abu check-fit`: the report, its drawing, the options."""
+
+import pytest
+
+from abu_calc.cli.check_fit import OPTIONS
+from abu_calc.report.fit_zones import zone_lines
+from abu_calc.spec.bearing import Bearing
+from tests.cli.runner import abu
+
+BARE = ("check-fit", "--bore", "80", "--outer", "140", "--width", "33", "--shaft", "m6", "--housing", "K7")
+FLESHING = ("check-fit", "mmg-3200k-knife-shaft")
+
+
+def seat(ring, part, fit):
+    return {"ring_limits_um": ring, "part_limits_um": part, "fit": fit}
+
+
+def test_bare_options_give_a_whole_result():
+    seen = abu(*BARE, "--json")
+    shaft, housing = seen.document["result"]
+    assert seen.status == 0
+    assert shaft["interference_um"] == [11, 45] and housing["interference_um"] == [-30, 28]
+    assert shaft["creep"]["verdict"] == "holds" and housing["creep"]["verdict"] == "needs no grip"
+    assert shaft["required_interference_um"] == pytest.approx(0.08 * (80 * 800 / 33) ** 0.5, abs=1e-4)
+    assert shaft["selective_groups"] is None and shaft["internal_clearance"] is None
+
+
+def test_every_key_has_an_option_that_is_taken():
+    assert set(OPTIONS) == set(Bearing.model_fields)
+    given = {"--designation": "6203", "--shaft": "m5", "--housing": "H7", "--radial-load-kN": "0.3",
+             "--series": "light", "--inner-ring-load": "rotating", "--outer-ring-load": "stationary", "--bearing-class": "6",
+             "--chamfer": "0.5", "--shaft-rz": "2", "--housing-rz": "3", "--ring-temperature-difference": "3",
+             "--speed": "5800", "--shaft-bore": "4", "--housing-outer": "70", "--housing-material": "aluminium",
+             "--internal-clearance": "C3", "--raceway-temperature-difference": "5", "--starting-torque": "0.5",
+             "--seat-friction": "0.1", "--asked-interference": "3:18", "--name": "spindle"}  # fmt: skip
+    assert set(given) | {"--bore", "--outer", "--width"} == set(OPTIONS.values())
+    seen = abu("check-fit", *(word for pair in given.items() for word in pair), "--json")
+    shaft = seen.document["result"][0]
+    assert shaft["name"] == "spindle" and shaft["asked_interference_um"] == [3, 18]
+    assert {loss["name"] for loss in shaft["losses"]} == {"load", "smoothing", "temperature", "centrifugal growth"}
+    assert shaft["internal_clearance"]["group"] == "C3" and shaft["creep"]["holds_at_start"] is not None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [(("--asked-interference", "10-28"), ("--asked-interference", "LEAST:MOST")),
+     (("--asked-interference", "28:10"), ("ascend",)), (("--internal-clearance", "C7"), ("C7", "CN")),
+     (("--set", "bearing[0].shaft_fit=m6"), ("--set",)), (("--seat-friction", "2"), ("--seat-friction",)),
+     (("--speed", "nan"), ("--speed",))],
+)  # fmt: skip
+def test_wrong_options_are_refused(arguments, said):
+    seen = abu(*BARE, *arguments)
+    assert seen.status == 2 and not seen.out
+    assert all(word in seen.err for word in said), seen.err
+
+
+@pytest.mark.parametrize("width", [60, 80])
+def test_the_report_fits_its_width(monkeypatch, width):
+    monkeypatch.setenv("COLUMNS", str(width))
+    out = abu(*FLESHING).out
+    assert max(map(len, out.splitlines())) <= width
+    for words in ("may creep", "Write m6", "zero line", "positive when tight", "Fields that pass", "For the drawing"):
+        assert words in " ".join(out.split())
+
+
+def test_explain_puts_the_numbers_in():
+    out = " ".join(abu(*FLESHING, "--explain", "--set", "bearing[0].shaft_rz_um=4.0").out.split())
+    for line in ("13·3·2.8/29 = 3.766 µm", "0.08·√(80·3000/33) = 6.822 µm", "2 − (0) … 21 − (-15) = 2 … 36 µm",
+                 "0.4·4 µm = 1.6 µm", "Source: Lamé", "Afanasiev 2015"):  # fmt: skip
+        assert line in out
+
+
+def test_the_drawing_of_the_source():
+    lines = zone_lines(seat([-15, 0], [2, 21], "k6"), seat([-18, 0], [-28, 12], "K7"))
+    zero = next(i for i, line in enumerate(lines) if "+---" in line)
+    assert all(ord(character) < 128 for line in lines for character in line)
+    assert max(map(len, lines)) <= 58
+    above, below = "".join(lines[1:zero]), "".join(lines[zero + 1 :])
+    assert "/" not in above and "/" in below  # rings lie below the zero line
+    assert "k6" in above and "k6" not in below
+    assert "+21" in above and "-15" in below and "-28" in below and "+12" in above
+
+
+@pytest.mark.parametrize("part", [[-33, -20], [0, 9], [-9.5, 9.5], [-6, 0], [63, 131], [0, 4]])
+def test_zones_stand_where_their_limits_are(part):
+    """Rows that hold the part's mark, by the scale at their left, against the limits."""
+    lines = zone_lines(seat([-8, 0], part, "x1"), seat([-8, 0], part, "x1"))
+    zero = next(i for i, line in enumerate(lines) if "+---" in line)
+    scale = abs(int(lines[zero + 1].split("|")[0]))
+    for number, line in enumerate(lines[1:], 1):
+        if number == zero:
+            continue
+        edge = int(line.split("|")[0])
+        middle = edge - scale / 2 if number < zero else edge + scale / 2
+        if part[1] - part[0] > 2 * scale:
+            assert ("#" in line) == (part[0] < middle < part[1]), line
+    assert sum("#" in line for line in lines) >= 1

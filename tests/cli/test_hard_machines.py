@@ -1,0 +1,111 @@
+"""Machines at the edge of what a file may say: an answer with its reason in bounded work, never a crash."""
+
+import pytest
+
+from abu_calc.analysis.idle import WORK
+from tests.cli.runner import abu
+
+STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
+
+
+def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
+    seen = abu("size", name, "--json", *(word for entry in entries for word in ("--set", entry)))
+    assert seen.status in (0, 1), seen.err
+    document = seen.document
+    for run in document["result"]["simulation"]:
+        # The last of two runs may start just before the bound and is stopped at it.
+        assert run["cost"]["evaluations"] <= WORK + 20
+    return seen.status, {check["code"]: check for check in document["checks"]}, document["result"]
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.1, 0.25, 0.9])
+@pytest.mark.parametrize("drag", [15, 45, 92])
+def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: float) -> None:
+    """The suspension's own sway may outlast the balls; they balance all the same."""
+    status, checks, result = _checks(
+        STRAIGHT, f"suspension.damping_ratios={damping}", f"autobalancer.rolling_drag_per_s={drag}"
+    )
+    assert status == 0, [check for check in checks.values() if check["status"] != "pass"]
+    assert result["simulation"][0]["residual_imbalance_g_mm"] < 25.6
+
+
+@pytest.mark.parametrize("drag", [0, 0.1, 1, 1e5])
+def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> None:
+    status, checks, result = _checks(STRAIGHT, f"autobalancer.rolling_drag_per_s={drag}")
+    assert status == 1 and result["autobalancer"]["ball_count"] == 4
+    assert checks["ABU701"]["status"] in ("not-done", "fail") and checks["ABU701"]["remedy"]
+
+
+def test_zero_imbalance_has_finite_numbers() -> None:
+    _, checks, result = _checks(STRAIGHT, "wheel.imbalance_g_mm=0", "autobalancer.ball_count=2")
+    assert result["imbalance_g_mm"] == 0
+    assert all(check["value"] is None or abs(check["value"]) < 1e9 for check in checks.values())
+
+
+def test_a_race_beyond_the_node_needs_balls_on_the_other_side() -> None:
+    entries = ("machine.transverse_inertia_kg_m2=0.01", "machine.center_of_mass_to_wheel_mm=200")
+    _, checks, result = _checks(STRAIGHT, *entries, "autobalancer.plane_offset_mm=-300")
+    assert result["required_capacity_g_mm"] > result["imbalance_g_mm"] > 0
+    assert checks["ABU205"]["value"] > 0
+
+
+def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
+    pins = ("ball_count=8", "ball_diameter_mm=16.0", "race_radius_mm=30.0")
+    _, checks, result = _checks(STRAIGHT, *(f"autobalancer.{pin}" for pin in pins))
+    assert checks["ABU201"]["status"] == "fail" and checks["ABU701"]["status"] == "not-done"
+    budget = result["accuracy_budget"]
+    short = result["imbalance_g_mm"] - result["autobalancer"]["capacity_g_mm"]
+    assert budget["capacity_shortfall_um"] == pytest.approx(
+        1e-6 * short / result["effective_mass_kg"] * 1e9 / 1e3, rel=0.01
+    )
+    assert budget["residual_um"] > budget["capacity_shortfall_um"]
+
+
+@pytest.mark.parametrize(
+    "entries",
+    [
+        ("machine.speed_rpm=1",),
+        ("machine.speed_rpm=300000", "wheel.imbalance_g_mm=1"),
+        ("suspension.natural_frequencies_hz=[10000.0, 10000.0]",),
+        ("suspension.natural_frequencies_hz=[96.6666666667, 96.6666666667]",),
+        ("suspension.natural_frequencies_hz=[96.0, 97.0]", "suspension.damping_ratios=0"),
+        ("autobalancer.ball_diameter_mm=0.5",),
+        ("autobalancer.max_outer_diameter_mm=3000", "autobalancer.max_width_mm=500"),
+        ("wheel.imbalance_g_mm=1e9",),
+        ("machine.mass_kg=0.01", "wheel.mass_kg=0.1", "wheel.imbalance_g_mm=1"),
+        ("machine.mass_kg=10000", "wheel.mass_kg=100"),
+        ("autobalancer.corrector=roller",),
+        ("autobalancer.design=bearing-ring",),
+        ("grinding.contact_stiffness_N_per_m=3e6",),
+        ("grinding.cutting_coefficient=0",),
+        ("wheel.runout_mm=10",),
+        ("autobalancer.rolling_friction_mm=1",),
+        ("machine.background_level_db=110.9",),
+    ],
+    ids=lambda entries: " ".join(entries)[:60],
+)
+def test_edges_are_answered(entries: tuple[str, ...]) -> None:
+    status, checks, _ = _checks(STRAIGHT, *entries)
+    assert (status == 0) is all(check["status"] == "pass" for check in checks.values())
+
+
+@pytest.mark.parametrize(
+    ("angle", "codes"), [(0, {"ABU503"}), (5, {"ABU503", "ABU504"}), (180, {"ABU503"}), (90, set())]
+)
+def test_an_arm_that_does_not_press_or_stand(angle: float, codes: set[str]) -> None:
+    """At 0.09 rad g(Z) is −0.02: static divergence; at 0 and 180° no normal force turns the arm."""
+    _, checks, _ = _checks(ARM, f"swing_arm.contact_angle_deg={angle}")
+    assert {code for code, check in checks.items() if check["status"] != "pass"} == codes
+
+
+@pytest.mark.parametrize(
+    ("entry", "key"),
+    [
+        ("swing_arm.cutting_coefficient=0.81", "swing_arm.cutting_coefficient"),
+        ("swing_arm.arm_length_mm=100", "swing_arm.arm_length_mm"),
+        ("autobalancer.race_hardness_HRC=69", "autobalancer.race_hardness_HRC"),
+    ],
+)
+def test_a_range_of_a_formula_names_the_key(entry: str, key: str) -> None:
+    seen = abu("size", ARM, "--set", entry)
+    assert seen.status == 2 and key in seen.err
