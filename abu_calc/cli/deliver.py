@@ -1,5 +1,6 @@
 """From a command's outcome, or its error, to what people and programs get to see."""
 
+import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,9 +44,9 @@ def deliver(outcome: Outcome, how: Delivery) -> int:
     elif outcome.plain is not None:
         print(outcome.plain, end="")
     else:
-        from abu_calc.report.text import console, show
+        from abu_calc.report.text import show
 
-        show(outcome.blocks, console(color=how.color))
+        show(outcome.blocks, color=how.color and not os.environ.get("NO_COLOR"))
     return outcome.exit_status
 
 

@@ -1,4 +1,4 @@
-"""`abu schema [machine]`: the JSON Schema of the files, for editors."""
+"""`abu schema [machine|scene]`: the JSON Schema of the files, for editors."""
 
 from typing import Annotated
 
@@ -8,18 +8,18 @@ from abu_calc.cli.command import add_command
 from abu_calc.errors import InputError
 from abu_calc.report.outcome import Outcome, to_json
 
-KINDS = ("machine",)
+KINDS = ("machine", "scene")
 
 
 def schema(
-    kind: Annotated[str, typer.Argument(metavar="[machine]", help="Which kind of file.")] = "machine",
+    kind: Annotated[str, typer.Argument(metavar="[machine|scene]", help="Which kind of file.")] = "machine",
 ) -> Outcome:
-    """Print the JSON Schema (draft 4) of machine files, as the editor plugin Even Better TOML takes it."""
-    from abu_calc.spec.schema import machine_schema
+    """Print the JSON Schema (draft 4) of machine or scene files, as the editor plugin Even Better TOML takes it."""
+    from abu_calc.spec.schema import machine_schema, scene_schema
 
     if kind not in KINDS:
         raise InputError("no schema of this kind", found=kind, allowed=", ".join(KINDS))
-    found = machine_schema()
+    found = scene_schema() if kind == "scene" else machine_schema()
     return Outcome("schema", found, (), plain=to_json(found) + "\n")
 
 

@@ -11,15 +11,15 @@ from abu_calc.report.outcome import Outcome
 
 
 def validate(
-    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine files, or names of presets.")],
+    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine or scene files, or names of presets.")],
 ) -> Outcome:
-    """Check machine files: keys, types, ranges, rules between keys. Computes nothing."""
-    from abu_calc.cli.load import load
+    """Check machine and scene files: keys, types, ranges, rules between keys. Computes nothing."""
+    from abu_calc.cli.load import load_any
 
     results, blocks, faults = [], list[Block](), list[InputError]()
     for file in files:
         try:
-            loaded = load(file)
+            loaded = load_any(file)
         except InputError as error:
             faults.append(error)
             continue

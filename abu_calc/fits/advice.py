@@ -21,20 +21,16 @@ _SLIDING: Final = ("h", "g")
 _LENGTH = Range("length of the seat", 0.0, 10.0, "m", open_low=True)
 
 
-def recommended_class(joint: Joint) -> str | None:
-    """The tolerance class to choose, of the given grade if one will do, else of the usual one; None if none will.
+def admissible(joint: Joint) -> tuple[Joint, ...]:
+    """The joint with every tabulated class that passes both checks, the one to choose first.
 
-    A ring that must grip: the loosest class that passes both checks. A ring under a load fixed in direction: the given
-    class when it passes and is loose in half of all pairs, else h (H), else g (G).
+    Classes of the given grade go before those of the usual one, these before others. A ring that must grip: the loosest
+    first. A ring under a load fixed in direction: those loose in half of all pairs go before the tighter ones, among
+    them the given class, then h (H), then g (G), then the others.
     """
-    if not joint.must_grip and _slides(joint):
-        return joint.tolerance_class
-    for grade in dict.fromkeys((_grade(joint.tolerance_class), _USUAL_GRADE[joint.seat])):
-        classes = [name for name in tolerance_classes(joint.seat) if _grade(name) == grade]
-        for candidate in _gripping(joint, classes) if joint.must_grip else _sliding(joint, classes):
-            if candidate.grips and candidate.bears:
-                return candidate.tolerance_class
-    return None
+    joints = (joint.with_class(name) for name in tolerance_classes(joint.seat))
+    passing = [one for one in joints if one.grips and one.bears]
+    return tuple(sorted(passing, key=lambda one: (*_preference(one, joint), *_tightness(one))))
 
 
 def load_intensity(load: float, seat_length: float) -> float:
@@ -67,18 +63,19 @@ def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
     return None
 
 
-def _slides(joint: Joint) -> bool:
-    return joint.bears and joint.clearance_probability >= LOOSE_ENOUGH
+def _preference(one: Joint, given: Joint) -> tuple[bool, bool, int, int]:
+    grade, letter = _grade(one.tolerance_class), _letter(one.tolerance_class)
+    grades = (_grade(given.tolerance_class), _USUAL_GRADE[given.seat])
+    by_grade = grades.index(grade) if grade in grades else len(grades)
+    if given.must_grip:
+        return False, False, by_grade, 0
+    by_letter = _SLIDING.index(letter) if letter in _SLIDING else len(_SLIDING)
+    slides = one.clearance_probability >= LOOSE_ENOUGH
+    return not slides, one.tolerance_class != given.tolerance_class, by_grade, by_letter + (letter == _RUNNING)
 
 
-def _gripping(joint: Joint, classes: list[str]) -> list[Joint]:
-    joints = [joint.with_class(name) for name in classes if _letter(name) != _RUNNING]
-    return sorted(joints, key=lambda one: (one.interference.smallest, one.interference.largest))
-
-
-def _sliding(joint: Joint, classes: list[str]) -> list[Joint]:
-    joints = [joint.with_class(name) for letter in _SLIDING for name in classes if _letter(name) == letter]
-    return [one for one in joints if _slides(one)]
+def _tightness(one: Joint) -> tuple[float, float]:
+    return one.interference.smallest, one.interference.largest
 
 
 def _letter(tolerance_class: str) -> str:

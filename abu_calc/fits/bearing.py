@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from abu_calc.errors import InputError
-from abu_calc.standards.bearings import Dimensions, bearing
+from abu_calc.errors import InputError, Place
+from abu_calc.standards.bearings import Dimensions, bearing, of_size
 from abu_calc.standards.limits import BearingType
 from abu_calc.units import from_si, to_si
 from abu_calc.validity import Range
@@ -21,6 +21,9 @@ _OTHERS = (
     ("shaft_roughness", Range("shaft roughness Rz", 0.0, 1e-3, "m")),
     ("housing_roughness", Range("housing roughness Rz", 0.0, 1e-3, "m")),
     ("temperature_difference", Range("ring temperature difference", 0.0, 500.0, "K")),
+    ("raceway_temperature_difference", Range("raceway temperature difference", 0.0, 500.0, "K")),
+    ("starting_torque", Range("starting torque", 0.0, 1e7, "N·m")),
+    ("seat_friction", Range("friction coefficient of the seat", 0.0, 1.0)),
     ("speed", Range("ring speed", 0.0, 1e5, "rad/s")),
 )
 
@@ -29,7 +32,9 @@ _OTHERS = (
 class Bearing:
     """A bearing and its seats. Lengths [m], load [N], speed [rad/s], temperature [K]; None: not given.
 
-    `temperature_difference` is by how much the inner ring is warmer than its shaft.
+    `temperature_difference` is by how much the inner ring is warmer than its shaft, `raceway_temperature_difference`
+    by how much it is warmer than the outer ring. `chamfer_from` names the tabulated bearing of the same sizes that
+    lends its chamfers.
     """
 
     name: str
@@ -54,6 +59,12 @@ class Bearing:
     shaft_bore: float = 0.0
     housing_outer: float | None = None
     housing_material: str = "steel"
+    internal_clearance: str | None = None
+    raceway_temperature_difference: float | None = None
+    starting_torque: float | None = None
+    seat_friction: float = 0.12
+    asked_interference: tuple[float, float] | None = None
+    chamfer_from: str | None = None
 
     def __post_init__(self) -> None:
         for size in (self.bore, self.outer, self.inner_width, self.outer_width):
@@ -68,16 +79,23 @@ class Bearing:
             _ascending("outside diameter", self.outer, "housing diameter", self.housing_outer)
         _ascending("two chamfers", 2 * (self.inner_chamfer or 0), "inner ring width", self.inner_width)
         _ascending("two chamfers", 2 * (self.outer_chamfer or 0), "outer ring width", self.outer_width)
+        if self.asked_interference is not None and not self.asked_interference[0] < self.asked_interference[1]:
+            raise InputError("the band of interference must ascend", place=Place(key="asked_interference_um"))
 
 
 def from_table(table: "BearingTable") -> Bearing:
     """The bearing that a table describes; a designation is looked up, an explicit chamfer goes before its own.
 
-    A bearing given by sizes alone is taken as radial. InputError: neither designation nor all sizes, sizes that
-    contradict the designation or each other, an unknown designation.
+    A bearing given by sizes alone is taken as radial; without a chamfer it has that of the tabulated bearing of its
+    sizes, if there is one. InputError: neither designation nor all sizes, sizes that contradict the designation or
+    each other, an unknown designation, a clearance group of a bearing that has none.
     """
     size = _by_designation(table) if table.designation is not None else _by_sizes(table)
-    inner_chamfer, outer_chamfer = _chamfers(table, size)
+    like = size if table.designation is not None else of_size(size.bore, size.outer, size.inner_width)
+    inner_chamfer, outer_chamfer = _chamfers(table, like)
+    _check_group(table, size)
+    lent = table.designation is None and table.chamfer_mm is None and like is not None
+    asked = table.asked_interference_um
     return Bearing(
         name=table.name,
         type=size.type,
@@ -101,6 +119,12 @@ def from_table(table: "BearingTable") -> Bearing:
         shaft_bore=_si(table.shaft_bore_mm, "mm") or 0.0,
         housing_outer=_si(table.housing_outer_mm, "mm"),
         housing_material=table.housing_material,
+        internal_clearance=table.internal_clearance,
+        raceway_temperature_difference=_si(table.raceway_temperature_difference_K, "K"),
+        starting_torque=_si(table.starting_torque_N_m, "N_m"),
+        seat_friction=table.seat_friction,
+        asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
+        chamfer_from=like.designation if lent and like else None,
     )
 
 
@@ -129,12 +153,22 @@ def _by_sizes(table: "BearingTable") -> Dimensions:
     return Dimensions("", "radial", bore, outer, width, 0.0, width, 0.0)
 
 
-def _chamfers(table: "BearingTable", size: Dimensions) -> tuple[float | None, float | None]:
-    """Of the inner and the outer ring; not known where neither the table nor a designation tells."""
-    if table.chamfer_mm is not None or table.designation is None:
+def _chamfers(table: "BearingTable", like: Dimensions | None) -> tuple[float | None, float | None]:
+    """Of the inner and the outer ring; not known where neither the table nor a tabulated bearing tells."""
+    if table.chamfer_mm is not None or like is None:
         given = _si(table.chamfer_mm, "mm")
         return given, given
-    return size.inner_chamfer, size.outer_chamfer
+    return like.inner_chamfer, like.outer_chamfer
+
+
+def _check_group(table: "BearingTable", size: Dimensions) -> None:
+    if table.internal_clearance is not None and size.designation and not size.deep_groove:
+        raise InputError(
+            f"the groups of radial clearance are those of deep groove ball bearings, {size.designation} is none",
+            place=Place(key="internal_clearance"),
+            found=table.internal_clearance,
+            remedy="Leave internal_clearance out: the clearance of such a bearing is set when it is mounted.",
+        )
 
 
 def _si(value: float | None, unit: str) -> float | None:

@@ -2,42 +2,35 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
-from abu_calc.fits.bearing import Bearing, RingLoad
+from abu_calc.fits.bearing import RingLoad
 from abu_calc.fits.interference import Interval, clearance_probability, theoretical_interference
-from abu_calc.fits.requirement import (
-    SERIES_FACTORS,
-    centrifugal_loss,
-    creep_interference,
-    load_loss,
-    smoothing_loss,
-    temperature_loss,
-)
-from abu_calc.fits.stress import (
-    PERMITTED_RING_STRESS,
-    Tube,
-    inner_ring_diameter,
-    inner_ring_stress,
-    outer_ring_diameter,
-    outer_ring_stress,
-)
-from abu_calc.standards.balls import seat_material
-from abu_calc.standards.limits import Limits, Seat, part_limits, ring_limits
+from abu_calc.fits.requirement import creep_interference, load_loss
+from abu_calc.fits.stress import PERMITTED_RING_STRESS
+from abu_calc.standards.limits import Limits, Seat, part_limits
 
 
-@dataclass(frozen=True)
-class Bound:
+class Bound(NamedTuple):
     """A bound on the interference [m] and the criterion that sets it."""
 
     value: float
     by: str
 
 
+class Loss(NamedTuple):
+    """What service takes from the interference [m], by which formula."""
+
+    name: str
+    value: float
+    formula: str
+
+
 @dataclass(frozen=True)
 class Joint:
     """One ring on its seat. Lengths [m]; `length` of the seat between the chamfers, None where they are not known;
-    `losses` [m] by name, only those that the input asks for; `stress_rate` hoop stress of the ring per interference
-    [Pa/m]."""
+    `losses` only those that the input asks for. Per interference: `pressure_rate` [Pa/m], `stress_rate` hoop stress of
+    the ring [Pa/m], `raceway_rate` change of the raceway's diameter [1]."""
 
     seat: Seat
     tolerance_class: str
@@ -48,8 +41,10 @@ class Joint:
     ring_load: RingLoad
     radial_load: float | None
     factor: float
-    losses: tuple[tuple[str, float], ...]
+    losses: tuple[Loss, ...]
+    pressure_rate: float
     stress_rate: float
+    raceway_rate: float
 
     def with_class(self, tolerance_class: str) -> "Joint":
         """The same joint with its part to another tolerance class."""
@@ -65,12 +60,12 @@ class Joint:
         """Limits of the part inside and of the part around it."""
         return (self.part, self.ring) if self.seat == "shaft" else (self.ring, self.part)
 
-    @property
+    @cached_property
     def interference(self) -> Interval:
         """Theoretical interference."""
         return theoretical_interference(*self.male_and_female)
 
-    @property
+    @cached_property
     def clearance_probability(self) -> float:
         """Probability that a pair is loose."""
         return clearance_probability(*self.male_and_female)
@@ -90,13 +85,13 @@ class Joint:
             Bound(load_loss(self.radial_load, self.diameter, self.width), "0.08·√(d·F_r/B) (bearing catalogues)"),
         )
 
-    @property
+    @cached_property
     def required(self) -> Bound | None:
         """The larger of the criteria with the losses given; None where there is no criterion."""
         if not self.criteria:
             return None
         larger = max(self.criteria, key=lambda bound: bound.value)
-        return Bound(larger.value + sum(value for _, value in self.losses), larger.by)
+        return Bound(larger.value + sum(loss.value for loss in self.losses), larger.by)
 
     @property
     def permitted(self) -> Bound:
@@ -122,56 +117,10 @@ class Joint:
         """Whether the tightest pair is permitted."""
         return self.interference.largest <= self.permitted.value
 
-
-def shaft_joint(bearing: Bearing) -> Joint:
-    """The inner ring on the shaft."""
-    steel = seat_material("steel")
-    ring_diameter = inner_ring_diameter(bearing.bore, bearing.outer)
-    shaft, ring = Tube(bearing.shaft_bore / bearing.bore, steel), Tube(bearing.bore / ring_diameter, steel)
-    losses = []
-    if bearing.shaft_roughness is not None:
-        losses.append(("smoothing", smoothing_loss(bearing.shaft_roughness)))
-    if bearing.temperature_difference is not None:
-        difference = bearing.temperature_difference
-        losses.append(("temperature", temperature_loss(steel.expansion, bearing.bore, difference)))
-    if bearing.speed is not None:
-        growth = centrifugal_loss(bearing.speed, bearing.bore, ring_diameter, bearing.shaft_bore, steel)
-        losses.append(("centrifugal growth", growth))
-    return Joint(
-        seat="shaft",
-        tolerance_class=bearing.shaft_fit,
-        diameter=bearing.bore,
-        width=bearing.inner_width,
-        length=_length(bearing.inner_width, bearing.inner_chamfer),
-        ring=ring_limits(bearing.type, "inner", bearing.bearing_class, bearing.bore),
-        ring_load=bearing.inner_ring_load,
-        radial_load=bearing.radial_load,
-        factor=SERIES_FACTORS[bearing.series],
-        losses=tuple(losses),
-        stress_rate=inner_ring_stress(1.0, bearing.bore, shaft, ring),
-    )
+    @property
+    def lasting_losses(self) -> float:
+        """Losses [m] that are there when the shaft starts to turn: all but the growth by speed."""
+        return sum(loss.value for loss in self.losses if loss.name != CENTRIFUGAL)
 
 
-def housing_joint(bearing: Bearing) -> Joint:
-    """The outer ring in the housing. A ring warmer than its housing sits tighter, so that is no loss here."""
-    ring_ratio = outer_ring_diameter(bearing.bore, bearing.outer) / bearing.outer
-    ratio = 0.0 if bearing.housing_outer is None else bearing.outer / bearing.housing_outer
-    ring, housing = Tube(ring_ratio, seat_material("steel")), Tube(ratio, seat_material(bearing.housing_material))
-    rough = bearing.housing_roughness
-    return Joint(
-        seat="housing",
-        tolerance_class=bearing.housing_fit,
-        diameter=bearing.outer,
-        width=bearing.outer_width,
-        length=_length(bearing.outer_width, bearing.outer_chamfer),
-        ring=ring_limits(bearing.type, "outer", bearing.bearing_class, bearing.outer),
-        ring_load=bearing.outer_ring_load,
-        radial_load=bearing.radial_load,
-        factor=SERIES_FACTORS[bearing.series],
-        losses=() if rough is None else (("smoothing", smoothing_loss(rough)),),
-        stress_rate=outer_ring_stress(1.0, bearing.outer, ring, housing),
-    )
-
-
-def _length(width: float, chamfer: float | None) -> float | None:
-    return None if chamfer is None else width - 2 * chamfer
+CENTRIFUGAL = "centrifugal growth"

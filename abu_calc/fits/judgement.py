@@ -1,11 +1,13 @@
-"""The checks of a seat."""
+"""The checks of a seat, and of the clearance left in its bearing."""
 
 from abu_calc.checks import Check, verdict
 from abu_calc.fits.advice import LOOSE_ENOUGH
+from abu_calc.fits.clearance import ClearanceLeft
+from abu_calc.fits.creep import Creep
 from abu_calc.fits.joint import Joint
 from abu_calc.units import from_si
 
-_CODES = {"shaft": ("ABU601", "ABU602"), "housing": ("ABU611", "ABU612")}
+_CODES = {"shaft": ("ABU601", "ABU602", "ABU603"), "housing": ("ABU611", "ABU612", "ABU613")}
 _NAMES = {"shaft": "seat on the shaft", "housing": "seat in the housing"}
 
 
@@ -16,19 +18,50 @@ def seat_checks(bearing: str, joint: Joint, recommended: str | None) -> tuple[Ch
     return _grip(bearing, joint, recommended), _stress(bearing, joint, recommended)
 
 
+def start_checks(
+    bearing: str, joint: Joint, creep: Creep, torque: float | None, recommended: str | None
+) -> tuple[Check, ...]:
+    """Whether the least interference carries the starting torque; no check without one, or where none is needed."""
+    if torque is None or not joint.must_grip:
+        return ()
+    code, name = _CODES[joint.seat][2], f"hold of the {_NAMES[joint.seat]} at the start, {bearing}"
+    if creep.least_moment is None:
+        said = "no chamfer is given, so the length of the seat is not known"
+        return (Check(code, name, "not-done", said, None, torque, "N·m", "Give chamfer_mm.", "least"),)
+    passed = bool(creep.holds_at_start)
+    return (Check(
+        code, name, verdict(passed), f"friction moment of {joint.tolerance_class} at its least "
+        "interference, losses taken off, against the starting torque", creep.least_moment, torque, "N·m",
+        None if passed else _remedy(recommended), "least",
+    ),)  # fmt: skip
+
+
+def clearance_checks(bearing: str, left: ClearanceLeft | None) -> tuple[Check, ...]:
+    """Whether the probable clearance left after mounting stays above zero; no check without a clearance group."""
+    if left is None:
+        return ()
+    passed = left.probable.smallest >= 0
+    choice = f"{left.group_to_choose} keeps it." if left.group_to_choose else "No group keeps it: looser fits."
+    return (Check(
+        "ABU621", f"clearance left in the bearing, {bearing}", verdict(passed), f"least probable radial clearance of "
+        f"group {left.group} after mounting", _um(left.probable.smallest), 0.0, "µm",
+        None if passed else choice, "least",
+    ),)  # fmt: skip
+
+
 def _grip(bearing: str, joint: Joint, recommended: str | None) -> Check:
-    code, name = _CODES[joint.seat][0], _NAMES[joint.seat]
+    code, name = _CODES[joint.seat][0], f"{_NAMES[joint.seat]}, {bearing}"
     smallest, required = _um(joint.interference.smallest), joint.required
     if required is None:
         missing = "radial load" if joint.radial_load is None else "chamfer"
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
         return Check(
-            code, name, "not-done", f"{bearing}: no {missing} is given, so the interference that the ring needs is not "
+            code, name, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
             "known", smallest, None, "µm", f"Give {key}.",
         )  # fmt: skip
     passed = bool(joint.grips)
     return Check(
-        code, name, verdict(passed), f"{bearing}: least interference of {joint.tolerance_class} against what the ring "
+        code, name, verdict(passed), f"least interference of {joint.tolerance_class} against what the ring "
         f"needs under a {joint.ring_load} load by {required.by}{_losses(joint)}", smallest, _um(required.value), "µm",
         None if passed else _remedy(recommended), "least",
     )  # fmt: skip
@@ -44,8 +77,8 @@ def _loose(bearing: str, joint: Joint) -> Check:
             "spread its wear and is hard to move along its seat"
         )
     return Check(
-        _CODES[joint.seat][0], _NAMES[joint.seat], "pass",
-        f"{bearing}: least interference of {joint.tolerance_class}; {judgement}", _um(joint.interference.smallest),
+        _CODES[joint.seat][0], f"{_NAMES[joint.seat]}, {bearing}", "pass",
+        f"least interference of {joint.tolerance_class}; {judgement}", _um(joint.interference.smallest),
         None, "µm", None, "least",
     )  # fmt: skip
 
@@ -53,15 +86,15 @@ def _loose(bearing: str, joint: Joint) -> Check:
 def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     permitted, passed = joint.permitted, joint.bears
     return Check(
-        _CODES[joint.seat][1], f"largest interference of the {_NAMES[joint.seat]}", verdict(passed),
-        f"{bearing}: largest interference of {joint.tolerance_class} against what is permitted by {permitted.by}; hoop "
+        _CODES[joint.seat][1], f"largest interference, {_NAMES[joint.seat]}, {bearing}", verdict(passed),
+        f"largest interference of {joint.tolerance_class} against what is permitted by {permitted.by}; hoop "
         f"stress of the ring {from_si(joint.hoop_stress, 'MPa'):.0f} MPa", _um(joint.interference.largest),
         _um(permitted.value), "µm", None if passed else _remedy(recommended),
     )  # fmt: skip
 
 
 def _losses(joint: Joint) -> str:
-    return "".join(f" + {name} {_um(value):.1f} µm" for name, value in joint.losses)
+    return "".join(f" + {loss.name} {_um(loss.value):.1f} µm" for loss in joint.losses)
 
 
 def _remedy(recommended: str | None) -> str:

@@ -1,7 +1,6 @@
 """Stress in a ring pressed on a shaft or into a housing, by Lamé."""
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from abu_calc.standards.balls import Material
 from abu_calc.validity import Range
@@ -19,8 +18,7 @@ _RATIO = Range("ratio of a tube's diameters", 0.0, 0.999)
 _DIAMETER = Range("diameter of the seat", 0.0, 10.0, "m", open_low=True)
 
 
-@dataclass(frozen=True)
-class Tube:
+class Tube(NamedTuple):
     """One part of a joint: ratio of its inner to its outer diameter (0: solid shaft, endless housing), material."""
 
     ratio: float
@@ -74,6 +72,20 @@ def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: T
     97.5
     """
     return contact_pressure(interference, diameter, shaft, ring) * ring.hoop_at_bore
+
+
+def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
+    """Change [m] of the diameter of a ring's raceway under the pressure p [Pa] of its seat: 2·p·q·d/[(1−q²)·E].
+
+    d diameter of the seat [m]; an inner ring grows outside, an outer one shrinks inside, by the same formula. On a
+    solid shaft of the ring's steel that is q·δ. Range and source as for `contact_pressure`.
+
+    >>> steel = Material("steel", 7800.0, 206e9, 0.3, 12e-6)
+    >>> ring = Tube(0.8, steel)
+    >>> round(1e6 * raceway_change(contact_pressure(10e-6, 0.080, Tube(0.0, steel), ring), 0.080, ring), 6)
+    8.0
+    """
+    return pressure * ring.hoop_under_pressure_outside * ring.ratio * diameter / ring.material.youngs_modulus
 
 
 def outer_ring_stress(interference: float, diameter: float, ring: Tube, housing: Tube) -> float:

@@ -71,6 +71,15 @@ QUANTITIES: Final[Mapping[str, Quantity]] = {
     "velocity_rms_mm_per_s": Quantity("velocity rms", "v", 3),
     "level_db": Quantity("level", "L", 4),
     "error_estimate": Quantity("error estimate", "", 2),
+    "unbalanced_amplitude_mm": Quantity("axis amplitude without balls", "A₀", 3),
+    "t_s": Quantity("time", "t"),
+    "x_mm": Quantity("axis, along the work", "x", 3),
+    "y_mm": Quantity("axis, away from the work", "y", 3),
+    "vx_mm_per_s": Quantity("velocity along the work", "x'", 3),
+    "vy_mm_per_s": Quantity("velocity away from the work", "y'", 3),
+    "speed_rpm": Quantity("speed", "Ω", 6),
+    "growth_rate_per_s": Quantity("growth rate of a disturbance", "max Re λ", 4),
+    "resting_angles_deg": Quantity("balls rest at", "θ", 5),
 }
 
 UNITLESS: Final = frozenset({"mass_fraction", "capacity_ratio", "region", "scene"})

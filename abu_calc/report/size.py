@@ -1,21 +1,22 @@
 """A design and its simulations as the result of `abu size`: SI in, keys and units of the interface out."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from abu_calc.analysis.idle import left_out
 from abu_calc.analysis.simulate import Simulation
-from abu_calc.report.fits import seats_result
 from abu_calc.report.outcome import finite
 from abu_calc.report.simulation import simulation_result
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import AccuracyBudget, friction_band
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.frequency import FrequencyRegion
-from abu_calc.sizing.swing_arm import SwingArmBounds
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import Levels, Vibration
 from abu_calc.units import from_si
+
+if TYPE_CHECKING:
+    from abu_calc.sizing.swing_arm import SwingArmBounds
 
 Result = dict[str, Any]
 
@@ -40,7 +41,7 @@ def size_result(design: Design, simulations: Sequence[Simulation]) -> Result:
         "vibration": _vibration(design.idle),
         "vibration_loaded": None if design.loaded is None else _vibration(design.loaded),
         "simulation": [_run(design, run) for run in simulations],
-        "fits": [row for bearing in design.seats for row in seats_result(bearing)],
+        "fits": _fits(design),
         "swing_arm": None if design.swing_arm is None else _swing_arm(design.swing_arm),
         "drawing": [
             {"feature": line.feature, "requirement": line.requirement, "cost_db": line.cost_db}
@@ -160,7 +161,15 @@ def _levels(levels: Levels) -> Result:
     return {"level_before_db": levels.before, "level_after_db": levels.after, "reduction_db": levels.reduction}
 
 
-def _swing_arm(arm: SwingArmBounds) -> Result:
+def _fits(design: Design) -> list[Result]:
+    if not design.seats:
+        return []
+    from abu_calc.report.fits import seats_result
+
+    return [row for bearing in design.seats for row in seats_result(bearing)]
+
+
+def _swing_arm(arm: "SwingArmBounds") -> Result:
     return {
         "contact_stiffness_limit_N_per_m": arm.stiffness_limit,
         "contact_stiffness_limit_exact_N_per_m": arm.stiffness_limit_exact,

@@ -6,7 +6,6 @@ from typing import Any
 from abu_calc.checks import Check, Status
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.common import check_blocks, default_blocks, facts, warning_blocks
-from abu_calc.report.fits import fit_blocks
 from abu_calc.report.quantities import number, shown
 from abu_calc.sizing.housing import RULES
 from abu_calc.spec.machine import Autobalancer
@@ -44,7 +43,7 @@ def size_blocks(
         *_simulation(result),
         *_alternatives(result),
         *_swing_arm(result),
-        *(fit_blocks(result["fits"]) if result["fits"] else ()),
+        *_seats(result),
         *_drawing(result),
         Heading("Conventions"),
         Paragraph(CONVENTIONS),
@@ -160,6 +159,14 @@ def _bare(key: str, value: float | None) -> str:
 def _swing_arm(result: dict[str, Any]) -> list[Block]:
     arm = result["swing_arm"]
     return [Heading("Swing arm"), facts(arm, *arm)] if arm else []
+
+
+def _seats(result: dict[str, Any]) -> tuple[Block, ...]:
+    if not result["fits"]:
+        return ()
+    from abu_calc.report.fits import fit_blocks
+
+    return fit_blocks(result["fits"])
 
 
 def _drawing(result: dict[str, Any]) -> list[Block]:

@@ -1,17 +1,24 @@
-"""The pipeline of `abu size`: one step after another, nothing else."""
+"""The pipeline of `abu size`: one step after another, nothing else.
 
-from abu_calc.fits.seats import seat_bearing
+Steps that few files ask for (bearing seats, swing arm) are imported when they are.
+"""
+
+from typing import TYPE_CHECKING
+
 from abu_calc.sizing.advice import design_checks, design_warnings
 from abu_calc.sizing.balls import choose
-from abu_calc.sizing.case import read_case
+from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing import drawing
 from abu_calc.sizing.frequency import frequency_region
 from abu_calc.sizing.imbalance import find_imbalance
-from abu_calc.sizing.swing_arm import swing_arm_bounds
 from abu_calc.sizing.track import track
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration
 from abu_calc.spec.machine import Machine
+
+if TYPE_CHECKING:
+    from abu_calc.fits.seats import BearingSeats
+    from abu_calc.sizing.swing_arm import SwingArmBounds
 
 __all__ = ["Design", "size"]
 
@@ -31,9 +38,24 @@ def size(machine: Machine) -> Design:
     others = tuple(track(case, one, frequency.natural_frequencies) for one, _ in choice.runners_up)
     idle = idle_vibration(case, imbalance.value, best, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
-    seats = tuple(seat_bearing(bearing) for bearing in machine.bearing)
-    arm = swing_arm_bounds(case, machine.swing_arm, imbalance.value, best.mass) if machine.swing_arm else None
+    seats, arm = _seats(machine), _arm(case, imbalance.value, best.mass)
     advice = drawing(case, best, race)
     checks = design_checks(case, frequency, best, race, idle, seats, arm)
     warnings = design_warnings(case, best, loaded)
     return Design(case, frequency, imbalance, choice, race, others, idle, loaded, seats, arm, advice, checks, warnings)
+
+
+def _seats(machine: Machine) -> "tuple[BearingSeats, ...]":
+    if not machine.bearing:
+        return ()
+    from abu_calc.fits.seats import seat_bearing
+
+    return tuple(seat_bearing(bearing) for bearing in machine.bearing)
+
+
+def _arm(case: Case, imbalance: float, added_mass: float) -> "SwingArmBounds | None":
+    if case.table.swing_arm is None:
+        return None
+    from abu_calc.sizing.swing_arm import swing_arm_bounds
+
+    return swing_arm_bounds(case, case.table.swing_arm, imbalance, added_mass)

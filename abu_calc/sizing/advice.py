@@ -1,18 +1,21 @@
 """The checks of a design in the order a reader wants them, and what he must be warned of."""
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from abu_calc.checks import Check, verdict
-from abu_calc.fits.seats import BearingSeats
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.frequency import FrequencyRegion
-from abu_calc.sizing.swing_arm import SwingArmBounds
 from abu_calc.sizing.track import Track, track_checks
 from abu_calc.sizing.vibration import Vibration, vibration_checks
 from abu_calc.standards.balls import stock_diameter
 from abu_calc.units import from_si, to_si
+
+if TYPE_CHECKING:
+    from abu_calc.fits.seats import BearingSeats
+    from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
 def design_checks(
@@ -21,8 +24,8 @@ def design_checks(
     one: Candidate,
     track: Track,
     idle: Vibration,
-    seats: Iterable[BearingSeats],
-    arm: SwingArmBounds | None,
+    seats: "Iterable[BearingSeats]",
+    arm: "SwingArmBounds | None",
 ) -> tuple[Check, ...]:
     """All checks of the design itself; the simulation adds its own."""
     return (

@@ -1,17 +1,20 @@
 """The finished design: every step's frozen result, side by side."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from abu_calc.checks import Check
-from abu_calc.fits.seats import BearingSeats
 from abu_calc.sizing.balls import Candidate, Choice
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.drawing import Advice
 from abu_calc.sizing.frequency import FrequencyRegion
 from abu_calc.sizing.imbalance import Imbalance
-from abu_calc.sizing.swing_arm import SwingArmBounds
 from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import Vibration
+
+if TYPE_CHECKING:
+    from abu_calc.fits.seats import BearingSeats
+    from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
 @dataclass(frozen=True)
@@ -26,8 +29,8 @@ class Design:
     runner_up_tracks: tuple[Track, ...]
     idle: Vibration
     loaded: Vibration | None
-    seats: tuple[BearingSeats, ...]
-    swing_arm: SwingArmBounds | None
+    seats: "tuple[BearingSeats, ...]"
+    swing_arm: "SwingArmBounds | None"
     drawing: tuple[Advice, ...]
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]

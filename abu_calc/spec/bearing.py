@@ -2,7 +2,7 @@
 """A rolling bearing and its two seats."""
 
 import itertools
-from typing import ClassVar, Final, Literal, Self
+from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -97,16 +97,16 @@ class Bearing(Table):
     )
     ring_temperature_difference_K: float | None = Field(
         default=None,
-        description="Excess of the bearing's temperature over that of its surroundings [K]; 0 … 500. When given, the "
-        "loss of interference is counted.",
+        description="By how much the inner ring is warmer than its shaft [K]; 0 … 500. When given, the loss of "
+        "interference α·d·ΔT is counted.",
         examples=[10.0],
         ge=0,
         le=500,
     )
     speed_rpm: float | None = Field(
         default=None,
-        description="Speed of the ring [rpm]; 0 … 300000. When given, the loss of interference by centrifugal growth "
-        "is counted.",
+        description="Speed of the shaft with the inner ring [rpm]; 0 … 300000. When given, the loss of interference by "
+        "centrifugal growth is counted.",
         examples=[5800.0],
         ge=0,
         le=300_000,
@@ -129,6 +129,40 @@ class Bearing(Table):
         default="steel",
         description="Material of the housing, for stresses: steel, cast-iron or aluminium. Default: steel.",
     )
+    internal_clearance: Literal["C2", "CN", "C3", "C4"] | None = Field(
+        default=None,
+        description="Group of radial clearance of a deep groove ball bearing: C2, CN, C3 or C4 (ISO 5753-1). When "
+        "given, the clearance left after mounting is checked.",
+        examples=["C3"],
+    )
+    raceway_temperature_difference_K: float | None = Field(
+        default=None,
+        description="By how much the inner ring is warmer than the outer one [K]; 0 … 500. When given, it is taken off "
+        "the clearance left.",
+        examples=[5.0],
+        ge=0,
+        le=500,
+    )
+    starting_torque_N_m: float | None = Field(
+        default=None,
+        description="Torque that a ring under a rotating load must pass on by friction when the machine starts [N·m]; "
+        "0 … 10000000. When given, the seat's friction moment is checked against it.",
+        examples=[2.0],
+        ge=0,
+        le=1e7,
+    )
+    seat_friction: float = Field(
+        default=0.12,
+        description="Coefficient of friction between ring and seat; 0 … 1. Default: 0.12, assumed (steel on steel).",
+        ge=0,
+        le=1,
+    )
+    asked_interference_um: Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
+        default=None,
+        description="Least and largest interference asked of the pairs, ascending, tight positive [µm]. When given, "
+        "the groups for selective assembly are told.",
+        examples=[[10.0, 28.0]],
+    )
 
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
@@ -138,8 +172,9 @@ class Bearing(Table):
         return ("designation",) if key in SIZES else ()
 
     def unused(self) -> frozenset[str]:
-        """The material of a housing whose stresses are not asked for."""
-        return frozenset({"housing_material"}) if self.housing_outer_mm is None else frozenset()
+        """The material of a housing whose stresses are not asked for, the friction without a starting torque."""
+        silent = {"housing_material": self.housing_outer_mm, "seat_friction": self.starting_torque_N_m}
+        return frozenset(key for key, asked in silent.items() if asked is None)
 
     @model_validator(mode="after")
     def _sized_one_way(self) -> Self:
@@ -158,6 +193,18 @@ class Bearing(Table):
                 found=" and ".join(given) or "none",
                 allowed="designation, or all of " + ", ".join(SIZES),
                 remedy=f"add {' and '.join(absent)}" if given else 'add designation = "…"',
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _band_ascends(self) -> Self:
+        band = self.asked_interference_um
+        if band is not None and not band[0] < band[1]:
+            raise problem(
+                "the band of interference must ascend",
+                "asked_interference_um",
+                found=f"[{band[0]:g}, {band[1]:g}]",
+                remedy="write the least first",
             )
         return self
 

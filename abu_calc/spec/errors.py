@@ -88,7 +88,7 @@ def told(error: ValidationError, origin: Origin) -> InputError:
     for detail in error.errors(include_url=False):
         kind, facts = detail["type"], detail.get("ctx", {})
         path = _written(tuple(detail["loc"]) + (tuple(facts["key"]) if kind == RULE else ()), origin.document)
-        table = table_at(origin.model, path[:-1]) or origin.model
+        table = _table_of(path, origin.model)
         finding = _Finding(path, detail["input"], facts, table, origin.model)
         if kind == "too_short" and len(detail["input"]) >= facts["min_length"]:
             continue  # Long enough; what is wrong with its values is told of each.
@@ -117,6 +117,12 @@ def _written(path: tuple[Part, ...], document: object) -> tuple[Part, ...]:
         elif isinstance(document, list) and isinstance(part, int):
             document = document[part] if part < len(document) else None
     return path
+
+
+def _table_of(path: tuple[Part, ...], root: type[Table]) -> type[Table]:
+    """The table a path's last key stands in, however deep in lists its value is."""
+    keys = [place for place, part in enumerate(path) if isinstance(part, str)]
+    return table_at(root, path[: keys[-1]] if keys else ()) or root
 
 
 def _stray(finding: _Finding) -> tuple[str | None, str | None]:
@@ -167,6 +173,10 @@ def _no_number(what: str) -> Callable[[_Finding], _Words]:
 def _no_text(finding: _Finding) -> _Words:
     remedy = f"write {quoted(shown(finding.value))} in quotes" if is_number(finding.value) else None
     return "text is expected", None, remedy
+
+
+def _no_bool(finding: _Finding) -> _Words:
+    return "true or false is expected", None, "write true or false, without quotes"
 
 
 def _not_finite(finding: _Finding) -> _Words:
@@ -234,6 +244,7 @@ _WORDS: Final[Mapping[str, Callable[[_Finding], _Words]]] = {
     "int_type": _no_number("a whole number is expected"),
     "int_from_float": _no_number("a whole number is expected"),
     "string_type": _no_text,
+    "bool_type": _no_bool,
     "finite_number": _not_finite,
     "greater_than": _bound("above", "gt"),
     "greater_than_equal": _bound("at least", "ge"),

@@ -1,10 +1,12 @@
-"""The JSON Schema of machine files, in Draft 4, which TOML editors (Taplo, Even Better TOML) read."""
+"""The JSON Schema of our files, in Draft 4, which TOML editors (Taplo, Even Better TOML) read."""
 
 from typing import Any, Final
 
 from pydantic.json_schema import models_json_schema
 
 from abu_calc.spec.machine import BearingFile, Machine
+from abu_calc.spec.scene import SceneFile
+from abu_calc.spec.table import Table
 
 DRAFT: Final = "http://json-schema.org/draft-04/schema#"
 _BOUNDS: Final = {"exclusiveMinimum": "minimum", "exclusiveMaximum": "maximum"}
@@ -13,10 +15,20 @@ _DROPPED: Final = ("title", "examples", "$defs")
 
 def machine_schema() -> dict[str, Any]:
     """The schema of machine files: a machine whole, or bearings alone."""
-    _, schema = models_json_schema([(Machine, "validation"), (BearingFile, "validation")])
-    definitions = {name: _draft4(body) for name, body in schema["$defs"].items()}
     kinds = [{"$ref": f"#/definitions/{model.__name__}"} for model in (Machine, BearingFile)]
-    return {"$schema": DRAFT, "title": "abu-calc machine file", "anyOf": kinds, "definitions": definitions}
+    return _schema("machine", Machine, BearingFile) | {"anyOf": kinds}
+
+
+def scene_schema() -> dict[str, Any]:
+    """The schema of scene files."""
+    return _schema("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}
+
+
+def _schema(kind: str, *models: type[Table]) -> dict[str, Any]:
+    """Head and definitions of the schema of a kind of file."""
+    _, schema = models_json_schema([(model, "validation") for model in models])
+    definitions = {name: _draft4(body) for name, body in schema["$defs"].items()}
+    return {"$schema": DRAFT, "title": f"abu-calc {kind} file", "definitions": definitions}
 
 
 def _draft4(node: Any) -> Any:

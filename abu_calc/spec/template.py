@@ -1,4 +1,4 @@
-"""A new machine file with every table and key explained, made from the models."""
+"""A new file with every table and key explained, made from the models."""
 
 import textwrap
 from typing import Final
@@ -6,12 +6,13 @@ from typing import Final
 from pydantic.fields import FieldInfo
 
 from abu_calc.spec.machine import Machine
+from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.table import Table, is_array, subtable
 from abu_calc.spec.text import key_path, shown
 
 WIDTH: Final = 90
 HEAD: Final = (
-    "A machine file of abu-calc. Put in your own numbers; the unit stands in the key. Keys and tables with a # right "
+    "A {kind} file of abu-calc. Put in your own numbers; the unit stands in the key. Keys and tables with a # right "
     "before them are optional: take the # away to use them."
 )
 
@@ -21,7 +22,16 @@ def template() -> str:
 
     Required keys carry example values, keys with a default carry it, all others are commented out.
     """
-    return "\n".join([*_comment(HEAD), *_tables(Machine, (), live=True)]) + "\n"
+    return _text("machine", Machine)
+
+
+def scene_template() -> str:
+    """The text of a complete scene file, likewise."""
+    return _text("scene", SceneFile)
+
+
+def _text(kind: str, model: type[Table]) -> str:
+    return "\n".join([*_comment(HEAD.format(kind=kind)), *_tables(model, (), live=True)]) + "\n"
 
 
 def _tables(model: type[Table], path: tuple[str, ...], *, live: bool) -> list[str]:

@@ -1,7 +1,7 @@
 """Balls: stock diameters and materials."""
 
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 from abu_calc.standards.tables import toml_table, unknown
 from abu_calc.units import from_si, to_si
@@ -14,8 +14,7 @@ _ROUNDING = 1e-9
 _STOCKED = Range("ball diameter", 3.0, 30.0, "mm", remedy="Choose a stock diameter in this range.")
 
 
-@dataclass(frozen=True)
-class Material:
+class Material(NamedTuple):
     """Density [kg/m³], Young's modulus [Pa], Poisson's ratio, thermal expansion [1/K]."""
 
     name: str

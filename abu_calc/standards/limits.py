@@ -1,8 +1,7 @@
 """Limits of size: ISO 286-2 for shafts and housings, ISO 492 for the rings of bearings."""
 
-from dataclasses import dataclass
 from functools import cache
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from abu_calc.errors import RangeError
 from abu_calc.standards.tables import csv_rows, unknown
@@ -18,8 +17,7 @@ _FILES = {"shaft": "iso286_shafts", "housing": "iso286_holes"}
 _SIZES = Range("size", 3.0, 500.0, "mm", remedy="The tables hold ISO 286-2 from 3 to 500 mm.")
 
 
-@dataclass(frozen=True)
-class Limits:
+class Limits(NamedTuple):
     """Lower and upper limit deviation [m] from the nominal size."""
 
     lower: float
@@ -43,7 +41,7 @@ def tolerance_classes(seat: Seat) -> tuple[str, ...]:
     >>> tolerance_classes("housing")[:4]
     ('F7', 'G6', 'G7', 'H6')
     """
-    return tuple(dict.fromkeys(row[0] for row in csv_rows(_FILES[seat])))
+    return tuple(_rows(seat))
 
 
 def part_limits(seat: Seat, tolerance_class: str, size: float) -> Limits:
@@ -54,11 +52,12 @@ def part_limits(seat: Seat, tolerance_class: str, size: float) -> Limits:
     >>> part_limits("shaft", "k6", 0.080)
     Limits(lower=2e-06, upper=2.1e-05)
     """
-    if tolerance_class not in tolerance_classes(seat):
-        raise unknown(f"tolerance class of a {seat}", tolerance_class, tolerance_classes(seat))
+    rows = _rows(seat)
+    if tolerance_class not in rows:
+        raise unknown(f"tolerance class of a {seat}", tolerance_class, rows)
     _SIZES.check(_millimetres(size))
-    rows = [_numbers(row[1:]) for row in csv_rows(_FILES[seat]) if row[0] == tolerance_class]
-    return _look_up(rows, size, f"size for {tolerance_class}", "Choose another tolerance class.")
+    found = [_numbers(row) for row in rows[tolerance_class]]
+    return _look_up(found, size, f"size for {tolerance_class}", "Choose another tolerance class.")
 
 
 def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> Limits:
@@ -77,6 +76,15 @@ def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size:
     found = [_numbers((over, to, "0", lower)) for name, over, to, lower in rows if name == bearing_class]
     what = f"{'bore' if ring == 'inner' else 'outside diameter'} of a {bearing_type} bearing of class {bearing_class}"
     return _look_up(found, size, what, "Choose a coarser class, or a bearing in this range.")
+
+
+@cache
+def _rows(seat: Seat) -> dict[str, list[tuple[str, ...]]]:
+    """The rows of each tolerance class, without its name."""
+    found: dict[str, list[tuple[str, ...]]] = {}
+    for name, *row in csv_rows(_FILES[seat]):
+        found.setdefault(name, []).append(tuple(row))
+    return found
 
 
 def _numbers(row: tuple[str, ...]) -> _Row:

@@ -15,6 +15,13 @@ CHECK = (sys.executable, "-m", "abu_calc", "check-fit", "mmg-3200k-knife-shaft")
 HELP = (sys.executable, "-m", "abu_calc", "--help")
 NUMERICS = (sys.executable, "-c", "import numpy, scipy.integrate, pydantic, typer, rich")
 LIGHT = (sys.executable, "-c", "import pydantic, typer, rich")
+"""Bare import; all three load their parts only when these are used."""
+USED = (
+    sys.executable,
+    "-c",
+    "import typer, rich.console, rich.table; from pydantic import BaseModel, TypeAdapter, create_model",
+)
+"""The parts of the three that any command with an option, a model and a table uses."""
 ROUNDS = 15
 
 
@@ -36,5 +43,6 @@ def compare(name: str, command: tuple[str, ...], bare: tuple[str, ...]) -> None:
 
 if __name__ == "__main__":
     compare("size", SIZE, NUMERICS)
+    compare("check-fit", CHECK, USED)
     compare("check-fit", CHECK, LIGHT)
     compare("--help", HELP, LIGHT)

@@ -28,11 +28,12 @@ def test_bare_options_give_a_whole_result():
 def test_every_key_has_an_option_that_is_taken():
     assert set(OPTIONS) == set(Bearing.model_fields)
     given = {"--designation": "6203", "--shaft": "m5", "--housing": "H7", "--radial-load-kN": "0.3",
-             "--series": "light", "--inner-ring-load": "rotating", "--outer-ring-load": "stationary", "--bearing-class": "6",
-             "--chamfer": "0.5", "--shaft-rz": "2", "--housing-rz": "3", "--ring-temperature-difference": "3",
-             "--speed": "5800", "--shaft-bore": "4", "--housing-outer": "70", "--housing-material": "aluminium",
-             "--internal-clearance": "C3", "--raceway-temperature-difference": "5", "--starting-torque": "0.5",
-             "--seat-friction": "0.1", "--asked-interference": "3:18", "--name": "spindle"}  # fmt: skip
+             "--series": "light", "--inner-ring-load": "rotating", "--outer-ring-load": "stationary",
+             "--bearing-class": "6", "--chamfer": "0.5", "--shaft-rz": "2", "--housing-rz": "3",
+             "--ring-temperature-difference": "3", "--speed": "5800", "--shaft-bore": "4", "--housing-outer": "70",
+             "--housing-material": "aluminium", "--internal-clearance": "C3",
+             "--raceway-temperature-difference": "5", "--starting-torque": "0.5", "--seat-friction": "0.1",
+             "--asked-interference": "3:18", "--name": "spindle"}  # fmt: skip
     assert set(given) | {"--bore", "--outer", "--width"} == set(OPTIONS.values())
     seen = abu("check-fit", *(word for pair in given.items() for word in pair), "--json")
     shaft = seen.document["result"][0]

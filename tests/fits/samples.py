@@ -30,6 +30,11 @@ def table(**changes: Any) -> Any:
         "shaft_bore_mm": None,
         "housing_outer_mm": None,
         "housing_material": "steel",
+        "internal_clearance": None,
+        "raceway_temperature_difference_K": None,
+        "starting_torque_N_m": None,
+        "seat_friction": 0.12,
+        "asked_interference_um": None,
     }
     assert set(changes) <= set(example)
     return SimpleNamespace(**(example | changes))

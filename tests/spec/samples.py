@@ -141,6 +141,11 @@ FULL: dict[str, dict[str, str]] = {
         "shaft_bore_mm": "0.0",
         "housing_outer_mm": "60.0",
         "housing_material": '"steel"',
+        "internal_clearance": '"CN"',
+        "raceway_temperature_difference_K": "5.0",
+        "starting_torque_N_m": "2.0",
+        "seat_friction": "0.12",
+        "asked_interference_um": "[10.0, 28.0]",
     },
     "[limits]": {"vibration_level_db": "109.0", "settling_time_s": "1.0"},
 }

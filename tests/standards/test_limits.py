@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from abu_calc.errors import InputError, RangeError
 from abu_calc.standards.limits import part_limits, ring_limits, tolerance_classes
+from abu_calc.standards.tables import csv_rows
 
 # ISO 286-1:2010, table 1 and tables of fundamental deviations, µm. A row of 13 values stands for the main ranges.
 MAIN = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
@@ -205,6 +206,49 @@ def test_a_finer_class_is_never_wider_and_a_larger_ring_never_narrower(kind, rin
 def test_rings_outside_the_table_are_refused(kind, ring, name, size):
     with pytest.raises(RangeError, match=r"allowed: over .* mm"):
         ring_limits(kind, ring, name, size * 1e-3)
+
+
+# The bearing makers' catalogues, −µm by rising size; sizes are the upper ends of their rows.
+BORES = (10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
+OUTSIDES = (18, 30, 50, 80, 120, 150, 180, 250, 315, 400, 500)
+CATALOGUE = {
+    ("radial", "inner", "0"): (8, 8, 10, 12, 15, 20, 25, 30, 35, 40, 45),
+    ("radial", "inner", "6"): (7, 7, 8, 10, 12, 15, 18, 22, 25, 30, 35),
+    ("radial", "inner", "5"): (5, 5, 6, 8, 9, 10, 13, 15, 18, 23),
+    ("radial", "inner", "4"): (4, 4, 5, 6, 7, 8, 10, 12),
+    ("radial", "inner", "2"): (2.5, 2.5, 2.5, 2.5, 4, 5, 7, 8),
+    ("radial", "outer", "0"): (8, 9, 11, 13, 15, 18, 25, 30, 35, 40, 45),
+    ("radial", "outer", "6"): (7, 8, 9, 11, 13, 15, 18, 20, 25, 28, 33),
+    ("radial", "outer", "5"): (5, 6, 7, 9, 10, 11, 13, 15, 18, 20, 23),
+    ("radial", "outer", "4"): (4, 5, 6, 7, 8, 9, 10, 11, 13, 15),
+    ("radial", "outer", "2"): (2.5, 4, 4, 4, 5, 5, 7, 8, 8, 10),
+    ("tapered", "inner", "0"): (12, 12, 12, 15, 20, 25, 30, 35, 40),
+    ("tapered", "outer", "0"): (12, 14, 16, 18, 20, 25, 30, 35, 40, 45),
+}
+# Tapered bearings share rows: 6X has those of Normal, 6 and 5 those of radial class 6, 4 those of radial class 5.
+SHARED = {"6X": ("tapered", "0"), "6": ("radial", "6"), "5": ("radial", "6"), "4": ("radial", "5")}
+
+
+@pytest.mark.parametrize(("key", "lower"), CATALOGUE.items(), ids=str)
+def test_every_row_of_iso_492_against_the_catalogues(key, lower):
+    kind, ring, name = key
+    sizes = BORES if ring == "inner" else OUTSIDES
+    sizes = sizes[1:] if kind == "tapered" else sizes
+    rows = [row for row in csv_rows("iso492") if row[:3] == key]
+    assert len(rows) == len(lower)
+    for size, value in zip(sizes, lower, strict=False):
+        assert micrometres(ring_limits(kind, ring, name, size * 1e-3)) == (0, -value)
+
+
+@pytest.mark.parametrize("ring", ["inner", "outer"])
+@pytest.mark.parametrize("name", SHARED)
+def test_tapered_bearings_share_rows(name, ring):
+    kind, same = SHARED[name]
+    rows = [row for row in csv_rows("iso492") if row[:3] == ("tapered", ring, name)]
+    assert rows
+    for _, _, _, over, to, _ in rows:
+        for size in (float(over) + 0.01, float(to)):
+            assert ring_limits("tapered", ring, name, size * 1e-3) == ring_limits(kind, ring, same, size * 1e-3)
 
 
 def test_unknown_accuracy_classes_are_refused():

@@ -1,0 +1,66 @@
+"""Clearance left in a deep groove ball bearing after mounting."""
+
+import math
+from typing import NamedTuple
+
+from abu_calc.fits.bearing import Bearing
+from abu_calc.fits.interference import Interval, probable_interference
+from abu_calc.fits.joint import Joint
+from abu_calc.fits.stress import inner_ring_diameter, outer_ring_diameter
+from abu_calc.standards.balls import seat_material
+from abu_calc.standards.clearance import GROUPS, radial_clearance
+
+
+class ClearanceLeft(NamedTuple):
+    """Radial clearance [m] of a group before and after mounting, extreme and probable, the part that warmth takes, and
+    the tightest group whose probable clearance stays above zero (None: no group)."""
+
+    group: str
+    initial: Interval
+    mounted: Interval
+    probable: Interval
+    warmth: float
+    group_to_choose: str | None
+
+
+def clearance_left(bearing: Bearing, shaft: Joint, housing: Joint) -> ClearanceLeft | None:
+    """Clearance that a bearing keeps: initial − change of both raceways − α·(d₁+D₁)/2·ΔT; None without a group.
+
+    The raceways change by `raceway_change` at the interference less the smoothing; a loose ring changes nothing. The
+    extreme clearance takes all extremes together, the probable one mean ∓ √(Σ half ranges²) of the three parts.
+    ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways. Range: deep groove ball bearings, rings as plain
+    tubes. Source: Lamé; ISO 5753-1:2009 for the groups.
+    """
+    if bearing.internal_clearance is None:
+        return None
+    raceways = (inner_ring_diameter(bearing.bore, bearing.outer) + outer_ring_diameter(bearing.bore, bearing.outer)) / 2
+    warmth = seat_material("steel").expansion * raceways * (bearing.raceway_temperature_difference or 0.0)
+    joints = (shaft, housing)
+    extreme = [_change(joint, joint.interference) for joint in joints]
+    likely = [_change(joint, probable_interference(*joint.male_and_female)) for joint in joints]
+
+    def probable(group: str) -> Interval:
+        start = Interval(*radial_clearance(group, bearing.bore))
+        mean = _middle(start) - sum(map(_middle, likely)) - warmth
+        half = math.hypot(*((one.largest - one.smallest) / 2 for one in (start, *likely)))
+        return Interval(mean - half, mean + half)
+
+    initial = Interval(*radial_clearance(bearing.internal_clearance, bearing.bore))
+    mounted = Interval(
+        initial.smallest - sum(one.largest for one in extreme) - warmth,
+        initial.largest - sum(one.smallest for one in extreme) - warmth,
+    )
+    choice = next((group for group in GROUPS if probable(group).smallest >= 0), None)
+    return ClearanceLeft(
+        bearing.internal_clearance, initial, mounted, probable(bearing.internal_clearance), warmth, choice
+    )
+
+
+def _change(joint: Joint, interference: Interval) -> Interval:
+    smoothing = sum(loss.value for loss in joint.losses if loss.name == "smoothing")
+    smallest, largest = (max(one - smoothing, 0.0) * joint.raceway_rate for one in interference)
+    return Interval(smallest, largest)
+
+
+def _middle(interval: Interval) -> float:
+    return (interval.smallest + interval.largest) / 2

@@ -1,0 +1,132 @@
+"""The way of every file: path or preset → bytes → text → document → overrides → model, every fault with its place."""
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, TypeVar
+
+from pydantic import ValidationError
+
+from abu_calc.errors import InputError, Place
+from abu_calc.spec import presets
+from abu_calc.spec.lines import key_lines
+from abu_calc.spec.names import nearest
+from abu_calc.spec.overrides import apply, parse_override
+from abu_calc.spec.syntax import parse
+from abu_calc.spec.table import Table
+from abu_calc.spec.text import key_path
+
+LARGEST_FILE: Final = 1_000_000
+"""Bytes of the largest file that is read; ours have a few thousand."""
+
+Model = TypeVar("Model", bound=Table)
+
+
+@dataclass(frozen=True)
+class Document:
+    """A file whose TOML is right; its tables are not looked at yet."""
+
+    file: str
+    """As it was named: a path, or a preset."""
+    text: str
+    sha256: str
+    content: dict[str, object]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A file, read and found right, and what is to be told about it."""
+
+    file: str
+    text: str
+    sha256: str
+    lines: Mapping[str, int]
+    """Key path → line."""
+    defaults_used: tuple[tuple[str, object], ...]
+    """Key path and value of each default in force in the tables that are there."""
+    warnings: tuple[str, ...]
+
+
+def open_document(source: str) -> Document:
+    """The document of a file, or of a preset by its name. Raises InputError with file, line, key and remedy."""
+    raw = _bytes(source)
+    text = _decoded(raw, source)
+    content = parse(text, source)
+    if not content:
+        raise InputError(
+            "the file holds comments only", place=Place(source), remedy="`abu init FILE` writes a commented one"
+        )
+    return Document(source, text, hashlib.sha256(raw).hexdigest(), content)
+
+
+def validate(
+    document: Document, overrides: Sequence[str], known: type[Table], choose: Callable[[dict[str, object]], type[Model]]
+) -> tuple[Model, Reading]:
+    """The table of a document with entries overridden (`table.key=value`, typed as TOML), and what is to be told of it.
+
+    `known` tells the keys that overrides may name, `choose` the model of the document as overridden. Raises InputError
+    for whatever is wrong; several faults come as SpecErrors.
+    """
+    content = document.content
+    given = [parse_override(override) for override in overrides]
+    notes = apply(content, given, known)
+    model, lines = choose(content), key_lines(document.text)
+    try:
+        table = model.model_validate(content)
+    except ValidationError as error:
+        from abu_calc.spec.errors import Origin, told
+
+        options = {override.path: override.option for override in given}
+        raise told(error, Origin(document.file, content, lines, options, model)) from None
+    defaults = tuple((key_path(path), value) for path, value in table.defaults())
+    return table, Reading(document.file, document.text, document.sha256, lines, defaults, tuple(notes))
+
+
+def _bytes(source: str) -> bytes:
+    path, place = _path(source), Place(source)
+    try:
+        with path.open("rb") as stream:
+            raw = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror or error}", place=place) from None
+    if len(raw) > LARGEST_FILE:
+        raise InputError("the file is too large", place=place, allowed=f"at most {LARGEST_FILE} bytes")
+    return raw
+
+
+def _path(source: str) -> Path:
+    """The file that is meant: one that exists before a preset."""
+    path, place = Path(source), Place(source or None)
+    try:
+        if source and path.is_dir():
+            raise InputError("a folder, not a file", place=place, remedy="name the machine file inside")
+        if source and path.exists():
+            return path
+    except (OSError, ValueError):
+        raise InputError("not a file name", place=place) from None
+    if preset := presets.find(source):
+        return preset
+    known = presets.names()
+    if close := nearest(path.stem, known):
+        remedy = f'the nearest preset is "{close}"'
+    else:
+        remedy = f"presets: {', '.join(known)}" if known else "`abu init FILE` writes a new file"
+    raise InputError("no such file, and no preset of this name", place=place, remedy=remedy)
+
+
+def _decoded(raw: bytes, source: str) -> str:
+    place = Place(source)
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in raw[:4]:
+        raise InputError("the text is UTF-16 or UTF-32", place=place, allowed="UTF-8", remedy="save the file as UTF-8")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        found = f"byte 0x{raw[error.start]:02x}"
+        raise InputError(
+            "the text is not UTF-8", place=Place(source, line), found=found, remedy="save the file as UTF-8"
+        ) from None
+    if not text.strip():
+        raise InputError("the file is empty", place=place, remedy="`abu init FILE` writes a commented one")
+    return text
