@@ -55,6 +55,7 @@ def simulate(
     then chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
+    scipy_.load()
     started = time.perf_counter()
     scene, warnings = with_parted_balls(scene)
     equations = assemble(scene)

@@ -20,7 +20,7 @@ STARTS: Final[dict[Start, str]] = {
     "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
 }
 
-DECAY_TIMES = 8.0
+DECAY_TIMES = 7.0
 LONGEST_REVOLUTIONS = 400.0
 LEAST_REVOLUTIONS = 40.0
 MOST_CYCLES = 4000.0
@@ -31,7 +31,7 @@ def idle_scene(design: Design, start: Start = "bunched") -> Scene | None:
     """The machine idling at full speed; None on supports without a scene yet.
 
     The axis starts at rest at its place, the balls as `STARTS` tells. Planar springs; the mass is that felt at the
-    wheel, without balls. It lasts eight decay times of the slow motion of the balls and of the suspension's own sway,
+    wheel, without balls. It lasts seven decay times of the slow motion of the balls and of the suspension's own sway,
     within bounds.
     """
     case, one = design.case, design.autobalancer
@@ -74,7 +74,7 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
 
 
 def _duration(design: Design, support: Springs) -> float:
-    """Eight decay times of whatever dies out last, balls or suspension, within bounds that keep the work reasonable."""
+    """Seven decay times of whatever dies out last, balls or suspension, within bounds that keep the work reasonable."""
     case, mass = design.case, design.autobalancer.requirement.effective_mass
     revolution = 2 * math.pi / case.speed
     _, balls = design.track.decay_rates[0]

@@ -1,5 +1,6 @@
 """Integration by SciPy's DOP853 (Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.5)."""
 
+import importlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,11 @@ tolerance alike, they would agree without being right."""
 
 MOST_EVALUATIONS = 12_000_000
 """Some minutes of work; a scene that needs more is stiff or too long for this method."""
+
+
+def load() -> None:
+    """Import the library, so that the time of the first run is that of the integration."""
+    importlib.import_module("scipy.integrate")
 
 
 def integrate(
