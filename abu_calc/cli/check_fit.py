@@ -119,8 +119,8 @@ def _from_options(given: dict[str, Any]) -> tuple["Bearing", tuple[tuple[str, ob
     """The bearing that the options describe, and the defaults in force; refused as a file would be, by option."""
     from pydantic import ValidationError
 
+    from abu_calc.spec.bearing_file import BearingFile
     from abu_calc.spec.errors import Origin, told
-    from abu_calc.spec.machine import BearingFile
 
     missing = [option for key, option in (("shaft_fit", "--shaft"), ("housing_fit", "--housing")) if key not in given]
     if "designation" not in given:

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Source
+from abu_calc.spec.bearing_file import BearingFile
 from abu_calc.spec.document import Reading
-from abu_calc.spec.machine import Machine
 from abu_calc.spec.read import Loaded, read_machine
 
 if TYPE_CHECKING:
+    from abu_calc.spec.machine import Machine
     from abu_calc.spec.read_scene import LoadedScene
 
 
@@ -26,9 +27,9 @@ def load_any(source: str, overrides: Sequence[str] | None = None) -> "Loaded | L
     return read_any(source, overrides or ())
 
 
-def machine_of(loaded: Loaded, command: str) -> Machine:
+def machine_of(loaded: Loaded, command: str) -> "Machine":
     """The machine of a file; one that holds bearings alone is refused."""
-    if isinstance(loaded.machine, Machine):
+    if not isinstance(loaded.machine, BearingFile):
         return loaded.machine
     raise InputError(
         f"this file holds bearings only, `abu {command}` needs a whole machine",

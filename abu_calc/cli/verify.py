@@ -29,7 +29,7 @@ def verify(
 ) -> Outcome:
     """Recompute files that have [expected] and compare; without files, the presets."""
     from abu_calc.cli.load import load
-    from abu_calc.spec.machine import expected_values
+    from abu_calc.spec.bearing_file import expected_values
 
     blocks: list[Block] = []
     checks: list[Check] = []
@@ -64,9 +64,9 @@ def recompute(loaded: "Loaded") -> dict[str, Any]:
     """The result of a file as paths in [expected] name it, its status included."""
     from abu_calc.cli.check_fit import fitted
     from abu_calc.cli.size import sized
-    from abu_calc.spec.machine import Machine
+    from abu_calc.spec.bearing_file import BearingFile
 
-    whole = isinstance(loaded.machine, Machine) and loaded.machine.autobalancer is not None
+    whole = not isinstance(loaded.machine, BearingFile) and loaded.machine.autobalancer is not None
     outcome = sized(loaded) if whole else fitted(loaded)
     result = outcome.result if whole else {"fits": outcome.result}
     return {"status": outcome.status, **result}
@@ -76,7 +76,7 @@ def _compare(
     loaded: "Loaded", found: dict[str, Any], blocks: list[Block], checks: list[Check], results: list[dict[str, Any]]
 ) -> None:
     from abu_calc.report.expected import compare, shown_value
-    from abu_calc.spec.machine import expected_tolerances, expected_values
+    from abu_calc.spec.bearing_file import expected_tolerances, expected_values
 
     differences = compare(expected_values(loaded.machine), expected_tolerances(loaded.machine), found)
     failed = [each for each in differences if not each.passed]
@@ -103,7 +103,7 @@ def _update(loaded: "Loaded", found: dict[str, Any]) -> dict[str, Any]:
 
     from abu_calc.report.expected import current
     from abu_calc.report.files import write
-    from abu_calc.spec.machine import expected_values
+    from abu_calc.spec.bearing_file import expected_values
 
     path = Path(loaded.file)
     if not path.is_file():

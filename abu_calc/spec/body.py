@@ -5,13 +5,12 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from abu_calc.spec.bearing_file import NAME
 from abu_calc.spec.table import Table, boxed, problem
 
 Speed = Annotated[float, Field(ge=1, le=300_000)]
 Frequency = Annotated[float, Field(gt=0, le=10_000)]
 DampingRatio = Annotated[float, Field(ge=0, le=10)]
-
-NAME = "Name of the machine, as reports print it."
 
 
 class Handle(Table):
@@ -144,12 +143,6 @@ class MachineTable(Table):
         return self
 
 
-class MachineName(Table):
-    """The machine, of which a file for bearing seats alone needs the name only."""
-
-    name: str = Field(description=NAME, examples=["fleshing roll"], min_length=1)
-
-
 class Suspension(Table):
     """What the machine hangs on: springs, or two hands."""
 
@@ -229,22 +222,3 @@ _EXAMPLE = {"natural_frequencies_hz": "[2.5, 2.5]", "damping_ratios": "[0.5, 0.5
 
 def _pair(values: tuple[float, ...] | None) -> tuple[float, float] | None:
     return (values[0], values[-1]) if values else None
-
-
-class Limits(Table):
-    """What the finished machine is held to."""
-
-    vibration_level_db: float = Field(
-        default=109.0,
-        description="Highest permitted velocity level [dB re 5e-8 m/s]; 0 … 200. Default: 109, the limit of "
-        "GOST 17770-86 above 16 Hz.",
-        ge=0,
-        le=200,
-    )
-    settling_time_s: float = Field(
-        default=1.0,
-        description="Longest permitted time for the balls to settle [s]; above 0 … 3600. Default: 1, as measured on "
-        "hand grinders (Kladiev 1996: under 1 s).",
-        gt=0,
-        le=3600,
-    )

@@ -2,10 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
+from abu_calc.spec.bearing_file import BearingFile
 from abu_calc.spec.document import LARGEST_FILE, Document, Reading, open_document, validate
-from abu_calc.spec.machine import BearingFile, Machine
+
+if TYPE_CHECKING:
+    from abu_calc.spec.machine import Machine
 
 __all__ = ["LARGEST_FILE", "Loaded", "machine_from", "read_machine"]
 
@@ -14,7 +18,7 @@ __all__ = ["LARGEST_FILE", "Loaded", "machine_from", "read_machine"]
 class Loaded(Reading):
     """A machine file, read and found right."""
 
-    machine: Machine | BearingFile
+    machine: "Machine | BearingFile"
 
 
 def read_machine(source: str, overrides: Sequence[str] = ()) -> Loaded:
@@ -28,12 +32,20 @@ def read_machine(source: str, overrides: Sequence[str] = ()) -> Loaded:
 def machine_from(document: Document, overrides: Sequence[str] = ()) -> Loaded:
     """The machine of a document that is open already; raises as `read_machine` does."""
     _refuse_other_files(document.content, document.file)
-    machine, reading = validate(document, overrides, Machine, _model)
+    # Only overrides ask what keys are known, so that a file of bearings alone loads no more than it needs.
+    known = _whole() if overrides else BearingFile
+    machine, reading = validate(document, overrides, known, _model)
     return Loaded(**vars(reading), machine=machine)
 
 
-def _model(content: Mapping[str, object]) -> type[Machine] | type[BearingFile]:
-    return BearingFile if _bearings_alone(content) else Machine
+def _model(content: Mapping[str, object]) -> "type[Machine] | type[BearingFile]":
+    return BearingFile if _bearings_alone(content) else _whole()
+
+
+def _whole() -> "type[Machine]":
+    from abu_calc.spec.machine import Machine
+
+    return Machine
 
 
 def _refuse_other_files(document: Mapping[str, object], source: str) -> None:

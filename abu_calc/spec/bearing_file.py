@@ -1,0 +1,115 @@
+"""A file for bearing seats alone, and the tables it shares with a whole machine's."""
+
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import AfterValidator, Field, WithJsonSchema
+
+from abu_calc.spec.bearing import Bearing
+from abu_calc.spec.table import Table, problem
+from abu_calc.spec.text import is_number, shown_short
+
+if TYPE_CHECKING:
+    from abu_calc.spec.machine import Machine
+
+NAME = "Name of the machine, as reports print it."
+
+TOLERANCE = "tolerance"
+
+
+def _checked_expectations(expected: dict[str, object]) -> dict[str, object]:
+    for path, value in expected.items():
+        if path == TOLERANCE and isinstance(value, dict):
+            _check_tolerances(value, expected)
+        elif isinstance(value, dict):
+            raise problem(
+                "an expected value is a number, text, true, false or a list",
+                path,
+                found="a table",
+                remedy=f'put the whole path in quotes: "{path}.…" = …',
+            )
+        elif isinstance(value, (int, float)) and not isinstance(value, bool) and not is_number(value):
+            raise problem("a finite number is expected", path, found=shown_short(value))
+    return expected
+
+
+def _check_tolerances(tolerances: dict[str, object], expected: dict[str, object]) -> None:
+    for path, value in tolerances.items():
+        if not is_number(value) or not isinstance(value, (int, float)) or value < 0:
+            raise problem(
+                "a tolerance is a relative difference", TOLERANCE, path, found=shown_short(value), allowed="at least 0"
+            )
+        if path == TOLERANCE or path not in expected:
+            raise problem(
+                "a tolerance of nothing expected", TOLERANCE, path, remedy=f'add "{path}" = … to [expected], or drop it'
+            )
+
+
+_SCALARS = [{"type": kind} for kind in ("number", "string", "boolean", "array")]
+Expected = Annotated[
+    dict[str, object],
+    AfterValidator(_checked_expectations),
+    WithJsonSchema(
+        {
+            "type": "object",
+            "properties": {
+                TOLERANCE: {
+                    "anyOf": [{"type": "object", "additionalProperties": {"type": "number", "minimum": 0}}, *_SCALARS],
+                    "description": "Relative tolerance per path of [expected].",
+                }
+            },
+            "additionalProperties": {"anyOf": _SCALARS},
+        }
+    ),
+]
+
+EXPECTED = (
+    'What `abu verify` holds the file to: "quoted.path.in.result" = value; relative tolerances per path stand in '
+    "[expected.tolerance]."
+)
+
+
+class MachineName(Table):
+    """The machine, of which a file for bearing seats alone needs the name only."""
+
+    name: str = Field(description=NAME, examples=["fleshing roll"], min_length=1)
+
+
+class Limits(Table):
+    """What the finished machine is held to."""
+
+    vibration_level_db: float = Field(
+        default=109.0,
+        description="Highest permitted velocity level [dB re 5e-8 m/s]; 0 … 200. Default: 109, the limit of "
+        "GOST 17770-86 above 16 Hz.",
+        ge=0,
+        le=200,
+    )
+    settling_time_s: float = Field(
+        default=1.0,
+        description="Longest permitted time for the balls to settle [s]; above 0 … 3600. Default: 1, as measured on "
+        "hand grinders (Kladiev 1996: under 1 s).",
+        gt=0,
+        le=3600,
+    )
+
+
+class BearingFile(Table):
+    """Bearings alone, for `abu check-fit`."""
+
+    machine: MachineName
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, min_length=1)] = Field(
+        description="Bearings and their seats: [[bearing]], at least one."
+    )
+    limits: Limits = Field(default_factory=Limits)
+    expected: Expected = Field(default_factory=dict, description=EXPECTED)
+
+
+def expected_values(file: "Machine | BearingFile") -> dict[str, object]:
+    """What `abu verify` compares: path in the result → value."""
+    return {path: value for path, value in file.expected.items() if not isinstance(value, dict)}
+
+
+def expected_tolerances(file: "Machine | BearingFile") -> dict[str, float]:
+    """Path in the result → relative tolerance, where one is given."""
+    given = file.expected.get(TOLERANCE)
+    return dict(given) if isinstance(given, dict) else {}
