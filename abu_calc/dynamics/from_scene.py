@@ -6,12 +6,13 @@ from dataclasses import replace
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.errors import InputError, Place
+from abu_calc.sizing.case import INERTIA_FACTORS
 from abu_calc.spec.scene import SceneTable
 from abu_calc.units import to_si
 from abu_calc.validity import Range
 
-INERTIA_FACTORS = {False: 1.0, True: 7 / 5}
-"""J of a point mass, and of a solid ball that rolls."""
+POINT_MASS = 1.0
+"""J of a ball whose rolling is left out."""
 
 MOST_VALUES = 4e6
 """Revolutions times states: what fits into memory, and some minutes of work."""
@@ -49,7 +50,7 @@ def _race(table: SceneTable) -> Race:
         pitch_radius=to_si(race.pitch_radius_mm, "mm"),
         ball_masses=tuple(to_si(mass, "g") for mass in race.ball_masses_g),
         drag=race.rolling_drag_per_s,
-        inertia_factor=INERTIA_FACTORS[table.rolling_inertia],
+        inertia_factor=INERTIA_FACTORS["ball"] if table.rolling_inertia else POINT_MASS,
         start_angles=tuple(to_si(angle, "deg") for angle in race.start_angles_deg),
         start_speeds=tuple(to_si(speed, "rpm") for speed in race.start_speeds),
     )

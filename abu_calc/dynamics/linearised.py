@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations import assemble
+from abu_calc.dynamics.integrators.scipy_ import transition
 from abu_calc.dynamics.jacobian import jacobian
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, NotTrustworthyError
@@ -27,20 +28,6 @@ NOTHING: Final = 1e-12
 """Relative; a harmonic of A smaller than this is rounding."""
 
 MOST_PHASES: Final = 64
-FIRST_STEPS, MOST_STEPS, CONVERGED = 16, 2**14, 1e-7
-"""Steps of a half turn: doubled until its map stays within the last, relative."""
-
-_ROOT = math.sqrt(15)
-NODES: Final = np.array([0.5 - _ROOT / 10, 0.5, 0.5 + _ROOT / 10])
-WEIGHTS: Final = np.array([5, 8, 5]) / 18
-STAGES: Final = np.array(
-    [
-        [5 / 36, 2 / 9 - _ROOT / 15, 5 / 36 - _ROOT / 30],
-        [5 / 36 + _ROOT / 24, 2 / 9, 5 / 36 - _ROOT / 24],
-        [5 / 36 + _ROOT / 30, 2 / 9 + _ROOT / 15, 5 / 36],
-    ]
-)
-"""The Gauss method of three stages: c, b, a."""
 
 
 @dataclass(frozen=True)
@@ -119,11 +106,11 @@ class BalancedMotion:
     def multipliers(self, speed: float) -> tuple[complex, ...]:
         """Floquet multipliers of one revolution, the largest first, on any support.
 
-        Those of half a turn, squared: A repeats with it. Integrated by the Gauss method of sixth order, which no
-        stiffness upsets (Hairer & Wanner 1996, IV.5); its steps are halved until that changes the map of half a turn by
-        less than 1e-7, of which a sixty-fourth is left. Raises NotTrustworthyError when they do not settle.
+        Those of half a turn, squared: A repeats with it. Raises NotTrustworthyError when the integration fails.
         """
-        half, rate = self._half_turn(self.harmonics(speed)), self._neutral_rate
+        terms, rate = self.harmonics(speed), self._neutral_rate
+        orders = 2j * np.arange(len(terms))[:, None, None]
+        half = transition(lambda phase: (terms * np.exp(orders * phase)).sum(axis=0).real, math.pi)
         revolution = 2 * math.pi / speed
         own = np.linalg.eigvals(half) ** 2
         found = [*own.tolist(), *([complex(math.exp(rate * revolution))] * self.neutral)]
@@ -140,39 +127,11 @@ class BalancedMotion:
     def _neutral_rate(self) -> float:
         return 0.0 - self.scene.race.drag / self.scene.race.inertia_factor
 
-    def _half_turn(self, terms: NDArray[np.complex128]) -> Array:
-        """The map of half a turn."""
-        steps, before = FIRST_STEPS, None
-        while steps <= MOST_STEPS:
-            with np.errstate(all="ignore"):
-                turned = _collocated(terms, steps)
-            if not np.isfinite(turned).all():
-                break
-            if before is not None and np.abs(turned - before).max() <= CONVERGED * np.abs(turned).max():
-                return turned
-            steps, before = 2 * steps, turned
-        raise NotTrustworthyError(
-            "Floquet multipliers do not settle\n  ask for a speed nearer to the natural frequencies, or for less drag"
-        )
-
 
 def growth_of(multipliers: tuple[complex, ...], speed: float) -> float:
     """ln|μ|/T of the largest multiplier over a revolution T [1/s]."""
     largest = max(abs(value) for value in multipliers)
     return math.log(largest) * speed / (2 * math.pi) if largest > 0 else -math.inf
-
-
-def _collocated(terms: NDArray[np.complex128], steps: int) -> Array:
-    """The map over phases 0 … π by the Gauss method of three stages: K_i = A_i (1 + h Σ a_ij K_j), 1 + h Σ b_i K_i."""
-    h, size = math.pi / steps, terms.shape[1]
-    waves = np.exp(2j * h * np.multiply.outer(np.arange(steps)[:, None] + NODES, np.arange(len(terms))))
-    slopes = np.tensordot(waves, terms, axes=1).real.reshape(steps, 3, size, size)
-    unknown = np.eye(3 * size) - h * np.einsum("sipq,ij->sipjq", slopes, STAGES).reshape(steps, 3 * size, 3 * size)
-    stages = np.linalg.solve(unknown, slopes.reshape(steps, 3 * size, size)).reshape(steps, 3, size, size)
-    maps: Array = np.eye(size) + h * np.einsum("i,sipq->spq", WEIGHTS, stages)
-    while len(maps) > 1:
-        maps = maps[1::2] @ maps[::2]
-    return np.asarray(maps[0], dtype=float)
 
 
 def _sorted(values: list[complex]) -> tuple[complex, ...]:

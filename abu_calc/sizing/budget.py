@@ -126,10 +126,14 @@ def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
     return abs(imbalance * (by_imbalance - by_balls))
 
 
-def displacement_level(displacement: float, speed: float) -> float:
-    """Velocity level [dB] of a displacement 0–peak [m] at a speed [rad/s]: v = wΩ/√2.
+def displacement_level(displacement: float, speed: float, background: float | None = None) -> float:
+    """Velocity level [dB] of a displacement 0–peak [m] at a speed [rad/s]: v = wΩ/√2, a background added as energy.
+
+    A place at rest is given the floor of 0 dB.
 
     >>> round(displacement_level(12e-6, 5800 * math.pi / 30), 1)
     100.3
     """
-    return level_from_velocity(displacement * speed / math.sqrt(2))
+    noise = 0.0 if background is None else velocity_from_level(background)
+    velocity = math.hypot(displacement * speed / math.sqrt(2), noise)
+    return level_from_velocity(max(velocity, velocity_from_level(0.0)))

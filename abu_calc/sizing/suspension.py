@@ -50,6 +50,10 @@ class Hands:
         return 2 * (z3 + z4 - z3 * palm_moves - z4 * fingers_move - (m3 + m4) * speed**2)
 
 
+FASTEST = 6283.0
+"""Where the search for the natural frequency on hands begins [rad/s]."""
+
+
 def dynamic_stiffness(suspension: Suspension, axis: int, speed: float, mass: float) -> complex:
     """D = reaction − mΩ² [N/m], the machine's mass m [kg] at the wheel included."""
     return suspension.reaction(axis, speed) - mass * speed**2
@@ -63,12 +67,17 @@ def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float
 def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:
     """Natural frequency [rad/s] of the mass on the suspension.
 
-    For springs √(c/m). For hands the highest frequency at which Re D = 0 (searched from 1000 Hz down to 0.1 Hz on a
-    grid of 1 %): the machine and the arms.
+    For springs √(c/m). For hands the highest frequency at which Re D = 0 (bracketed from 1000 Hz down in steps
+    of 1 %): the machine and the arms.
     """
     if isinstance(suspension, Springs):
         return float((suspension.stiffness[axis] / mass) ** 0.5)
-    speed = 6283.0
-    while speed > 0.628 and dynamic_stiffness(suspension, axis, speed, mass).real < 0:
+    from scipy.optimize import brentq  # here, so that only hands pay for it
+
+    def real(speed: float) -> float:
+        return dynamic_stiffness(suspension, axis, speed, mass).real
+
+    speed = FASTEST
+    while real(speed) < 0:
         speed /= 1.01
-    return speed
+    return float(brentq(real, speed, 1.01 * speed)) if speed < FASTEST else speed

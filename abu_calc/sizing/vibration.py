@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from abu_calc.checks import Check, verdict
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.suspension import resonance_factor
-from abu_calc.units import level_from_velocity, velocity_from_level
 
 
 @dataclass(frozen=True)
@@ -95,11 +95,7 @@ def _vibration(case: Case, before: float, after: float | None, added_mass: float
 
 
 def _level(case: Case, displacement: float) -> float:
-    """Level of a displacement 0–peak [m] with the background; a place at rest is given the floor of 0 dB."""
-    background = case.table.machine.background_level_db
-    noise = velocity_from_level(background) if background is not None else 0.0
-    velocity = math.hypot(displacement * case.speed / math.sqrt(2), noise)
-    return level_from_velocity(max(velocity, velocity_from_level(0.0)))
+    return displacement_level(displacement, case.speed, case.table.machine.background_level_db)
 
 
 def vibration_checks(case: Case, idle: Vibration) -> tuple[Check, ...]:

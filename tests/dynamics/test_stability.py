@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from abu_calc.dynamics.equations import assemble
 from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators.scipy_ import transition
 from abu_calc.dynamics.jacobian import jacobian
 from abu_calc.dynamics.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.resting import resting_angles
@@ -296,5 +297,18 @@ def test_what_cannot_be_judged_is_refused() -> None:
         boundaries(scene_of(), 0.0, 1.0)
     with pytest.raises(InputError, match="highest speed"):
         boundaries(scene_of(), 1.0, 1.0)
-    with pytest.raises(NotTrustworthyError, match="do not settle"):
-        stability(replace(scene_of(stiffness=(1.0, 2.0)), speed=1e-6, duration=1e7))
+    with pytest.raises(NotTrustworthyError, match="cannot be integrated"):
+        transition(lambda _: np.array([[800.0]]), 1.0)  # e^800 is no number
+
+
+@pytest.mark.parametrize("rate", [-1.0, -250.0, -1e4])
+def test_maps_of_known_systems(rate: float) -> None:
+    """z' = (rate + cos t) z with a turning pair beside it, soft and stiff: known in closed form."""
+
+    def matrix(t: float) -> np.ndarray:
+        return np.array([[rate + math.cos(t), 0.0, 0.0], [0.0, 0.0, -3.0], [0.0, 3.0, 0.0]])
+
+    expected = np.zeros((3, 3))
+    expected[0, 0] = math.exp(2 * rate + math.sin(2))
+    expected[1:, 1:] = [[math.cos(6), -math.sin(6)], [math.sin(6), math.cos(6)]]
+    assert transition(matrix, 2.0) == pytest.approx(expected, abs=1e-7)

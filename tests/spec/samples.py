@@ -1,8 +1,10 @@
 """Machine files to read: one with every key, as rows whose lines and paths are known by construction."""
 
+import copy
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from abu_calc.errors import InputError
 from abu_calc.spec.errors import SpecErrors
@@ -190,3 +192,18 @@ def refused(folder: Path, text: str | bytes, overrides: Sequence[str] = ()) -> I
 
 def all_of(error: InputError) -> tuple[InputError, ...]:
     return error.errors if isinstance(error, SpecErrors) else (error,)
+
+
+def mutated(sample: dict[str, Any], path: tuple[Any, ...], how: str, value: Any) -> dict[str, Any]:
+    """A copy of a document with the entry at a path replaced, removed, or given a strange neighbour."""
+    data = copy.deepcopy(sample)
+    held: Any = data
+    for step in path[:-1]:
+        held = held[step]
+    if how == "replace":
+        held[path[-1]] = value
+    elif how == "remove":
+        del held[path[-1]]
+    elif isinstance(held, dict):
+        held["strange"] = value
+    return data

@@ -1,6 +1,5 @@
 """Schema and template of scene files, made from the models."""
 
-import copy
 import json
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.schema import scene_schema
 from abu_calc.spec.table import RULE, all_tables
 from abu_calc.spec.template import WIDTH, scene_template
-from tests.spec.samples import document
+from tests.spec.samples import document, mutated
 from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING, read
 from tests.spec.test_schema import DRAFT4, VALUES, places, words
 
@@ -45,16 +44,7 @@ def test_good_scenes_validate(text: str) -> None:
 @given(place=st.sampled_from(PLACES), how=st.sampled_from(["replace", "remove", "add"]), value=st.sampled_from(VALUES))
 def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, value: Any) -> None:
     number, path = place
-    data = copy.deepcopy(SAMPLES[number])
-    held: Any = data
-    for step in path[:-1]:
-        held = held[step]
-    if how == "replace":
-        held[path[-1]] = value
-    elif how == "remove":
-        del held[path[-1]]
-    elif isinstance(held, dict):
-        held["strange"] = value
+    data = mutated(SAMPLES[number], path, how, value)
     try:
         SceneFile.model_validate(data)
         good = True

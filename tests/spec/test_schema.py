@@ -1,6 +1,5 @@
 """The JSON Schema: Draft 4 throughout, and of one mind with the models."""
 
-import copy
 import json
 from collections.abc import Iterator
 from typing import Any
@@ -15,7 +14,7 @@ from abu_calc.spec.machine import BearingFile, Machine
 from abu_calc.spec.schema import machine_schema
 from abu_calc.spec.table import RULE
 from abu_calc.spec.template import template
-from tests.spec.samples import BASIC, BEARINGS, document, full_text
+from tests.spec.samples import BASIC, BEARINGS, document, full_text, mutated
 
 SCHEMA = machine_schema()
 VALIDATOR = Draft4Validator(SCHEMA)
@@ -123,14 +122,5 @@ PLACES = [(number, path) for number, sample in enumerate(SAMPLES) for path in pl
 @given(place=st.sampled_from(PLACES), how=st.sampled_from(["replace", "remove", "add"]), value=st.sampled_from(VALUES))
 def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, value: Any) -> None:
     number, path = place
-    data = copy.deepcopy(SAMPLES[number])
-    held: Any = data
-    for step in path[:-1]:
-        held = held[step]
-    if how == "replace":
-        held[path[-1]] = value
-    elif how == "remove":
-        del held[path[-1]]
-    elif isinstance(held, dict):
-        held["strange"] = value
+    data = mutated(SAMPLES[number], path, how, value)
     assert VALIDATOR.is_valid(data) == (structurally_good(Machine, data) or structurally_good(BearingFile, data))

@@ -1,7 +1,7 @@
 """Integration by SciPy's DOP853 (Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.5)."""
 
 import importlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +23,9 @@ TOLERANCE = Range("tolerance", 1e-13, 0.1)
 LOOSE, ORDER = 1e-3, 8
 """Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
 tolerance alike, they would agree without being right."""
+
+STIFF = 300.0
+"""Largest |eigenvalue| × time of a linear system that an explicit method still takes cheaply."""
 
 MOST_EVALUATIONS = 12_000_000
 """Some minutes of work; a scene that needs more is stiff or too long for this method."""
@@ -78,6 +81,43 @@ def integrate(
         steps=steps,
         status="finished",
         message=f"reached the end at {samples[-1]:g} s",
+    )
+
+
+def transition(matrix: Callable[[float], NDArray[np.float64]], end: float) -> NDArray[np.float64]:
+    """The map z(0) → z(end) of z' = A(t) z, errors below 1e-9 of what has grown; A(t) a small real matrix.
+
+    DOP853, or Radau where A would force more than some hundred steps on it (Hairer & Wanner 1996, IV.8). Raises
+    NotTrustworthyError when the integration fails.
+    """
+    from scipy.integrate import solve_ivp
+
+    start = matrix(0.0)
+    unit = np.eye(len(start))
+    stiff = float(np.abs(np.linalg.eigvals(start)).max()) * end > STIFF
+    # Of the columns of the map side by side, the Jacobian is A for each.
+    implicit: Any = {"method": "Radau", "jac": lambda t, z: np.kron(matrix(t), unit)} if stiff else {"method": "DOP853"}
+    try:
+        with np.errstate(all="ignore"):
+            done = solve_ivp(
+                lambda t, z: (matrix(t) @ z.reshape(unit.shape)).ravel(),
+                (0.0, end),
+                unit.ravel(),
+                rtol=1e-9,
+                atol=1e-12,
+                **implicit,
+            )
+    except ValueError as error:  # an implicit step meets a number that is none
+        raise _not_integrated(str(error)) from None
+    if not done.success or not np.isfinite(done.y[:, -1]).all():
+        raise _not_integrated(done.message)
+    return np.asarray(done.y[:, -1].reshape(unit.shape), dtype=float)
+
+
+def _not_integrated(reason: str) -> NotTrustworthyError:
+    return NotTrustworthyError(
+        f"the linear motion cannot be integrated: {reason}\n"
+        "  ask for a speed nearer to the natural frequencies, or for less drag"
     )
 
 
