@@ -9,8 +9,10 @@ from abu_calc.standards.limits import BearingType
 from abu_calc.standards.tables import csv_rows, unknown
 from abu_calc.units import from_si, to_si
 
-# Angular contact bearings of ISO and tapered bearings of GOST share these numbers.
-_TWO_MEANINGS = re.compile(r"7[23]\d\d")
+# Angular contact bearings and tapered bearings of GOST share these numbers, with A too (30° of some makers).
+_TWO_MEANINGS = re.compile(r"(7[23]\d\d)A?")
+# GOST names end in Cyrillic letters that look Latin.
+_LATIN = str.maketrans("АВС", "ABC")
 
 
 class Dimensions(NamedTuple):
@@ -32,23 +34,24 @@ class Dimensions(NamedTuple):
 
 
 def bearing(designation: str) -> Dimensions:
-    """The dimensions of a bearing by its basic ISO or GOST designation (6203 = 203, 32216 = 7516).
+    """The dimensions of a bearing by its basic ISO or GOST designation (6203 = 203, 32216 = 7516 = 7516A).
 
     Range: series 60, 62, 63, 64, 72 (with B, AC or C), 302, 303, 322 up to bore 100 mm and small sizes of 60, 62;
-    else InputError. Bare 72xx and 73xx are refused: ISO's angular contact bearing or GOST's tapered one.
-    Source: ISO 15:2017, ISO 355:2019.
+    else InputError. 72xx and 73xx, bare or with A, are refused: an angular contact bearing or GOST's tapered one.
+    GOST's older 7506 … 7510 and 7519, wider than 7506A … 7510A and 7519A, are not known.
+    Source: ISO 15:2017, ISO 355:2019; GOST 8338, GOST 831, GOST 27365-87 (names).
 
     >>> found = bearing("7516")
     >>> found.designation, found.bore, found.outer, found.inner_width
     ('32216', 0.08, 0.14, 0.033)
     """
-    name = "".join(designation.upper().split())
-    if _TWO_MEANINGS.fullmatch(name):
-        tapered = f"30{name[1:]}"
+    name = "".join(designation.upper().split()).translate(_LATIN)
+    if (double := _TWO_MEANINGS.fullmatch(name)) is not None:
+        number = double[1]
         raise InputError(
             "the designation has two meanings",
             found=designation,
-            allowed=f"{tapered} (tapered, GOST {name}), or ISO's angular contact bearing with its suffix, {name}B",
+            allowed=f"30{number[1:]} (tapered, GOST {number}A), or an angular contact bearing by its suffix, {number}B",
             remedy="Give the one that is meant, or bore_mm, outer_mm, width_mm and chamfer_mm.",
         )
     known = _known()
@@ -72,8 +75,8 @@ def of_size(bore: float, outer: float, width: float) -> Dimensions | None:
 
 @cache
 def _known() -> dict[str, tuple[str, ...]]:
-    """Row by ISO and by GOST name."""
-    return {name: row for row in csv_rows("bearings") for name in row[:2]}
+    """Row by ISO name and by its one or two GOST names."""
+    return {name: row for row in csv_rows("bearings") for name in (row[0], *row[1].split("/"))}
 
 
 def _dimensions(row: tuple[str, ...]) -> Dimensions:

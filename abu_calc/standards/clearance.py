@@ -23,7 +23,7 @@ def radial_clearance(group: str, bore: float) -> Clearance:
     """Radial internal clearance of a group for a bore [m], by the row of the table.
 
     Range: deep groove ball bearings with cylindrical bore, over 2.5 up to 200 mm (RangeError); C2, CN, C3, C4
-    (InputError). Source: ISO 5753-1:2009.
+    (InputError). Source: ISO 5753-1:2009; over 100 mm not held against a second print.
 
     >>> radial_clearance("CN", 0.017)
     Clearance(smallest=3e-06, largest=1.8e-05)

@@ -63,7 +63,8 @@ def part_limits(seat: Seat, tolerance_class: str, size: float) -> Limits:
 def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> Limits:
     """Limit deviations of a ring's single-plane mean diameter, bore (inner) or outside (outer), nominal size [m].
 
-    Range: the rows of the table, which are fewer for the finer classes (RangeError); a tabulated class (InputError).
+    Range: the rows of the table, which are fewer for the finer classes (RangeError); a tabulated class (InputError): 0
+    (Normal), 6, 5, 4, 2, for tapered bearings also 6X. Tapered 6 is GOST's class, not ISO's.
     Source: ISO 492:2014, GOST 520-2011.
 
     >>> ring_limits("radial", "outer", "0", 0.140)

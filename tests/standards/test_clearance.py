@@ -7,19 +7,9 @@ import pytest
 from abu_calc.errors import InputError, RangeError
 from abu_calc.standards.bearings import of_size
 from abu_calc.standards.clearance import GROUPS, radial_clearance
+from abu_calc.standards.tables import csv_rows
+from tests.standards.second_sources import SHJF_CLEARANCE, TPI_CLEARANCE
 
-# Another maker's catalogue, a bore inside each row and at its upper end: smallest and largest of C2, CN, C3, C4, µm.
-PUBLISHED = {
-    (7, 10): (0, 7, 2, 13, 8, 23, 14, 29),
-    (12, 18): (0, 9, 3, 18, 11, 25, 18, 33),
-    (20, 24): (0, 10, 5, 20, 13, 28, 20, 36),
-    (25, 30): (1, 11, 5, 20, 13, 28, 23, 41),
-    (35, 40): (1, 11, 6, 20, 15, 33, 28, 46),
-    (45, 50): (1, 11, 6, 23, 18, 36, 30, 51),
-    (60, 65): (1, 15, 8, 28, 23, 43, 38, 61),
-    (70, 80): (1, 15, 10, 30, 25, 51, 46, 71),
-    (90, 100): (1, 18, 12, 36, 30, 58, 53, 84),
-}
 BORES = (4, 8, 17, 20, 25, 35, 45, 60, 70, 90, 110, 130, 150, 170, 190)
 
 
@@ -27,10 +17,26 @@ def micrometres(group, bore):
     return tuple(round(1e6 * one, 6) for one in radial_clearance(group, bore * 1e-3))
 
 
-@pytest.mark.parametrize(("bores", "row"), PUBLISHED.items())
-def test_published_rows(bores, row):
-    for bore in bores:
-        assert tuple(itertools.chain(*(micrometres(group, bore) for group in GROUPS))) == row
+@pytest.mark.parametrize("source", [TPI_CLEARANCE, SHJF_CLEARANCE], ids=["TPI", "SHJF"])
+def test_rows_up_to_100_mm_agree_with_the_catalogues(source):
+    for to, row in source.items():
+        over = max(over for over in (2.5, 6, 10, 18, 24, 30, 40, 50, 65, 80) if over < to)
+        for bore in (over + 0.001, to):
+            ours = itertools.chain(*(micrometres(group, bore) for group in GROUPS))
+            assert tuple(ours)[: len(row)] == row, bore
+
+
+def test_the_rows_without_a_second_source_are_those_over_100_mm():
+    confirmed = max(*TPI_CLEARANCE, *SHJF_CLEARANCE)
+    alone = {float(row[1]) for row in csv_rows("radial_clearance") if float(row[2]) > confirmed}
+    assert alone == {100, 120, 140, 160, 180}
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_the_rows_of_a_group_leave_no_gap(group):
+    rows = [row for row in csv_rows("radial_clearance") if row[0] == group]
+    assert (rows[0][1], rows[-1][2]) == ("2.5", "200")
+    assert all(one[2] == following[1] for one, following in itertools.pairwise(rows))
 
 
 @pytest.mark.parametrize("bore", BORES)
