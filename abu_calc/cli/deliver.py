@@ -2,8 +2,8 @@
 
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from abu_calc.errors import AbuError
 from abu_calc.report.outcome import Outcome, document, error_document, to_json
@@ -11,8 +11,7 @@ from abu_calc.report.outcome import Outcome, document, error_document, to_json
 BUG = 3
 
 
-@dataclass(frozen=True)
-class Delivery:
+class Delivery(NamedTuple):
     """How the outcome is wanted: the options that all commands share."""
 
     json: bool = False

@@ -23,37 +23,33 @@ class ClearanceLeft(NamedTuple):
     group_to_choose: str | None
 
 
-def clearance_left(bearing: Bearing, shaft: Joint, housing: Joint) -> ClearanceLeft | None:
-    """Clearance that a bearing keeps: initial − change of both raceways − α·(d₁+D₁)/2·ΔT; None without a group.
+def clearance_left(group: str, bearing: Bearing, shaft: Joint, housing: Joint) -> ClearanceLeft:
+    """Clearance that a bearing keeps: initial − change of both raceways − α·(d₁+D₁)/2·ΔT.
 
     The raceways change by `raceway_change` at the interference less the smoothing; a loose ring changes nothing. The
     extreme clearance takes all extremes together, the probable one mean ∓ √(Σ half ranges²) of the three parts.
     ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways. Range: deep groove ball bearings, rings as plain
     tubes. Source: Lamé; ISO 5753-1:2009 for the groups.
     """
-    if bearing.internal_clearance is None:
-        return None
     raceways = (inner_ring_diameter(bearing.bore, bearing.outer) + outer_ring_diameter(bearing.bore, bearing.outer)) / 2
     warmth = seat_material("steel").expansion * raceways * (bearing.raceway_temperature_difference or 0.0)
     joints = (shaft, housing)
     extreme = [_change(joint, joint.interference) for joint in joints]
     likely = [_change(joint, probable_interference(*joint.male_and_female)) for joint in joints]
 
-    def probable(group: str) -> Interval:
-        start = Interval(*radial_clearance(group, bearing.bore))
+    def probable(other: str) -> Interval:
+        start = Interval(*radial_clearance(other, bearing.bore))
         mean = _middle(start) - sum(map(_middle, likely)) - warmth
         half = math.hypot(*((one.largest - one.smallest) / 2 for one in (start, *likely)))
         return Interval(mean - half, mean + half)
 
-    initial = Interval(*radial_clearance(bearing.internal_clearance, bearing.bore))
+    initial = Interval(*radial_clearance(group, bearing.bore))
     mounted = Interval(
         initial.smallest - sum(one.largest for one in extreme) - warmth,
         initial.largest - sum(one.smallest for one in extreme) - warmth,
     )
-    choice = next((group for group in GROUPS if probable(group).smallest >= 0), None)
-    return ClearanceLeft(
-        bearing.internal_clearance, initial, mounted, probable(bearing.internal_clearance), warmth, choice
-    )
+    choice = next((other for other in GROUPS if probable(other).smallest >= 0), None)
+    return ClearanceLeft(group, initial, mounted, probable(group), warmth, choice)
 
 
 def _change(joint: Joint, interference: Interval) -> Interval:

@@ -1,11 +1,15 @@
 """The checks of a seat, and of the clearance left in its bearing."""
 
+from typing import TYPE_CHECKING
+
 from abu_calc.checks import Check, verdict
 from abu_calc.fits.advice import LOOSE_ENOUGH
-from abu_calc.fits.clearance import ClearanceLeft
 from abu_calc.fits.creep import Creep
 from abu_calc.fits.joint import Joint
 from abu_calc.units import from_si
+
+if TYPE_CHECKING:
+    from abu_calc.fits.clearance import ClearanceLeft
 
 _CODES = {"shaft": ("ABU601", "ABU602", "ABU603"), "housing": ("ABU611", "ABU612", "ABU613")}
 _NAMES = {"shaft": "seat on the shaft", "housing": "seat in the housing"}
@@ -36,7 +40,7 @@ def start_checks(
     ),)  # fmt: skip
 
 
-def clearance_checks(bearing: str, left: ClearanceLeft | None) -> tuple[Check, ...]:
+def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check, ...]:
     """Whether the probable clearance left after mounting stays above zero; no check without a clearance group."""
     if left is None:
         return ()

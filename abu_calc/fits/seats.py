@@ -1,11 +1,13 @@
-"""Both seats of a bearing, judged: what `abu check-fit` prints."""
+"""Both seats of a bearing, judged: what `abu check-fit` prints.
+
+What few bearings ask for is imported when one does.
+"""
 
 from typing import TYPE_CHECKING, NamedTuple
 
 from abu_calc.checks import Check
 from abu_calc.fits.advice import admissible, advised_class, load_intensity
 from abu_calc.fits.bearing import Bearing, from_table
-from abu_calc.fits.clearance import ClearanceLeft, clearance_left
 from abu_calc.fits.creep import Creep, creep
 from abu_calc.fits.drawing import Requirements, seat_requirements
 from abu_calc.fits.interference import Interval, probable_interference, truncated_clearance_probability
@@ -13,11 +15,12 @@ from abu_calc.fits.joint import Joint, Loss
 from abu_calc.fits.judgement import clearance_checks, seat_checks, start_checks
 from abu_calc.fits.pairing import housing_joint, shaft_joint
 from abu_calc.fits.requirement import catalogue_smoothing_loss
-from abu_calc.fits.selective import Selection, selective_groups
 from abu_calc.standards.limits import Limits, Seat
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
+    from abu_calc.fits.clearance import ClearanceLeft
+    from abu_calc.fits.selective import Selection
     from abu_calc.spec.bearing import Bearing as BearingTable
 
 
@@ -53,7 +56,7 @@ class SeatFit(NamedTuple):
     creep: Creep
     requirements: Requirements
     asked: Interval | None
-    selection: Selection | None
+    selection: "Selection | None"
     notes: tuple[str, ...]
     checks: tuple[Check, ...]
 
@@ -129,7 +132,7 @@ class BearingSeats(NamedTuple):
     bearing: Bearing
     shaft: SeatFit
     housing: SeatFit
-    clearance: ClearanceLeft | None = None
+    clearance: "ClearanceLeft | None" = None
 
     @property
     def seats(self) -> tuple[SeatFit, SeatFit]:
@@ -156,7 +159,15 @@ def judge(bearing: Bearing) -> BearingSeats:
     asked_of = [joint for joint in joints if joint.must_grip] or joints
     asked = None if bearing.asked_interference is None else Interval(*bearing.asked_interference)
     shaft, housing = (_seat_fit(bearing, joint, asked if joint in asked_of else None) for joint in joints)
-    return BearingSeats(bearing, shaft, housing, clearance_left(bearing, *joints))
+    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints))
+
+
+def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
+    if bearing.internal_clearance is None:
+        return None
+    from abu_calc.fits.clearance import clearance_left
+
+    return clearance_left(bearing.internal_clearance, bearing, shaft, housing)
 
 
 def _seat_fit(bearing: Bearing, joint: Joint, asked: Interval | None) -> SeatFit:
@@ -171,7 +182,7 @@ def _seat_fit(bearing: Bearing, joint: Joint, asked: Interval | None) -> SeatFit
     intensity = None
     if joint.radial_load is not None and joint.length is not None:
         intensity = load_intensity(joint.radial_load, joint.length)
-    selection = selective_groups(*joint.male_and_female, asked) if asked else None
+    selection = _selection(joint, asked)
     return SeatFit(
         name=bearing.name,
         joint=joint,
@@ -188,6 +199,14 @@ def _seat_fit(bearing: Bearing, joint: Joint, asked: Interval | None) -> SeatFit
         checks=seat_checks(bearing.name, joint, recommended)
         + start_checks(bearing.name, joint, verdict, torque, recommended),
     )
+
+
+def _selection(joint: Joint, asked: Interval | None) -> "Selection | None":
+    if asked is None:
+        return None
+    from abu_calc.fits.selective import selective_groups
+
+    return selective_groups(*joint.male_and_female, asked)
 
 
 def _ledger(joint: Joint) -> tuple[Item, ...]:
@@ -218,7 +237,7 @@ def _notes(bearing: Bearing, joint: Joint, intensity: float | None) -> tuple[str
     )
 
 
-def _sorting_note(joint: Joint, asked: Interval | None, selection: Selection | None) -> tuple[str, ...]:
+def _sorting_note(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:
     if asked is None:
         return ()
     band = f"{from_si(asked.smallest, 'um'):g} … {from_si(asked.largest, 'um'):g} µm"

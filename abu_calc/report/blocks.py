@@ -1,17 +1,15 @@
 """What a report is made of: a few kinds of blocks, the same for every command and every format of text."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Heading:
+class Heading(NamedTuple):
     """Starts a section."""
 
     text: str
 
 
-@dataclass(frozen=True)
-class Paragraph:
+class Paragraph(NamedTuple):
     """Running text, wrapped to the width there is; `mark` sets it off (pass, fail, not-done, warning)."""
 
     text: str
@@ -19,15 +17,13 @@ class Paragraph:
     indent: int = 2
 
 
-@dataclass(frozen=True)
-class Facts:
+class Facts(NamedTuple):
     """Rows of label, symbol, value with unit."""
 
     rows: tuple[tuple[str, str, str], ...]
 
 
-@dataclass(frozen=True)
-class Grid:
+class Grid(NamedTuple):
     """A table with a header; `right` names the columns with numbers."""
 
     header: tuple[str, ...]

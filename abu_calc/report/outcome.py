@@ -1,9 +1,8 @@
 """What a command returns, and the one JSON document it becomes."""
 
-import json
 import math
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from abu_calc.checks import Check, Status
 from abu_calc.errors import AbuError, InputError
@@ -14,8 +13,7 @@ SCHEMA = 1
 EXIT_STATUS: dict[Status, int] = {"pass": 0, "fail": 1, "not-done": 1}
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """The file a result comes from."""
 
     file: str
@@ -47,7 +45,7 @@ def document(outcome: Outcome) -> dict[str, Any]:
     """The envelope of a result."""
     return {
         "abu": _head(outcome.command),
-        "input": asdict(outcome.source) if outcome.source else None,
+        "input": outcome.source._asdict() if outcome.source else None,
         "status": outcome.status,
         "checks": [asdict(check) for check in outcome.checks],
         "result": outcome.result,
@@ -79,6 +77,8 @@ def _head(command: str) -> dict[str, Any]:
 
 def to_json(content: dict[str, Any]) -> str:
     """One JSON document; refuses NaN and infinities, which no result may hold; ASCII, so every console can take it."""
+    import json
+
     return json.dumps(content, allow_nan=False, indent=2)
 
 

@@ -1,14 +1,12 @@
 """The one table of quantities: what a key of a result is called, its symbol, and its digits, wherever it is shown."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from abu_calc.units import SI_PER_UNIT, SYMBOLS
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """Label, symbol and significant digits of a key; the unit stands in the key."""
 
     label: str

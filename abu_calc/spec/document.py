@@ -1,21 +1,21 @@
-"""The way of every file: path or preset → bytes → text → document → overrides → model, every fault with its place."""
+"""The way of every file: path or preset → bytes → text → document → overrides → model, every fault with its place.
+
+What tells of faults is imported when there is one.
+"""
 
 import hashlib
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import Final, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
 from abu_calc.errors import InputError, Place
 from abu_calc.spec import presets
-from abu_calc.spec.lines import key_lines
-from abu_calc.spec.names import nearest
-from abu_calc.spec.overrides import apply, parse_override
-from abu_calc.spec.syntax import parse
 from abu_calc.spec.table import Table
-from abu_calc.spec.text import key_path
+from abu_calc.spec.text import Part, key_path
 
 LARGEST_FILE: Final = 1_000_000
 """Bytes of the largest file that is read; ours have a few thousand."""
@@ -23,8 +23,7 @@ LARGEST_FILE: Final = 1_000_000
 Model = TypeVar("Model", bound=Table)
 
 
-@dataclass(frozen=True)
-class Document:
+class Document(NamedTuple):
     """A file whose TOML is right; its tables are not looked at yet."""
 
     file: str
@@ -41,18 +40,23 @@ class Reading:
     file: str
     text: str
     sha256: str
-    lines: Mapping[str, int]
-    """Key path → line."""
     defaults_used: tuple[tuple[str, object], ...]
     """Key path and value of each default in force in the tables that are there."""
     warnings: tuple[str, ...]
+
+    @property
+    def lines(self) -> Mapping[str, int]:
+        """Key path → line."""
+        from abu_calc.spec.lines import key_lines
+
+        return key_lines(self.text)
 
 
 def open_document(source: str) -> Document:
     """The document of a file, or of a preset by its name. Raises InputError with file, line, key and remedy."""
     raw = _bytes(source)
     text = _decoded(raw, source)
-    content = parse(text, source)
+    content = _parsed(text, source)
     if not content:
         raise InputError(
             "the file holds comments only", place=Place(source), remedy="`abu init FILE` writes a commented one"
@@ -69,18 +73,39 @@ def validate(
     for whatever is wrong; several faults come as SpecErrors.
     """
     content = document.content
-    given = [parse_override(override) for override in overrides]
-    notes = apply(content, given, known)
-    model, lines = choose(content), key_lines(document.text)
+    options, notes = _overridden(content, overrides, known)
+    model = choose(content)
     try:
         table = model.model_validate(content)
     except ValidationError as error:
         from abu_calc.spec.errors import Origin, told
+        from abu_calc.spec.lines import key_lines
 
-        options = {override.path: override.option for override in given}
-        raise told(error, Origin(document.file, content, lines, options, model)) from None
+        raise told(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
-    return table, Reading(document.file, document.text, document.sha256, lines, defaults, tuple(notes))
+    return table, Reading(document.file, document.text, document.sha256, defaults, tuple(notes))
+
+
+def _overridden(
+    content: dict[str, object], overrides: Sequence[str], known: type[Table]
+) -> tuple[dict[tuple[Part, ...], str], list[str]]:
+    """Puts overrides into the document; the option of each path that one set, and the notes."""
+    if not overrides:
+        return {}, []
+    from abu_calc.spec.overrides import apply, parse_override
+
+    given = [parse_override(override) for override in overrides]
+    notes = apply(content, given, known)
+    return {override.path: override.option for override in given}, notes
+
+
+def _parsed(text: str, source: str) -> dict[str, object]:
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        from abu_calc.spec.syntax import reworded
+
+        raise reworded(text, source, error) from None
 
 
 def _bytes(source: str) -> bytes:
@@ -107,6 +132,8 @@ def _path(source: str) -> Path:
         raise InputError("not a file name", place=place) from None
     if preset := presets.find(source):
         return preset
+    from abu_calc.spec.names import nearest
+
     known = presets.names()
     if close := nearest(path.stem, known):
         remedy = f'the nearest preset is "{close}"'

@@ -1,7 +1,6 @@
-"""Parsing of TOML, with the parser's messages turned into what to change."""
+"""What is wrong with the TOML of a file: the parser's messages turned into what to change."""
 
 import re
-import tomllib
 from typing import Final
 
 from abu_calc.errors import InputError, Place
@@ -29,17 +28,11 @@ _VALUES: Final = (
 )
 
 
-def parse(text: str, file: str) -> dict[str, object]:
-    """The document of a TOML text; raises InputError with the line, the key and the remedy."""
-    try:
-        return tomllib.loads(text)
-    except RecursionError:
-        raise InputError("the file is nested too deeply", place=Place(file)) from None
-    except ValueError as error:
-        raise _reworded(text, file, str(error)) from None
-
-
-def _reworded(text: str, file: str, message: str) -> InputError:
+def reworded(text: str, file: str, error: ValueError | RecursionError) -> InputError:
+    """The parser's error on a TOML text as one with the line, the key and the remedy."""
+    if isinstance(error, RecursionError):
+        return InputError("the file is nested too deeply", place=Place(file))
+    message = str(error)
     where = _WHERE.search(message)
     rows = text.split("\n")
     # An error at the end of the document has its cause in the last statement.

@@ -1,7 +1,6 @@
 """How keys, values and units are printed, the same in every message."""
 
 import datetime
-import json
 import math
 import re
 from collections.abc import Iterable
@@ -35,6 +34,8 @@ def key_path(parts: Iterable[Part]) -> str:
 
 def quoted(text: str) -> str:
     """Text as a TOML basic string."""
+    import json
+
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
