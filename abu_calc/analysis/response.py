@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.receptance import unbalanced_amplitude
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude
+from abu_calc.dynamics.parameters import rotor_of
+from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.units import level_from_velocity
 
@@ -30,7 +31,11 @@ class Window:
 
 @dataclass(frozen=True)
 class FinalState:
-    """Where the run ended: race centre [m, m/s], ball angles [rad] unwrapped, their mean speeds in the window."""
+    """Where the run ended: axis [m, m/s], ball angles [rad] unwrapped, their mean speeds in the window.
+
+    `tilt` [rad]: θ_y, −θ_x on a support that tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s] of
+    the rotor.
+    """
 
     t: float
     x: float
@@ -39,6 +44,9 @@ class FinalState:
     vy: float
     ball_angles: tuple[float, ...]
     ball_speeds: tuple[float, ...]
+    tilt: tuple[float, float] | None
+    arm_angle: float | None
+    speed: float
 
 
 @dataclass(frozen=True)
@@ -53,7 +61,16 @@ class Response:
     velocity_rms: float
     level: float | None
     unbalanced_amplitude: float
+    largest_amplitude: float
+    """Of the axis over the whole run, about its mean place in the window [m]."""
+    bearing_amplitudes: tuple[float, ...]
+    """As `axis_amplitude`, at each bearing of a support that tilts."""
     final: FinalState
+
+    @property
+    def ball_angles(self) -> tuple[float, ...]:
+        """At the end [rad], unwrapped."""
+        return self.final.ball_angles
 
 
 def amplitude_window(scene: Scene) -> Window:
@@ -79,50 +96,93 @@ def needed_moments(scene: Scene) -> Array:
 def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
     """The results of a trajectory that was sampled at least at `needed_moments`."""
     window, moments = amplitude_window(scene), settling_moments(scene)
-    size, balls = len(scene.support.names), len(scene.race.ball_masses)
-    P = np.array(scene.support.race_map)
-    states = trajectory.at(window.times)
+    first = 2 * len(scene.support.names)
+    balls = slice(first, first + len(scene.ball_masses))
+    states, run = trajectory.at(window.times), trajectory.at(moments)
     whole = states[:, -window.whole :]
-    place, velocity = P @ states[:size], P @ whole[size : 2 * size]
-    amplitude = _largest_radius(place - (P @ whole[:size]).mean(axis=1, keepdims=True))
+    place = axis_place(scene, states)
+    mean = axis_place(scene, whole).mean(axis=1, keepdims=True)
+    velocity = axis_velocity(scene, whole)
     rms = float(np.sqrt((velocity**2).mean(axis=1)).max())
-    residuals = np.abs(total_imbalance(scene, trajectory.at(moments)[2 * size : 2 * size + balls]))
-    settled = float(np.abs(total_imbalance(scene, whole[2 * size : 2 * size + balls])).mean())
-    end = states[:, -1]
-    theta = states[2 * size : 2 * size + balls, [-1 - window.whole, -1]]
+    residuals = np.abs(total_imbalance(scene, run[balls]))
+    settled = float(np.abs(total_imbalance(scene, whole[balls])).mean())
+    theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
-    x, y = (P @ end[:size]).tolist()
-    vx, vy = (P @ end[size : 2 * size]).tolist()
     return Response(
         scene=scene.name,
         duration=scene.duration,
         settling_time=settling_time(moments, residuals, settled + 0.1 * reference_moment(scene)),
         residual_imbalance=float(residuals[-1]),
-        axis_amplitude=amplitude,
+        axis_amplitude=_largest_radius(place - mean),
         velocity_rms=rms,
         level=level_from_velocity(rms) if rms > 0 else None,
         unbalanced_amplitude=unbalanced_amplitude(scene),
-        final=FinalState(
-            t=scene.duration,
-            x=x,
-            y=y,
-            vx=vx,
-            vy=vy,
-            ball_angles=tuple(end[2 * size : 2 * size + balls].tolist()),
-            # The mean of a speed is the way made; exact, whatever the samples.
-            ball_speeds=tuple(((theta[:, 1] - theta[:, 0]) / span).tolist()),
-        ),
+        largest_amplitude=_largest_radius(axis_place(scene, run) - mean),
+        bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
+        # The mean of a speed is the way made; exact, whatever the samples.
+        final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
     )
 
 
-def reference_moment(scene: Scene) -> float:
-    """max(m₀e, 1 % of Σ m R_p) [kg m]: what a residual imbalance is small against."""
-    return max(scene.imbalance, 0.01 * scene.race.static_moment)
+def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:
+    first = 2 * len(scene.support.names)
+    x, y = axis_place(scene, end[:, None])[:, 0].tolist()
+    vx, vy = axis_velocity(scene, end[:, None])[:, 0].tolist()
+    tilt = None
+    if isinstance(scene.support, LinearSupport) and scene.support.tilts:
+        tx, ty = (np.array(scene.support.race_map)[2:] @ end[: first // 2]).tolist()
+        tilt = (tx, ty)
+    return FinalState(
+        t=scene.duration,
+        x=x,
+        y=y,
+        vx=vx,
+        vy=vy,
+        ball_angles=tuple(end[first : first + len(scene.ball_masses)].tolist()),
+        ball_speeds=ball_speeds,
+        tilt=tilt,
+        arm_angle=float(end[0]) if isinstance(scene.support, SwingArm) else None,
+        speed=scene.speed if rotor_of(scene) == "steady" else float(end[-1]),
+    )
+
+
+def axis_place(scene: Scene, states: Array, plane: float = 0.0) -> Array:
+    """x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, moment].
+
+    Of a swing arm: from where it lies along +x.
+    """
+    support, size = scene.support, len(scene.support.names)
+    if isinstance(support, SwingArm):
+        return support.length * np.array((np.cos(states[0]) - 1, np.sin(states[0])))
+    return np.asarray(_at_plane(support, plane) @ states[:size])
+
+
+def axis_velocity(scene: Scene, states: Array) -> Array:
+    """The velocity of the axis [m/s], likewise."""
+    support, size = scene.support, len(scene.support.names)
+    if isinstance(support, SwingArm):
+        return support.length * states[1] * np.array((-np.sin(states[0]), np.cos(states[0])))
+    return np.asarray(_at_plane(support, 0.0) @ states[size : 2 * size])
+
+
+def _at_plane(support: LinearSupport, plane: float) -> Array:
+    P = np.array(support.race_map)
+    return P if len(P) == 2 else P[:2] + plane * P[2:]
+
+
+def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
+    places = scene.support.bearings if isinstance(scene.support, LinearSupport) else ()
+    return tuple(
+        _largest_radius(
+            axis_place(scene, states, z) - axis_place(scene, whole, z).mean(axis=1, keepdims=True)
+        )
+        for z in places
+    )
 
 
 def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
     """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, moment]."""
-    moments = np.array(scene.race.ball_masses, dtype=float) * scene.race.pitch_radius
+    moments = np.array(scene.ball_moments, dtype=float)
     own = scene.imbalance * np.exp(1j * scene.imbalance_angle)
     return np.asarray(own + moments @ np.exp(1j * angles), dtype=complex)
 

@@ -9,12 +9,11 @@ from typing import Any
 import typer
 
 from abu_calc.cli.deliver import fail
+from abu_calc.cli.start import INTERRUPTED
 from abu_calc.errors import AbuError, InputError, OutputError
 from abu_calc.version import __version__
 
-INTERRUPTED = 130
-
-COMMANDS = ("size", "check-fit", "simulate", "stability", "verify", "validate", "init", "presets", "schema", "explain")
+COMMANDS = ("size", "check-fit", "simulate", "stability", "effects", "accuracy", "verify", "validate", "init", "presets", "schema", "explain")
 """In the order of the help; each has its module."""
 
 

@@ -8,27 +8,30 @@ import typer
 from abu_calc.checks import Check, overall, verdict
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
-from abu_calc.cli.subject import SCENES, File, one_of, subject_of
+from abu_calc.cli.subject import File, WhichScene, WhichStart, one_of, subject_of
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.analysis.audit import Audit
     from abu_calc.analysis.simulate import Simulation
 
-INTEGRATORS: Final = ("auto", "scipy")
+INTEGRATORS: Final = ("auto", "scipy", "heyoka")
 SAMPLES: Final = 1001
 MOST_SAMPLES: Final = 1_000_000
+
+Accuracy = Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the results.")]
+With = Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help="Take an effect in; repeatable.")]
+Without = Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Leave one out; repeatable.")]
 
 
 def simulate(
     how: Delivery,
     file: File,
     set_: Overrides = None,
-    scene: Annotated[str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}.")] = None,
-    start: Annotated[
-        str | None, typer.Option("--start", help="Balls of a machine: bunched (default), spread, standstill.")
-    ] = None,
-    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the results.")] = 0.01,
+    scene: WhichScene = None,
+    start: WhichStart = None,
+    accuracy: Accuracy = 0.01,
     integrator: Annotated[str, typer.Option("--integrator", help="auto, scipy or heyoka.")] = "auto",
     duration: Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")] = None,
     trajectory: Annotated[
@@ -37,64 +40,53 @@ def simulate(
     samples: Annotated[
         int | None, typer.Option("--samples", metavar="N", help=f"Moments in the trajectory; default {SAMPLES}.")
     ] = None,
-    with_: Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help="Add an effect.")] = None,
-    without: Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Leave one out.")] = None,
+    with_: With = None,
+    without: Without = None,
+    audit: Annotated[
+        bool, typer.Option("--audit", help="Run again with every effect in; tell the true difference.")
+    ] = False,
 ) -> Outcome:
     """Integrate one scene: amplitude, level, settling time, where the balls end."""
+    from abu_calc.analysis.audit import audit as run_again
+    from abu_calc.analysis.ledger import chosen
     from abu_calc.analysis.simulate import ACCURACY
     from abu_calc.analysis.simulate import simulate as integrate
     from abu_calc.cli.load import located, source_of
     from abu_calc.dynamics.from_scene import lasting
-    from abu_calc.dynamics.scene import with_parted_balls
     from abu_calc.report.files import write
     from abu_calc.report.simulate_text import simulate_blocks
-    from abu_calc.report.simulation import scene_model, simulation_result
+    from abu_calc.report.simulation import audit_result, scene_model, simulation_result
     from abu_calc.report.trajectory import trajectory_csv, trajectory_moments
-    from abu_calc.units import from_si
 
     ACCURACY.check(accuracy)
-    _check_options(how, integrator, trajectory, samples, (("--with", with_), ("--without", without)))
+    _check_options(how, integrator, trajectory, samples)
     subject = subject_of(file, set_, scene, start)
-    if duration is not None:
-        wanted = lasting(subject.scene, duration, "--duration")
-    else:
-        with located(subject.source):
-            wanted = lasting(subject.scene, None, "scene.duration_s")
-    moments = trajectory_moments(wanted, samples or SAMPLES) if trajectory else ()
-    run = integrate(wanted, accuracy, moments)
-    if trajectory:
-        write(trajectory, trajectory_csv(wanted, run.trajectory, moments))
-    result = simulation_result(run, subject.left_out(run.response))
-    result["unbalanced_amplitude_mm"] = from_si(run.response.unbalanced_amplitude, "mm")
-    checks, warnings = (_accuracy_check(run, accuracy),), (*subject.warnings, *run.warnings)
-    defaults = subject.source.defaults_used
-    blocks = simulate_blocks(subject.title, subject.start, result, checks, warnings, defaults)
-    model = scene_model(with_parted_balls(wanted)[0])
+    check_effects(subject.scene.effects, with_, without)
+    with located(subject.source):
+        full = lasting(subject.scene, duration, "scene.duration_s" if duration is None else "--duration")
+        ledger = chosen(full, accuracy, with_ or (), without or ())
+    moments = trajectory_moments(full, samples or SAMPLES) if trajectory else ()
+    run = integrate(ledger.scene, accuracy, moments, integrator=integrator)
+    result, checks = simulation_result(run, ledger), (_accuracy_check(run, accuracy),)
+    if audit:
+        audited = run_again(full, ledger, run, accuracy, integrator)
+        result["audit"] = audit_result(audited)
+        checks = (*checks, _audit_check(audited, accuracy))
+    if trajectory:  # when nothing can fail or be interrupted for long any more
+        write(trajectory, trajectory_csv(run.scene, run.trajectory, moments))
+    warnings, defaults = (*subject.warnings, *run.warnings), subject.source.defaults_used
+    blocks = simulate_blocks(subject.title, subject.start, result, run.scene, checks, warnings, defaults)
+    model = scene_model(run.scene)
     return Outcome("simulate", result, blocks, source_of(subject.source), checks, model, warnings, overall(checks))
 
 
 def _check_options(
-    how: Delivery,
-    integrator: str,
-    trajectory: Path | None,
-    samples: int | None,
-    effects: tuple[tuple[str, list[str] | None], ...],
+    how: Delivery, integrator: str, trajectory: Path | None, samples: int | None
 ) -> None:
     """Refuse what cannot be done before anything is computed."""
     from abu_calc.report.files import check_target
-    from abu_calc.spec.scene_effects import Effects
 
-    if integrator == "heyoka":
-        raise InputError(
-            "this version integrates with SciPy",
-            place=Place(key="--integrator"),
-            found=integrator,
-            allowed="auto, scipy",
-        )
     one_of("--integrator", integrator, INTEGRATORS)
-    for option, named in effects:
-        for name in named or ():
-            one_of(option, name, (), tuple(Effects.model_fields))
     if samples is not None and trajectory is None:
         raise InputError("--samples goes with --trajectory", remedy="Add --trajectory FILE.csv.")
     if samples is not None and not 2 <= samples <= MOST_SAMPLES:
@@ -107,10 +99,39 @@ def _check_options(
             raise InputError("--output and --trajectory name the same file", found=str(trajectory))
 
 
+def check_effects(present: tuple[object, ...], with_: list[str] | None, without: list[str] | None) -> None:
+    """Refuse effects nobody knows, and those the file has no data for."""
+    from abu_calc.dynamics.effects.registry import REGISTRY
+
+    data = [getattr(effect, "name", "") for effect in present]
+    for option, named in (("--with", with_), ("--without", without)):
+        for name in named or ():
+            one_of(option, name, [known for known, _ in REGISTRY])
+    for name in with_ or ():
+        if name not in data:
+            raise InputError(
+                "the file has no data for this effect",
+                place=Place(key="--with"),
+                found=name,
+                allowed=", ".join(data) or "none",
+                remedy="Write its table into the file.",
+            )
+        if name in (without or ()):
+            raise InputError("an effect cannot be both in and out", place=Place(key="--without"), found=name)
+
+
 def _accuracy_check(run: "Simulation", accuracy: float) -> Check:
     message = "two runs, a decade of tolerance apart, agree in amplitude, settling time and ball angles"
     return Check("ABU801", "accuracy reached", verdict(run.error_estimate <= accuracy), message, run.error_estimate,
                  accuracy, None, None)  # fmt: skip
+
+
+def _audit_check(audited: "Audit", accuracy: float) -> Check:
+    message = "with every effect in, amplitude, settling time and ball angles differ by no more than the accuracy"
+    remedy = "Ask for more accuracy, or take effects in: --with EFFECT."
+    held = audited.difference <= accuracy
+    return Check("ABU802", "effects left out", verdict(held), message, audited.difference, accuracy, None,
+                 None if held else remedy)  # fmt: skip
 
 
 def register(app: typer.Typer) -> None:

@@ -7,7 +7,7 @@ import typer
 
 from abu_calc.checks import Check, overall, verdict
 from abu_calc.cli.command import Overrides, add_command
-from abu_calc.cli.subject import File, subject_of
+from abu_calc.cli.subject import File, one_of, subject_of
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
 from abu_calc.units import to_si
@@ -16,11 +16,16 @@ if TYPE_CHECKING:
     from abu_calc.dynamics.stability import Stability
 
 FASTEST_RPM = 1e6
+SCENES = ("idle", "swing-arm-idle", "swing-arm-cutting")
+"""Those with a balanced state; a run-up passes through all speeds, and a wheel at work is held."""
 
 
 def stability(
     file: File,
     set_: Overrides = None,
+    scene: Annotated[
+        str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}; default {SCENES[0]}.")
+    ] = None,
     speeds: Annotated[
         str | None,
         typer.Option("--speeds", metavar="LOW:HIGH", help="rpm; also find every speed where stability changes."),
@@ -28,18 +33,22 @@ def stability(
 ) -> Outcome:
     """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""
     from abu_calc.cli.load import source_of
-    from abu_calc.dynamics.stability import boundaries
+    from abu_calc.dynamics.stability import boundaries, critical_damping
     from abu_calc.dynamics.stability import stability as judge
     from abu_calc.report.simulation import scene_model
     from abu_calc.report.stability import stability_blocks, stability_result, stability_warnings
 
     wanted = None if speeds is None else _range(speeds)
-    subject = subject_of(file, set_)
+    one_of("--scene", scene, SCENES)
+    subject = subject_of(file, set_, scene)
     found = judge(subject.scene, subject.half_angle)
-    limits = None if wanted is None else boundaries(subject.scene, *wanted, subject.half_angle)
-    result = stability_result(found, limits)
+    limits = None
+    if wanted is not None and found.reason is None:
+        limits = boundaries(subject.scene, *wanted, subject.half_angle)
+    result = stability_result(found, limits, critical_damping(subject.scene))
     checks = (_check(found),)
-    warnings = (*subject.warnings, *stability_warnings(found))
+    sizes = [len(race.ball_masses) for race in subject.scene.races]
+    warnings = (*subject.warnings, *stability_warnings(found, sizes))
     defaults = subject.source.defaults_used
     blocks = stability_blocks(subject.title, result, speeds, checks, warnings, defaults)
     model = scene_model(subject.scene)
@@ -66,17 +75,20 @@ def _range(text: str) -> tuple[float, float]:
 
 def _check(found: "Stability") -> Check:
     name = ("ABU802", "stability of the balanced state")
+    if found.reason is not None:
+        return Check(*name, "not-done", found.reason, unit="1/s",
+                     remedy="A second race in another plane, or bearings alike along x and y.")  # fmt: skip
     if found.angles is None:
         return Check(
             *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
             remedy="Heavier or more balls, a larger race, or a better balanced rotor.",
         )  # fmt: skip
+    growth = found.growth_rate if found.growth_rate is not None and math.isfinite(found.growth_rate) else None
     message = "every small disturbance dies out"
     if not found.stable:
         message = "not every small disturbance dies out, although the balls could balance here"
     remedy = None if found.stable else "Leave the forbidden speeds (--speeds finds them), or change drag and damping."
-    growth = found.growth_rate if found.growth_rate is not None and math.isfinite(found.growth_rate) else None
-    return Check(*name, verdict(found.stable), message, growth, 0.0, "1/s", remedy)
+    return Check(*name, verdict(bool(found.stable)), message, growth, 0.0, "1/s", remedy)
 
 
 def register(app: typer.Typer) -> None:

@@ -2,6 +2,9 @@
 
 import gc
 import os
+import sys
+
+INTERRUPTED = 130
 
 
 def main() -> None:
@@ -12,9 +15,12 @@ def main() -> None:
     """
     gc.set_threshold(100_000)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    from abu_calc.cli.app import main as run
-
     try:
+        from abu_calc.cli.app import main as run
+
         run()
+    except KeyboardInterrupt:  # before the command has begun, or after it has ended
+        print("Interrupted.", file=sys.stderr)
+        sys.exit(INTERRUPTED)
     finally:
         gc.freeze()

@@ -1,61 +1,290 @@
 """Mass matrix, energy and power of a scene: the Lagrangian side of the equations, which holds them to account.
 
-Nothing here is used by `equations`; a sign lost on either side breaks the symmetry or the balance of energy.
+It starts from the places of the balls in space; nothing here is used by `equations`, so a sign lost on either side
+breaks the symmetry, Lagrange's equations or the balance of energy. Coordinates x = (q, θ, [w], turn): support, balls
+along the race, balls across it where they have that freedom, the rotor's turn, which on a swing arm is counted from the
+arm and is a freedom only where a motor drives. Their rates are v. With the places r_k(x) of the balls
+
+    T = ½ q'ᵀ M q' + ½ Σ m |r_k'|² + ½ Σ (J − 1) m [(r Ω − R θ')² + w'² + ν²]
+        + m₀e c'·u' + χ(J_t − J_p) Θ'·u' + ½ J_r Ω²
+
+Ω the rotor's speed in space, c' that of its centre, u the direction of the imbalance or of the couple. The third term
+is a rolling ball's spin, which for θ' = 0 is the rotor's own (Kladiev 1996, eq. (12), has the same 7/5); r⁻¹ν is that
+about the contact's normal, a speed without a coordinate. Balls that roll two ways obey no Lagrange's equations, since
+they may not slip, but keep the energy; points (J = 1) obey both.
 """
 
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations import accelerations, owned
+from abu_calc.dynamics.jacobian import STEP
+from abu_calc.dynamics.motion import motion_of
+from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.dynamics.scene import Scene, SwingArm
+
+Modes = tuple[Any, ...]
+
+ACROSS = "transverse_motion"
+"""The effect whose states are the balls' ways across the race and their rates."""
 
 
-def mass_matrix(scene: Scene, gamma: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The symmetric, positive definite matrix of the kinetic energy ½ vᵀ M v, v = (q', γ') [kg, kg m, kg m²].
+def mass_matrix(scene: Scene, t: Any, y: Array) -> Array:
+    """The symmetric, positive definite M of T = ½ vᵀ M v in the coordinates that are free [kg, kg m, kg m²]."""
+    bodies = Bodies(scene)
+    x, _ = bodies.split(t, y)
+    return bodies.mass(x)[: bodies.freedoms, : bodies.freedoms]
 
-    T = ½ q'ᵀ M q' + Σ ½ m |r' + R_p γ' (−sin γ, cos γ)|² + Σ ½ (J − 1) m R_p² γ'². The last term is a ball's rolling:
-    its spin relative to the turning race, less a total derivative (Kladiev 1996, eq. (12), uses the same 7/5).
+
+def energy(scene: Scene, t: Any, y: Array, modes: Modes | None = None) -> Any:
+    """E = T + V [J]: springs, the arm's constant moment, and the energy of the effects."""
+    bodies = Bodies(scene)
+    x, v = bodies.split(t, y)
+    spin = bodies.spinning(y)
+    kinetic = v @ bodies.mass(x) @ v / 2 + (bodies.rolling * spin) @ spin / 2
+    return kinetic + _potential(bodies, x, v, _parameters(scene, modes))
+
+
+def power(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> float:
+    """dE/dt [W] by all that is not conservative: dampers, drag, effects, and the drive that keeps the rotor's speed."""
+    p = _parameters(scene, modes)
+    _, v = Bodies(scene).split(t, y)
+    motion, _, solved = accelerations(np, t, y, p)
+    total = resisting(scene, t, y) @ v
+    total += sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in owned(y, p))
+    if p.rotor != "driven":
+        total += demanded(scene, t, y, modes)[-1] * v[-1]
+    return float(total)
+
+
+def resisting(scene: Scene, t: float, y: Array) -> Array:
+    """Forces of the support's dampers, of the gyroscopic moments and of the drag, in all coordinates.
+
+    The drag's torque is that between ball and race, so it stands in the row of θ alone.
     """
-    return _mass_matrix(scene, np.asarray(gamma, dtype=float))
+    bodies, support = Bodies(scene), scene.support
+    _, v = bodies.split(t, y)
+    first, last = bodies.size, bodies.size + bodies.balls
+    force = np.zeros(len(v))
+    if isinstance(support, SwingArm):
+        force[0] = -support.damping * support.length**2 * v[0]
+    else:
+        spinning = np.array(support.gyroscopic) * v[-1] if support.gyroscopic else 0.0
+        force[:first] = -(np.array(support.damping) + spinning) @ v[:first]
+    radii, drag = _each(scene, "pitch_radius"), _each(scene, "drag")
+    force[first:last] = -np.array(scene.ball_masses) * radii**2 * drag * v[first:last]
+    return force
 
 
-def _mass_matrix(scene: Scene, gamma: NDArray[Any]) -> NDArray[Any]:
-    race = scene.race
-    P = np.array(scene.support.race_map)
-    masses = np.array(race.ball_masses, dtype=float)
-    moments = masses * race.pitch_radius
-    own = np.array(scene.support.mass) + masses.sum() * P.T @ P
-    coupling = P.T @ np.array((-moments * np.sin(gamma), moments * np.cos(gamma)))
-    return np.block([[own, coupling], [coupling.T, np.diag(race.inertia_factor * moments * race.pitch_radius)]])
+def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> Array:
+    """d/dt ∂L/∂v − ∂L/∂x, L = T − V, with the accelerations of `equations`: what forces of no energy must supply.
 
-
-def _split(scene: Scene, t: float, y: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """(q, q', γ, γ') of a state."""
-    size, balls = len(scene.support.names), len(scene.race.ball_masses)
-    q, velocity, theta, rate = np.split(y, [size, 2 * size, 2 * size + balls])
-    return q, velocity, theta + scene.speed * t, rate + scene.speed
-
-
-def energy(scene: Scene, t: float, y: NDArray[Any]) -> Any:
-    """E = ½ vᵀ M v + ½ qᵀ K q [J]; real for real states, complex for the complex step."""
-    q, velocity, gamma, gamma_rate = _split(scene, t, y)
-    v = np.concatenate([velocity, gamma_rate])
-    return (v @ _mass_matrix(scene, gamma) @ v + q @ np.array(scene.support.stiffness) @ q) / 2
-
-
-def power(scene: Scene, t: float, y: NDArray[Any]) -> Any:
-    """dE/dt [W]: the imbalance's work, less damping, and the drag's work Σ m R_p² h₀ (Ω − γ') γ'.
-
-    The drag's part is what the drive puts in, m R_p² h₀ Ω(Ω − γ'), less what turns to heat, m R_p² h₀ (Ω − γ')².
+    In all coordinates, the turn's included, whoever drives it. Derivatives by the complex step, exact to rounding.
     """
-    race = scene.race
-    _, velocity, _, gamma_rate = _split(scene, t, y)
-    phase = scene.speed * t + scene.imbalance_angle
-    force = scene.imbalance * scene.speed**2 * np.array((np.cos(phase), np.sin(phase)))
-    inertias = np.array(race.ball_masses, dtype=float) * race.pitch_radius**2
-    return (
-        force @ (np.array(scene.support.race_map) @ velocity)
-        - velocity @ np.array(scene.support.damping) @ velocity
-        + (inertias * race.drag * (scene.speed - gamma_rate)) @ gamma_rate
-    )
+    bodies, p = Bodies(scene), _parameters(scene, modes)
+    x, v = bodies.split(t, y)
+    motion, _, solved = accelerations(np, t, y, p)
+    across = [solved.across] if bodies.across else []
+    a = np.concatenate([solved.support, solved.balls / motion.radii, *across, [solved.rotor]])
+    moved, sped = x + 1j * STEP * v, v + 1j * STEP * a
+    slope = np.empty(len(x))
+    for j in range(len(x)):
+        aside = x.astype(complex)
+        aside[j] += 1j * STEP
+        L = v @ bodies.mass(aside) @ v / 2 - _potential(bodies, aside, v, p)
+        slope[j] = L.imag / STEP
+    found: Array = (bodies.mass(moved) @ sped).imag / STEP - slope
+    return found
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """What of a scene has inertia, where it is and how it moves with the coordinates."""
+
+    scene: Scene
+
+    @property
+    def size(self) -> int:
+        """Coordinates of the support."""
+        return len(self.scene.support.names)
+
+    @property
+    def balls(self) -> int:
+        """How many balls."""
+        return len(self.scene.ball_masses)
+
+    @property
+    def arm(self) -> SwingArm | None:
+        """The support if it is a swing arm."""
+        return self.scene.support if isinstance(self.scene.support, SwingArm) else None
+
+    @property
+    def groove(self) -> Any:
+        """What lets balls move across the race, None without."""
+        return self.scene.effect(ACROSS)
+
+    @property
+    def across(self) -> bool:
+        """Whether balls move across the race."""
+        return self.groove is not None
+
+    @property
+    def rolling(self) -> Array:
+        """(J − 1) m of each ball."""
+        return np.array(self.scene.ball_masses) * (_each(self.scene, "inertia_factor") - 1)
+
+    @property
+    def freedoms(self) -> int:
+        """How many of the coordinates are free."""
+        driven = any(effect.rotor == "driven" for effect in self.scene.effects)
+        return self.size + self.balls * (1 + self.across) + driven
+
+    def split(self, t: Any, y: Array) -> tuple[Array, Array]:
+        """x and v of a state."""
+        q, q_rate, theta, rate, w, w_rate, _, turn = self._cut(y)
+        if not len(turn):
+            turn = np.array([self.scene.speed * t, self.scene.speed])
+        return np.concatenate([q, theta, w, turn[:1]]), np.concatenate([q_rate, rate, w_rate, turn[1:]])
+
+    def spinning(self, y: Array) -> Array:
+        """ν of each ball [m/s]."""
+        spin = self._cut(y)[6]
+        return spin if len(spin) else np.zeros(self.balls)
+
+    def _cut(self, y: Array) -> list[Array]:
+        """q, q', θ, θ', w, w', ν, (turn, speed); empty what there is not."""
+        free_spin = self.across and self.groove.free_spin
+        counts = [self.size] * 2 + [self.balls] * 2 + [self.balls * self.across] * 2 + [self.balls * free_spin]
+        return np.split(y, np.cumsum(counts))
+
+    def parts(self, x: Array) -> list[Array]:
+        """q, θ, w (empty without), turn."""
+        return np.split(x, np.cumsum([self.size, self.balls, self.balls * self.across]))
+
+    def turned(self, x: Array) -> Any:
+        """The rotor's turn in space."""
+        return x[-1] + x[0] if self.arm else x[-1]
+
+    def centre(self, x: Array) -> Array:
+        """Where the axis of the rotor is."""
+        if self.arm:
+            return self.arm.length * _direction(x[0])
+        return np.array(self.scene.support.race_map[:2]) @ x[: self.size]  # type: ignore[union-attr]
+
+    def radii(self, x: Array) -> Array:
+        """R of each ball, less than R_p where it is off the middle of its groove."""
+        w = self.parts(x)[2]
+        middle = _each(self.scene, "pitch_radius")
+        nearer: Array = w * w / (2 * self.groove.bend) if self.across else 0.0 * middle
+        return middle - nearer
+
+    def tilts(self, x: Array) -> Array:
+        """How the spindle leans toward x and y: Θ."""
+        rows = () if self.arm else self.scene.support.race_map[2:]  # type: ignore[union-attr]
+        return np.array(rows) @ x[: self.size] if rows else np.zeros(2)
+
+    def sunk(self, x: Array) -> Array:
+        """By how much R² of each ball is less, seen along the spindle, since its race leans."""
+        _, theta, w, _ = self.parts(x)
+        way = _each(self.scene, "pitch_radius") * (self.tilts(x) @ _direction(theta + self.turned(x)))
+        narrower: Array = way * way - (2 * w * way if self.across else 0.0)
+        return narrower
+
+    def places(self, x: Array) -> Array:
+        """r_k: x, y and along the spindle, of each ball (3 × n)."""
+        _, theta, w, _ = self.parts(x)
+        turn, tilts = self.turned(x), self.tilts(x)
+        outward = _direction(theta + turn)
+        plane = self.centre(x)[:, None] + tilts[:, None] * _each(self.scene, "plane_offset") + self.radii(x) * outward
+        aside: Any = self.scene.effect("race_eccentricity")
+        if aside:
+            plane = plane + aside.magnitude * _direction(turn + aside.angle)[:, None]
+        axial = w + self.groove.axial_runout * np.cos(turn) if self.across else 0.0 * theta
+        if getattr(self.scene.support, "axial_inertia", False):
+            axial = axial - _each(self.scene, "pitch_radius") * (tilts @ outward)
+        return np.vstack([plane, axial])
+
+    def mass(self, x: Array) -> Array:
+        """The symmetric matrix of the kinetic energy in all coordinates."""
+        scene, masses = self.scene, np.array(self.scene.ball_masses)
+        inertia = sum(effect.rotor_inertia for effect in scene.effects)
+        turning, ways = self._turning, self._slope(self.places, x)
+        along = np.pad(np.diag(self.radii(x)), ((0, 0), (self.size, len(x) - self.size - self.balls)))
+        spins = np.outer(_each(scene, "ball_radius"), turning) - along
+        matrix: Array = np.einsum("akx,k,aky->xy", ways, masses, ways)
+        matrix = matrix + np.einsum("kx,k,ky->xy", spins, self.rolling, spins)
+        if getattr(scene.support, "axial_inertia", False):
+            going = np.pad(np.eye(self.balls), ((0, 0), (self.size, len(x) - self.size - self.balls))) + turning
+            matrix = matrix - np.einsum("kx,k,ky->xy", going, masses * self.sunk(x), going)
+        if self.across:
+            w = slice(self.size + self.balls, -1)
+            matrix[w, w] += np.diag(self.rolling)
+        # The arm's own inertia counts the rotor's.
+        own = np.array([[self.arm.inertia - inertia]]) if self.arm else np.array(scene.support.mass)  # type: ignore[union-attr]
+        matrix[: self.size, : self.size] += own
+        matrix += inertia * np.outer(turning, turning)
+        matrix += scene.imbalance * self._leaning(x, self.centre, scene.imbalance_angle)
+        matrix += scene.couple * self._leaning(x, self.tilts, scene.couple_angle)
+        return matrix
+
+    @property
+    def _turning(self) -> Array:
+        """The rotor's speed in space per unit of each rate."""
+        row = np.zeros(self.size + self.balls * (1 + self.across) + 1)
+        row[-1] = 1.0
+        row[0] = 1.0 if self.arm else 0.0
+        return row
+
+    def _leaning(self, x: Array, place: Callable[[Array], Array], angle: float) -> Array:
+        """Matrix of place'·u', u the direction at `angle` in the rotor."""
+        moved = self._slope(place, x)
+        turned = self._slope(lambda z: _direction(self.turned(z) + angle), x)
+        coupling: Array = moved.T @ turned
+        return coupling + coupling.T
+
+    def _slope(self, place: Callable[[Array], Array], x: Array) -> Array:
+        """∂place/∂x, last axis x.
+
+        Places are linear in lengths and tilts, or quadratic across the groove, and first harmonics of angles: of all of
+        these a difference over a long step is the derivative itself, of sin over ±π/2 as of a parabola over ±1.
+        """
+        steps = np.full(len(x), math.pi / 2)
+        steps[: 0 if self.arm else self.size] = 1.0
+        steps[self.size + self.balls : -1] = 1.0
+        return np.stack([(place(x + step) - place(x - step)) / 2 for step in np.diag(steps)], axis=-1)
+
+
+def _potential(bodies: Bodies, x: Array, v: Array, p: Parameters) -> Any:
+    """V [J] of springs and effects."""
+    arm, q = bodies.arm, x[: bodies.size]
+    K = np.array([[arm.stiffness * arm.length**2]]) if arm else np.array(bodies.scene.support.stiffness)
+    own = q @ K @ q / 2 - (arm.moment * q[0] if arm else 0.0)
+    (q, theta, w, turn), (q_rate, rate, w_rate, speed) = bodies.parts(x), bodies.parts(v)
+    spin = np.zeros(bodies.balls * (bodies.across and bodies.groove.free_spin))
+    # Whoever turns the rotor: its turn is told here, so that energies can be asked for at any.
+    told, y = replace(p, rotor="guided"), np.concatenate([q, q_rate, theta, rate, w, w_rate, spin, turn, speed])
+    motion, parts = motion_of(np, 0.0, y, told), owned(y, told)
+    for effect, mode, states in parts:
+        effect.move(motion, mode, states)
+    return own + sum(effect.energy(motion, states, told) for effect, _, states in parts)
+
+
+def _parameters(scene: Scene, modes: Modes | None) -> Parameters:
+    """The numbers of a scene in these modes, those of the start by default."""
+    p = assemble(scene).parameters
+    return p if modes is None else replace(p, modes=modes)
+
+
+def _each(scene: Scene, name: str) -> Array:
+    """A number of the races, for each ball."""
+    return np.array([getattr(race, name) for race in scene.races for _ in race.ball_masses], dtype=float)
+
+
+def _direction(angle: Any) -> Array:
+    """(cos, sin)."""
+    return np.array((np.cos(angle), np.sin(angle)))

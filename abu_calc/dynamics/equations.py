@@ -1,191 +1,230 @@
-"""The one set of equations of motion: a linear support and one race of balls.
+"""The one set of equations of motion, composed of a support, races of balls, and the effects of a scene.
 
-With q the support's coordinates, r = P q = (x, y) the race centre, θ_k a ball's angle in the rotor, γ_k = θ_k + Ωt:
+A support is felt by the balls as a frame of d accelerations A. Ball k of mass m stands at the angle θ_k in the rotor,
+γ_k = θ_k + (turn of the rotor), e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). With T_k and N_k the acceleration of its
+place in the race per unit A along e_t and e_r, and κ_t, κ_r what that place has without A:
 
-    M q'' + C q' + K q = Pᵀ [ m₀e Ω² (cos, sin)(Ωt + φ) − Σ m_k (r + R_p (cos γ_k, sin γ_k))'' ]
-    J γ_k'' + h₀ θ_k' = (x'' sin γ_k − y'' cos γ_k)/R_p
+    ball     J R_p θ'' = g_t − R_p h₀ θ' − κ_t − T·A − (dry friction) n,    n = R_p γ'² + g_r − κ_r − N·A
+    frame    (M_f + Σ m (T Tᵀ + N Nᵀ)) A = f + Σ m N (R_p γ'² − κ_r) − Σ m T (κ_t + R_p θ'')
 
-Eliminating γ'' leaves the balls' force as F₀ − A r'', with s = (sin γ, −cos γ),
+n is the normal force of ball and race per mass, so dry friction is solved with the motion. Eliminating θ'' leaves d
+equations, whose matrix is symmetric and positive definite without friction; the cost grows linearly with the balls.
+J = 1 for a point, 7/5 for a rolling ball, 3/2 for a roller.
 
-    A = Σ m (I − s sᵀ/J)        F₀ = Σ m R_p [ γ'² (cos γ, sin γ) − (h₀/J) θ' s ],
-
-so that r'' solves a 2 × 2 system and the cost grows linearly with the number of balls. A is symmetric and positive
-semidefinite for J ≥ 1: the system can always be solved. J = 7/5 for a rolling ball, 3/2 for a roller.
-
-Range: constant speed Ω, balls in the plane of the race that may pass through each other. Source: Kladiev 1996, (1),
-re-derived by Lagrange's equations. Printed: (1) has J = 1, so its balls move faster by √(7/5), and no damping of the
-support, so its free vibration never dies.
+Source: Kladiev 1996, (1), and Kovalenko 2010, (1)–(3), re-derived by Lagrange's equations. Printed: Kladiev's (1) has
+J = 1, so its balls move faster by √(7/5), and no damping of the support, so its free vibration never dies.
 """
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene import Scene
-from abu_calc.errors import InputError
-
-Array = NDArray[Any]
-
-
-@dataclass(frozen=True, slots=True)
-class Parameters:
-    """The numbers `rhs` reads, combined once so that an evaluation needs few operations. SI."""
-
-    size: int
-    """N, the support's coordinates."""
-    speed: float
-    imbalance_force: float
-    imbalance_phases: Array
-    """φ and φ − π/2: the cosines of phases + Ωt are the imbalance's components."""
-    free: Array
-    """(N+2) × 2N: the accelerations (q'', r'') of the support alone are `free @ (q, q')`."""
-    push: tuple[tuple[float, float], ...]
-    """N × 2, M⁻¹Pᵀ: accelerations by a unit force on the race centre."""
-    compliance: tuple[float, float, float]
-    """xx, xy, yy of W = P M⁻¹ Pᵀ."""
-    moments: Array
-    """m R_p of each ball."""
-    drags: Array
-    """m R_p h₀/J of each ball."""
-    reduced_masses: Array
-    """m/J of each ball."""
-    ball_mass: float
-    reduced_ball_mass: float
-    lever: float
-    """1/(J R_p)."""
-    drag: float
-    """h₀/J."""
-
-
-Rhs = Callable[[Any, Any, Any, Parameters], Array]
-
-
-@dataclass(frozen=True)
-class Equations:
-    """A system to integrate: `rhs(xp, t, y, parameters)` in the order of `states`.
-
-    scales: what counts as a whole unit of each state; an error of tolerance × scale per step is allowed.
-    relative: whether a state's own size may loosen that (not for angles: they grow without meaning anything).
-    longest_step [s]: no step may be longer, whatever the error estimate says.
-    """
-
-    states: tuple[str, ...]
-    rhs: Rhs
-    parameters: Parameters
-    initial: tuple[float, ...]
-    scales: tuple[float, ...]
-    relative: tuple[bool, ...]
-    longest_step: float
+from abu_calc.dynamics.elimination import solve
+from abu_calc.dynamics.motion import Across, Levers, Loads, Motion, Solved, motion_of
+from abu_calc.dynamics.parameters import Array, Parameters
 
 
 def rhs(xp: Any, t: Any, y: Any, p: Parameters) -> Array:
-    """Time derivative of (q, q', θ, θ') by array arithmetic and xp.sin, xp.cos alone: real, complex or symbolic."""
-    n = p.size
-    first_rate = 2 * n + len(p.moments)
-    theta, rate = y[2 * n : first_rate], y[first_rate:]
-    turn = p.speed * t
-    gamma = theta + turn
-    sin, cos = xp.sin(gamma), xp.cos(gamma)
-    swing = rate + p.speed
-    # Sums over the balls by one product; as a list, because plain numbers are faster from here on than array scalars.
-    per_ball = np.array((p.moments * swing * swing, p.drags * rate, p.reduced_masses * sin))
-    (spun_y, drag_x, axx), (spun_x, drag_y, axy) = np.array((sin, cos)).dot(per_ball.T).tolist()
-    drive_x, drive_y = (p.imbalance_force * xp.cos(p.imbalance_phases + turn)).tolist()
-    fx, fy = drive_x + spun_x - drag_x, drive_y + spun_y + drag_y
-    axx, ayy = p.ball_mass - axx, p.ball_mass - p.reduced_ball_mass + axx
-    *alone, gx, gy = p.free.dot(y[: 2 * n]).tolist()
-    ax, ay = _centre_acceleration(p.compliance, (axx, axy, ayy), (gx, gy), (fx, fy))
-    fx, fy = fx - axx * ax - axy * ay, fy - axy * ax - ayy * ay
-    out: Array = np.empty_like(y)
-    out[:n] = y[n : 2 * n]
-    out[n : 2 * n] = [a + hx * fx + hy * fy for a, (hx, hy) in zip(alone, p.push, strict=True)]
-    out[2 * n : first_rate] = rate
-    out[first_rate:] = (p.lever * ax) * sin - (p.lever * ay) * cos - p.drag * rate
-    return out
+    """Time derivative of the state by array arithmetic and xp.sin, xp.cos alone: real, complex or symbolic."""
+    motion, levers, loads = loaded(xp, t, y, p)
+    return derivative(motion, solve_loaded(motion, levers, loads, p), y, p)
 
 
-def _centre_acceleration(w: Any, a: Any, g: Any, f: Any) -> tuple[Any, Any]:
-    """r'' from (I + W A) r'' = g + W f by Cramer's rule; w and a hold the xx, xy, yy of symmetric 2 × 2 matrices."""
-    wxx, wxy, wyy = w
-    axx, axy, ayy = a
-    (gx, gy), (fx, fy) = g, f
-    mxx, mxy = 1 + wxx * axx + wxy * axy, wxx * axy + wxy * ayy
-    myx, myy = wxy * axx + wyy * axy, 1 + wxy * axy + wyy * ayy
-    bx, by = gx + wxx * fx + wxy * fy, gy + wxy * fx + wyy * fy
-    determinant = mxx * myy - mxy * myx
-    return (myy * bx - mxy * by) / determinant, (mxx * by - myx * bx) / determinant
+def derivative(motion: Motion, solved: Solved, y: Any, p: Parameters) -> Array:
+    """y' from the accelerations, in the order of the state."""
+    parts = [motion.support[p.size :], solved.support, motion.rate, solved.balls / motion.radii]
+    if p.effects:
+        parts += [effect.rates(motion, own, solved) for effect, _, own in owned(y, p) if own is not None]
+    if p.rotor != "steady":
+        parts.append(np.array((y[-1], solved.rotor)))
+    return np.concatenate(parts)
 
 
-def assemble(scene: Scene) -> Equations:
-    """The equations of a scene. Raises InputError when the support's mass matrix is not symmetric positive definite."""
-    parameters = _parameters(scene)
-    names, balls = scene.support.names, range(1, len(scene.race.ball_masses) + 1)
-    support_scales, rate_scale = _scales(scene, parameters)
-    return Equations(
-        states=(*names, *(f"{name}'" for name in names), *(f"θ{k}" for k in balls), *(f"θ{k}'" for k in balls)),
-        rhs=rhs,
-        parameters=parameters,
-        initial=(
-            *scene.start_position,
-            *scene.start_velocity,
-            *scene.race.start_angles,
-            *scene.race.start_speeds,
-        ),
-        scales=(
-            *support_scales,
-            *(scale * scene.speed for scale in support_scales),
-            *(1.0 for _ in balls),
-            *(rate_scale for _ in balls),
-        ),
-        relative=(*(True for _ in 2 * names), *(False for _ in balls), *(True for _ in balls)),
-        # An imbalance goes round once per revolution: a longer step might not see it.
-        longest_step=scene.revolution,
+def owned(y: Any, p: Parameters) -> list[tuple[Any, Any, Any]]:
+    """Each effect with its mode and its own states (None where it has none), in order."""
+    place, found = 2 * (p.size + p.balls), []
+    for effect, mode in zip(p.effects, p.modes, strict=True):
+        count = len(effect.ball_states) * p.balls
+        found.append((effect, mode, y[place : place + count] if count else None))
+        place += count
+    return found
+
+
+def accelerations(xp: Any, t: Any, y: Any, p: Parameters) -> tuple[Motion, Loads, Solved]:
+    """Kinematics, loads and all accelerations at one moment."""
+    motion, levers, loads = loaded(xp, t, y, p)
+    return motion, loads, solve_loaded(motion, levers, loads, p)
+
+
+def loaded(xp: Any, t: Any, y: Any, p: Parameters) -> tuple[Motion, Levers, Loads]:
+    """Kinematics, levers and loads at one moment, before anything is solved."""
+    motion, loads = motion_of(xp, t, y, p), Loads()
+    parts = owned(y, p) if p.effects else ()
+    for effect, mode, own in parts:
+        effect.move(motion, mode, own)
+    levers = p.geometry(motion, p)
+    for effect, mode, own in parts:
+        effect.act(motion, mode, own, levers, loads, p)
+    return motion, levers, loads
+
+
+def solve_loaded(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solved:
+    """All accelerations, by eliminating those of the balls."""
+    drive, along = _ball_side(m, levers, loads, p)
+    across, pushed, inertias, felt = loads.across, None, _inertia_factors(m, levers, p), along
+    if across:
+        pushed = across.drive if loads.press is None else across.drive + across.outward * loads.press
+        resisted = across.along
+        if across.grip is not None:
+            pushed = pushed - across.grip * _pressed(m, levers, loads)
+            resisted = resisted - across.grip * levers.outward
+        if levers.axial is not None:  # along the spindle both ways of a ball are one
+            shared = levers.axial[2] * across.give
+            drive, along, felt = drive - shared * pushed, along - shared * across.along, along - shared * resisted
+            inertias = inertias - shared * levers.axial[2]
+    felt = felt if loads.grip is None else felt - loads.grip * levers.outward
+    force, mass = _frame_side(m, levers, loads, p)
+    if loads.mates is None:
+        give = p.mobilities if levers.axial is None else 1 / inertias
+        give = give if loads.free is None else loads.free * give
+        weights = along * (p.reduced_masses if give is p.mobilities else p.masses * give)
+    else:
+        give = _together(p.masses * inertias, m.radii, loads) * p.masses
+        weights = (along * p.masses).dot(give)
+    force, mass = force - weights.dot(drive), mass - weights.dot(felt.T)
+    if across:
+        weights = across.along * (p.masses * across.give)
+        force, mass = force - weights.dot(pushed), mass - weights.dot(resisted.T)
+    A, reaction = _frame(mass, force, loads)
+    left = drive - A.dot(felt)
+    tied = loads.free is not None or loads.mates is not None
+    balls = give * left if loads.mates is None else give.dot(left)
+    q = A if p.carry is None else _behind(m, A, p)
+    return Solved(
+        frame=A,
+        balls=balls,
+        support=q[: p.size],
+        normal=None if loads.grip is None else _pressed(m, levers, loads) - A.dot(levers.outward),
+        across=across and _across(pushed - A.dot(resisted), balls, across, levers),
+        across_left=across and pushed - A.dot(resisted),
+        rotor=A[-1] if p.rotor == "driven" else m.acceleration,
+        reaction=reaction,
+        left=left - inertias * balls if tied else None,
     )
 
 
-def _parameters(scene: Scene) -> Parameters:
-    support, race = scene.support, scene.race
-    mass, P = np.array(support.mass), np.array(support.race_map)
-    if not (np.allclose(mass, mass.T, rtol=1e-9, atol=0) and np.all(np.linalg.eigvalsh(mass) > 0)):
-        raise InputError("the support's mass matrix must be symmetric and positive definite", found=str(support.mass))
-    free = np.linalg.solve(mass, -np.hstack([support.stiffness, support.damping]))
-    push = np.linalg.solve(mass, P.T)
-    (wxx, wxy), (_, wyy) = (P @ push).tolist()
-    masses = np.array(race.ball_masses, dtype=float)
-    J, R = race.inertia_factor, race.pitch_radius
-    return Parameters(
-        size=len(support.names),
-        speed=scene.speed,
-        imbalance_force=scene.imbalance * scene.speed**2,
-        imbalance_phases=scene.imbalance_angle - np.array((0.0, math.pi / 2)),
-        free=np.vstack([free, P @ free]),
-        push=tuple((hx, hy) for hx, hy in push.tolist()),
-        compliance=(wxx, wxy, wyy),
-        moments=masses * R,
-        drags=masses * (R * race.drag / J),
-        reduced_masses=masses / J,
-        ball_mass=float(masses.sum()),
-        reduced_ball_mass=float(masses.sum()) / J,
-        lever=1 / (J * R),
-        drag=race.drag / J,
-    )
+def _inertia_factors(m: Motion, levers: Levers, p: Parameters) -> Array:
+    """Inertia of each ball along its race, per mass."""
+    if levers.axial is None:
+        return p.inertia_factors
+    leaning: Array = p.inertia_factors + levers.axial[2] ** 2 - levers.sunk / (m.radii * m.radii)
+    return leaning
 
 
-def _scales(scene: Scene, p: Parameters) -> tuple[list[float], float]:
-    """Scales of the support's coordinates and of the balls' speeds.
+def _ball_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
+    """What drives the balls along the race, per mass, without the frame's acceleration; and the levers of that."""
+    drive, along = p.braking * m.rate, levers.along
+    if loads.pull is not None:
+        drive = drive + loads.pull
+    if loads.grip is not None:
+        drive = drive - loads.grip * _pressed(m, levers, loads)
+    if levers.carried_along is not None:
+        drive = drive - levers.carried_along
+    if p.rotor == "guided":  # a rolling ball is turned by the race, and wants to keep its spin
+        drive = drive + p.spins * m.acceleration
+    if p.rotor == "driven":
+        along = _rows(along, -1, -p.spins)
+    if p.arm_length is not None:
+        along = _rows(along, 0, -p.spins)
+    if levers.axial is not None:
+        lever, carried, slope = levers.axial
+        drive, along = drive - slope * carried + levers.sinking / m.radii, along + slope * lever
+        if p.rotor == "guided":
+            drive = drive + levers.sunk / m.radii * m.acceleration
+        if p.rotor == "driven":
+            along = _rows(along, -1, -levers.sunk / m.radii)
+    return drive, along
 
-    The first is the amplitude of the free, unbalanced rotor, m₀e/M, which is what amplitudes are compared with; a
-    hundredth of the balls' own moment stands in where there is next to no imbalance. The second is the rate of the
-    balls' slow motion, Ω√(Σm/2M), on which they find their places: measured in Ω, that would be lost in the tolerance.
-    """
-    mass = 2 / (p.compliance[0] + p.compliance[2]) + p.ball_mass
-    reach = max(scene.imbalance, 0.01 * scene.race.static_moment, 1e-9 * mass * scene.race.pitch_radius) / mass
-    # A coordinate that moves the race by less than its own amount may move more; one that does not, like the race.
-    shares = [math.hypot(*column) for column in zip(*scene.support.race_map, strict=True)]
-    return [reach / share if share > 0 else reach for share in shares], scene.speed * math.sqrt(
-        p.ball_mass / (2 * mass)
-    )
+
+def _rows(matrix: Array, row: int, more: Array) -> Array:
+    """The matrix with something added to one row."""
+    changed = matrix.copy()
+    changed[row] = changed[row] + more
+    return changed
+
+
+def _pressed(m: Motion, levers: Levers, loads: Loads) -> Array:
+    """Normal force of ball and race per mass, without the frame's acceleration."""
+    press = m.radii * m.swing * m.swing
+    press = press if loads.press is None else press + loads.press
+    return press if levers.carried_outward is None else press - levers.carried_outward
+
+
+def _frame_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
+    """Force on the frame, and what it weighs, with balls held in their races."""
+    swung = m.moments * m.swing * m.swing
+    if levers.carried_outward is not None:
+        swung = swung - p.masses * levers.carried_outward
+    force = p.held.dot(m.support) + levers.outward.dot(swung)
+    mass = p.frame_mass + _summed(levers, p) if levers.mass is None else levers.mass
+    if levers.carried_along is not None:
+        force = force - levers.along.dot(p.masses * levers.carried_along)
+    if p.rotor == "guided" and p.spin_inertia is not None:
+        force = force - p.spin_inertia[0] * m.acceleration
+    if levers.axial is not None:
+        lever, carried, _ = levers.axial
+        force, mass = force - lever.dot(p.masses * carried), mass + (lever * p.masses).dot(lever.T)
+        if p.rotor == "driven":
+            turning = np.eye(len(p.frame_mass))[-1]
+            force = force + turning * p.masses.dot(levers.sinking)
+            mass = mass - np.outer(turning, turning) * p.masses.dot(levers.sunk)
+    if p.held_spinning is not None:
+        force = force + m.speed * p.held_spinning.dot(m.support)
+    if p.steady_force is not None:
+        force = force + p.steady_force
+    if loads.frame is not None:
+        force = force + loads.frame
+    more, heavier = p.imbalance_of(m, p)
+    return force + more, mass if heavier is None else mass + heavier
+
+
+def _summed(levers: Levers, p: Parameters) -> Array:
+    """Σ m (T Tᵀ + N Nᵀ): what balls held in their races weigh."""
+    along, outward = levers.along, levers.outward
+    weighed: Array = (along * p.masses).dot(along.T) + (outward * p.masses).dot(outward.T)
+    if p.spin_inertia is not None:
+        weighed = weighed + p.spin_inertia
+    return weighed
+
+
+def _across(left: Array, balls: Array, across: Across, levers: Levers) -> Array:
+    """Accelerations in the second direction, by what is left to drive it."""
+    given = left if levers.axial is None else left - levers.axial[2] * balls
+    found: Array = given * across.give
+    return found
+
+
+def _together(inertias: Array, radii: Array, loads: Loads) -> Array:
+    """n × n: accelerations along the race of balls that turn together, by forces on each."""
+    shares = radii / loads.mates.dot(inertias * radii * radii)
+    shares = shares if loads.free is None else loads.free * shares
+    give: Array = shares[:, None] * loads.mates * radii
+    return give
+
+
+def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any]:
+    """The frame's accelerations, and the reaction of a constraint."""
+    if loads.bound is None:
+        return np.array(solve(mass.tolist(), force.tolist())), None
+    row, value, direction = loads.bound.row, loads.bound.value, loads.bound.force
+    free = np.array(solve(mass.tolist(), force.tolist()))
+    pushed = np.array(solve(mass.tolist(), direction.tolist()))
+    reaction = (value - row.dot(free)) / row.dot(pushed)
+    return free + pushed * reaction, reaction
+
+
+def _behind(m: Motion, A: Array, p: Parameters) -> Array:
+    """q'' of a support that has more coordinates than the frame."""
+    carry, rest = p.carry, p.rest
+    q: Array = rest.dot(m.support) + carry.dot(A)  # type: ignore[union-attr]
+    return q if p.rest_spinning is None else q + m.speed * p.rest_spinning.dot(m.support)

@@ -1,13 +1,34 @@
 """From a design to its scenes."""
 
 import math
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final, Literal
 
-from abu_calc.dynamics.scene import Race, Scene
+import numpy as np
+
+from abu_calc.dynamics.durations import settling_duration
+from abu_calc.dynamics.effects.ball_contact import BallContact
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
+from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effects.motor import Motor
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
+from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.from_tables import motor_numbers, placed
+from abu_calc.dynamics.scene import Race, Scene, Support, SwingArm
+from abu_calc.dynamics.supports.hands import in_hands
 from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
+from abu_calc.errors import InputError, NotTrustworthyError, Place
 from abu_calc.sizing.ball_ring import half_angle
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.suspension import Springs
+from abu_calc.sizing.suspension import Hands, Springs
+from abu_calc.sizing.swing_arm import pressed_angle, read_arm
+from abu_calc.spec.machine import SwingArm as SwingArmTable
+from abu_calc.units import to_si
+from abu_calc.validity import Range
 
 AHEAD = math.radians(20)
 """The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
@@ -20,42 +41,134 @@ STARTS: Final[dict[Start, str]] = {
     "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
 }
 
-DECAY_TIMES = 7.0
-LONGEST_REVOLUTIONS = 400.0
-LEAST_REVOLUTIONS = 40.0
-MOST_CYCLES = 4000.0
-"""Of the speed or of the suspension, whichever is faster: a few seconds of work."""
+SCENES: Final[dict[str, str | None]] = {
+    "idle": None,
+    "grinding": "grinding",
+    "run-up": "run_up",
+    "swing-arm-idle": "swing_arm",
+    "swing-arm-cutting": "swing_arm",
+}
+"""The scenes of a machine, and the table of its file that each needs."""
+
+RESTITUTION = 0.5
+"""Of steel balls with oil between them; assumed."""
+
+WORST = math.pi
+"""Where the race's centre stands, from the imbalance: there it asks for M Δ more of the balls, as sizing takes it."""
+
+TIME_CONSTANTS = 5.0
+"""Of a motor, after which its speed is within 1 % of the last."""
 
 
-def idle_scene(design: Design, start: Start = "bunched") -> Scene | None:
-    """The machine idling at full speed; None on supports without a scene yet.
+def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched") -> Scene:
+    """One scene of a machine, with every effect its file has data for.
 
-    The axis starts at rest at its place, the balls as `STARTS` tells. Planar springs; the mass is that felt at the
-    wheel, without balls. It lasts seven decay times of the slow motion of the balls and of the suspension's own sway,
-    within bounds.
+    `idle`: at full speed, the axis at rest at its place, the balls as `STARTS` tells, the mass that which is felt in
+    the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
+    contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one;
+    without dry friction, since balls do not press on a race that stands. `swing-arm-…`: on the arm, at rest where it
+    stands. Always with ball contact, dry rolling friction and the race's eccentricity, the latter at its worst; on a
+    horizontal spindle with gravity. Left out: transverse motion, which no key of a machine drives, and the motor at
+    full speed, where it would change the speed. It lasts seven decay times of what dies out last, within bounds.
+    Raises InputError for a table that is missing, NotTrustworthyError for an arm that does not stand at the work.
     """
+    _refuse_what_is_missing(design, which)
+    case, table = design.case, design.case.table
+    support: Support = _held(design)
+    if table.swing_arm and which.startswith("swing-arm"):
+        support = _arm(design, table.swing_arm, cutting=which.endswith("cutting"))
+    settling = settling_duration(design, support)
+    on_arm = isinstance(support, SwingArm)
+    scene = Scene(
+        name=which,
+        support=support,
+        speed=case.speed,
+        imbalance=design.imbalance.value * (1.0 if on_arm else abs(design.autobalancer.requirement.plane_ratio)),
+        imbalance_angle=0.0,
+        races=(_race(design, start, turning=which != "run-up"),),
+        duration=settling,
+        start_position=_standing(design, support, which),
+        start_velocity=(0.0,) * len(support.names),
+        effects=tuple(_effects(design, which)),
+    )
+    return replace(scene, duration=settling + _running_up(design)) if which == "run-up" else placed(scene)
+
+
+def idle_scene(design: Design, start: Start = "bunched") -> Scene:
+    """The machine idling at full speed, without any effect."""
+    return replace(scene_of_design(design, "idle", start), effects=())
+
+
+def _refuse_what_is_missing(design: Design, which: str) -> None:
+    if which not in SCENES:
+        raise InputError("there is no such scene of a machine", found=which, allowed=", ".join(SCENES))
+    needed = SCENES[which]
+    if needed and getattr(design.case.table, needed) is None:
+        raise InputError(
+            f"the scene {which} needs the table [{needed}]",
+            place=Place(key=needed),
+            found="none in the file",
+            remedy=f"Add [{needed}]; `abu init` writes a file that shows it.",
+        )
+
+
+def _held(design: Design) -> Support:
+    """The machine on its springs or in hands, as a point mass: that which is felt in the race plane, without balls."""
     case, one = design.case, design.autobalancer
-    if not isinstance(case.suspension, Springs):
-        return None
-    mass = one.requirement.effective_mass - one.ball_count * one.ball_mass
-    race = Race(
+    balls = one.ball_count * one.ball_mass
+    felt = case.body.effective_mass(one.mass, case.race_place)
+    Range("mass felt in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
+          remedy="Fewer or smaller balls.").check(felt)  # fmt: skip
+    suspension, mass = case.suspension, felt - balls
+    if isinstance(suspension, Hands):
+        return in_hands(mass, suspension.axes)
+    if isinstance(suspension, Springs):
+        return planar(mass, suspension.stiffness, suspension.damping)
+    raise InputError("no support is known for this suspension", place=Place(key="suspension.model"))
+
+
+def _arm(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArm:
+    """The swing arm with the machine and the autobalancer, without balls."""
+    case, one = design.case, design.autobalancer
+    arm = read_arm(case, table, one.mass - one.ball_count * one.ball_mass)
+    joint = arm.length, arm.inertia, arm.joint_stiffness, arm.joint_damping
+    if not cutting:
+        return idle_arm(*joint)
+    angle = pressed_angle(arm)
+    if angle is None or angle < arm.touch_angle:
+        why = "does not stand" if angle is None else "does not reach the work"
+        raise NotTrustworthyError(
+            f"the swing arm {why} while cutting\n  turn the contact angle nearer to 90°, or press with a larger moment"
+        )
+    return cutting_arm(
+        *joint, arm.contact_stiffness, arm.friction, arm.contact_angle, arm.touch_angle, arm.pressing_moment,
+        arm.disk_radius,
+    )  # fmt: skip
+
+
+def _standing(design: Design, support: Support, which: str) -> tuple[float, ...]:
+    """Where the support rests: an arm on joint and work, a machine that grinds where the cutting force holds it."""
+    if isinstance(support, SwingArm):
+        return (resting_angle(support),)
+    contact = _contact(design) if which == "grinding" else None
+    if contact is None:
+        return (0.0,) * len(support.names)
+    pulled = np.array(support.race_map).T @ (contact.drag * contact.press_force, 0.0)
+    return tuple(np.linalg.solve(np.array(support.stiffness), pulled).tolist())
+
+
+def _race(design: Design, start: Start, *, turning: bool) -> Race:
+    """The race with its balls; a rotor that does not turn yet has them at rest, however they start."""
+    case, one = design.case, design.autobalancer
+    back = -case.speed if start == "standstill" and turning else 0.0
+    return Race(
         pitch_radius=one.pitch_radius,
         ball_masses=(one.ball_mass,) * one.ball_count,
         drag=case.drag,
         inertia_factor=case.inertia_factor,
         start_angles=_start_angles(design, start),
-        start_speeds=(-case.speed if start == "standstill" else 0.0,) * one.ball_count,
-    )
-    return Scene(
-        name="idle",
-        support=planar(mass, case.suspension.stiffness, case.suspension.damping),
-        speed=case.speed,
-        imbalance=design.imbalance.value * abs(one.requirement.plane_ratio),
-        imbalance_angle=0.0,
-        race=race,
-        duration=_duration(design, case.suspension),
-        start_position=(0.0, 0.0),
-        start_velocity=(0.0, 0.0),
+        start_speeds=(back,) * one.ball_count,
+        ball_radius=one.ball_diameter / 2,
     )
 
 
@@ -73,21 +186,47 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
     return tuple(AHEAD + (2 * k - count + 1) * beta for k in range(count))
 
 
-def _duration(design: Design, support: Springs) -> float:
-    """Seven decay times of whatever dies out last, balls or suspension, within bounds that keep the work reasonable."""
-    case, mass = design.case, design.autobalancer.requirement.effective_mass
-    revolution = 2 * math.pi / case.speed
-    _, balls = design.track.decay_rates[0]
-    sway = min(_sway_rate(mass, c, b) for c, b in zip(support.stiffness, support.damping, strict=True))
-    wanted = max(DECAY_TIMES / rate if rate > 0 else math.inf for rate in (balls, sway))
-    longest = max(LONGEST_REVOLUTIONS * revolution, 3 * case.table.limits.settling_time_s)
-    fastest = max(case.speed, *(math.sqrt(c / mass) for c in support.stiffness))
-    cap = max(MOST_CYCLES * 2 * math.pi / fastest, 2 * revolution)
-    return min(max(wanted, LEAST_REVOLUTIONS * revolution), longest, cap)
+def _effects(design: Design, which: str) -> Iterator[Effect]:
+    """All that the file has data for, in the order of the registry."""
+    case, table, radius = design.case, design.case.table, design.autobalancer.ball_diameter / 2
+    if which == "run-up" and table.run_up:
+        yield RunUp(up=table.run_up.time_s)
+        if table.motor:
+            yield Motor(**motor_numbers(table.motor))
+    yield RaceEccentricity(case.race_eccentricity, WORST)
+    if table.machine.spindle_axis == "horizontal":
+        yield Gravity()
+    contact = _contact(design) if which == "grinding" else None
+    if contact:
+        yield contact
+    yield BallContact(radius, RESTITUTION)
+    if which != "run-up":
+        yield DryRollingFriction(case.friction_arm, radius)
 
 
-def _sway_rate(mass: float, stiffness: float, damping: float) -> float:
-    """Slower decay rate [1/s] of m·s² + b·s + c = 0."""
-    half = damping / (2 * mass)
-    root = half**2 - stiffness / mass
-    return half if root <= 0 else half - math.sqrt(root)
+def _contact(design: Design) -> GrindingContact | None:
+    """Wheel and work, in the plane of the race; None for a face, which does not press in the plane."""
+    case, wheel, contact = design.case, design.case.table.wheel, design.case.contact
+    if contact is None or contact.kind == "face":
+        return None
+    return GrindingContact(
+        press_force=contact.press_force,
+        cutting_coefficient=contact.cutting_coefficient,
+        contact=contact.kind,
+        contact_stiffness=contact.stiffness,
+        rotation_sense=contact.sense,
+        runout=case.runout,
+        runout_angle=to_si(wheel.runout_angle_deg, "deg"),
+        wheel_radius=to_si(wheel.diameter_mm, "mm") / 2,
+        plane_offset=0.0,
+    )
+
+
+def _running_up(design: Design) -> float:
+    """Time [s] from rest to full speed; that of a motor is five of its time constants J Ω₀/M."""
+    table = design.case.table
+    given = table.run_up.time_s if table.run_up else 0.0
+    if table.motor is None:
+        return given
+    motor = Motor(**motor_numbers(table.motor))
+    return max(given, TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque)

@@ -1,8 +1,13 @@
-"""Small motions about the balanced state of a scene, in the frame that turns with the rotor.
+"""Small motions about balls at rest in their races, on any support.
 
-z' = A(Ωt) z, z = (q, q', θ, θ') about balls at rest in the race and a still axis, q and q' seen from the rotor. On an
-isotropic support A is constant; on any other it repeats with every half turn. States are measured in the scales of the
-equations and time in 1/Ω, so that numbers of all machines are alike. Derivatives are those of `equations`.
+z' = A(Ωt) z, z = (q, q', θ, θ') about balls at rest in the rotor. Derivatives are those of `equations`, without the
+effects of the scene. States are measured in the scales of the equations and time in 1/Ω, so that numbers of all
+machines are alike.
+
+Linear supports are seen from the rotor: their coordinates are taken in pairs along x and y, in the order in which they
+stand, and turned with it. On an isotropic support A is constant then, which is how one is known; on any other it
+repeats with every half turn. Pairs that are none cost time, not truth: any such turning is a change of coordinates.
+Supports with an odd number of coordinates, and the swing arm, stay as they are.
 """
 
 import math
@@ -13,13 +18,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.equations import assemble
-from abu_calc.dynamics.integrators.scipy_ import transition
+from abu_calc.dynamics import floquet
+from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.scene import Scene
-from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.errors import NotTrustworthyError
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 QUARTER: Final = np.array([[0.0, -1.0], [1.0, 0.0]])
 """A quarter turn, from x to y."""
@@ -27,112 +33,224 @@ QUARTER: Final = np.array([[0.0, -1.0], [1.0, 0.0]])
 NOTHING: Final = 1e-12
 """Relative; a harmonic of A smaller than this is rounding."""
 
-MOST_PHASES: Final = 64
+SPAN: Final = 1e-9
+"""Relative; balls nearer to one line than this are in one line."""
+
+FIRST_PHASES, MOST_PHASES = 8, 128
+SPEEDS: Final = (0.5, 1.0, 2.0)
+"""Shares of the working speed at which A is taken: it is a polynomial of the second degree in the speed."""
 
 
 @dataclass(frozen=True)
 class BalancedMotion:
-    """The linear motion about balls at rest at `angles` [rad], at any speed.
+    """The linear motion about balls at rest at `angles` [rad]; `motion`: of the support, as in `resting.Rest`.
 
-    The directions in which balls move without changing their sum are split off: each has the rates 0 (neutral, not
-    counted) and −h₀/J.
+    At any speed where the axis is still, else at that of the scene. Directions in which balls move without changing the
+    sums that hold them are split off: neutral, they do not count.
     """
 
     scene: Scene
     angles: tuple[float, ...]
+    motion: tuple[complex, ...] = ()
+
+    @cached_property
+    def coupled(self) -> tuple[Array, ...]:
+        """Of each race, columns: motions of its balls that are not free of the support.
+
+        Free are those that leave Σ m e^{iθ} as it is, and on a swing arm Σ m too: each has the rates 0 and −h₀/J. Where
+        the axis moves none is taken as free: balls then also move along the spindle, each as it stands.
+        """
+        found, first = [], 0
+        for race in self.scene.races:
+            masses = np.array(race.ball_masses)
+            theta = np.array(self.angles[first : first + len(masses)])
+            rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self._on_arm else [])]
+            found.append(np.eye(len(masses)) if self.motion else _span(np.array(rows)))
+            first += len(masses)
+        return tuple(found)
 
     @cached_property
     def basis(self) -> Array:
-        """Columns: motions of the balls that change their sum Σ m e^{iθ}."""
-        masses, theta = np.array(self.scene.race.ball_masses), np.array(self.angles)
-        _, sizes, directions = np.linalg.svd(np.array((-masses * np.sin(theta), masses * np.cos(theta))))
-        return np.asarray(directions[: int((sizes > 1e-9 * masses.sum()).sum())].T, dtype=float)
+        """Those of all races."""
+        return _diagonal(*self.coupled)
+
+    @cached_property
+    def held(self) -> Array:
+        """Columns in terms of the basis: places of the balls that the support feels. The others are neutral."""
+        moments, theta = np.array(self.scene.ball_moments), np.array(self.angles)
+        places = np.array([race.plane_offset for race in self.scene.races for _ in race.ball_masses])
+        shares = places / (np.abs(places).max(initial=0.0) or 1.0)
+        x, y = -moments * np.sin(theta), moments * np.cos(theta)
+        return _span(np.array((x, y, shares * x, shares * y)) @ self.basis)
 
     @cached_property
     def scales(self) -> Array:
         """Units of the states: those of the working speed at every speed, so that A stays a polynomial of it."""
-        return np.array(assemble(self.scene).scales)
+        return np.array(assemble(self._plain).scales)
 
     @property
     def neutral(self) -> int:
-        """How many directions of the balls are neutral: n − 2 of n, unless all balls are in one line."""
-        return int(self.basis.shape[0] - self.basis.shape[1])
+        """How many directions of the balls are neutral: n − 2 of the n of a race, unless they are in one line."""
+        return len(self.angles) - int(self.held.shape[1])
 
-    def harmonics(self, speed: float) -> NDArray[np.complex128]:
-        """c_k of A(φ) = Re Σ c_k e^{2ikφ}, φ = Ωt: c_0 alone on an isotropic support, two on springs in the plane."""
-        count = 4
-        while True:
-            phases = math.pi * np.arange(count) / count
-            terms = np.fft.rfft([self._matrix(speed, phase) for phase in phases], axis=0) / count
-            terms[1:] *= 2
-            sizes = np.abs(terms).max(axis=(1, 2))
-            present = np.flatnonzero(sizes > NOTHING * sizes[0])
-            if present[-1] < count // 2:
-                return np.asarray(terms[: present[-1] + 1], dtype=complex)
-            if count == MOST_PHASES:
-                raise NotTrustworthyError("the linear motion about the balanced state turns too sharply to be judged")
-            count *= 2
+    @property
+    def states(self) -> int:
+        """How many states A has."""
+        return 2 * self._size + int(self.held.shape[1]) + int(self.basis.shape[1])
 
-    def _matrix(self, speed: float, phase: float) -> Array:
-        """A at one phase: B⁻¹ (∂rhs B − B'), y = B z with q = R(φ) q_r; divided by Ω, in units of the scales."""
-        scene = replace(self.scene, speed=speed, duration=2 * math.pi / speed)
-        size = len(scene.support.names)
-        if size % 2:
-            raise InputError("stability is known on supports with pairs of coordinates along x and y only")
-        pairs = np.eye(size // 2)
-        c, s = math.cos(phase), math.sin(phase)
-        turn, spin = np.kron(pairs, np.array([[c, -s], [s, c]])), speed * np.kron(pairs, QUARTER)
-        still = np.zeros(2 * size)
-        balanced = np.concatenate([still, self.angles, np.zeros(len(self.angles))])
-        slope = jacobian(assemble(scene), phase / speed, balanced)
-        B, spun = np.eye(len(balanced)), np.zeros_like(slope)
-        B[:size, :size] = B[size : 2 * size, size : 2 * size] = turn
-        B[size : 2 * size, :size] = spin @ turn
-        spun[:size, :size] = spun[size : 2 * size, size : 2 * size] = spin
-        turned = np.linalg.solve(B, slope @ B - spun @ B)
-        scaled = turned * self.scales / self.scales[:, None] / speed
-        kept = np.block([[np.eye(2 * size), np.zeros((2 * size, 2 * self.basis.shape[1]))],
-                         [np.zeros((2 * len(self.angles), 2 * size)), np.kron(np.eye(2), self.basis)]])  # fmt: skip
-        return np.asarray(kept.T @ scaled @ kept, dtype=float)
+    @property
+    def isotropic(self) -> bool:
+        """Whether A is constant, seen from the rotor."""
+        return len(self._parts[0]) == 1
+
+    def polynomial(self) -> Array:
+        """L₀, L₁, L₂ of A = (L₀ + L₁x + L₂x²)/x on an isotropic support, x the speed over that of the scene."""
+        return np.asarray(self._parts[:, 0].real, dtype=float)
+
+    def harmonics(self, speed: float) -> Complex:
+        """c_k of A(φ) = Re Σ c_k e^{ikφ}, φ = Ωt: c_0 alone on an isotropic support."""
+        if self.motion:
+            return np.asarray(self._parts[0], dtype=complex)
+        x = speed / self.scene.speed
+        return np.asarray(np.tensordot((1 / x, 1.0, x), self._parts, axes=1), dtype=complex)
 
     def eigenvalues(self, speed: float) -> tuple[complex, ...] | None:
         """Eigenvalues [1/s] on an isotropic support, the largest real part first; None on any other."""
-        terms = self.harmonics(speed)
-        if len(terms) > 1:
+        if not self.isotropic:
             return None
-        own = np.linalg.eigvals(terms[0].real) * speed
-        return _sorted([*own.tolist(), *([complex(self._neutral_rate)] * self.neutral)])
+        own = np.linalg.eigvals(self.harmonics(speed)[0].real) * speed
+        return tuple(sorted([*own.tolist(), *map(complex, self._free)], key=lambda value: (-value.real, value.imag)))
 
     def multipliers(self, speed: float) -> tuple[complex, ...]:
         """Floquet multipliers of one revolution, the largest first, on any support.
 
-        Those of half a turn, squared: A repeats with it. Raises NotTrustworthyError when the integration fails.
+        On a linear support those of half a turn, squared: seen half a turn later, it is the same upside down. Raises
+        NotTrustworthyError when they do not settle.
         """
-        terms, rate = self.harmonics(speed), self._neutral_rate
-        orders = 2j * np.arange(len(terms))[:, None, None]
-        half = transition(lambda phase: (terms * np.exp(orders * phase)).sum(axis=0).real, math.pi)
-        revolution = 2 * math.pi / speed
-        own = np.linalg.eigvals(half) ** 2
-        found = [*own.tolist(), *([complex(math.exp(rate * revolution))] * self.neutral)]
-        return tuple(sorted(found, key=lambda value: (-abs(value), value.real, value.imag)))
+        terms = self.harmonics(speed)
+        orders = 1j * np.arange(len(terms))
+
+        def matrices(phases: Array) -> Array:
+            return np.asarray(np.einsum("tk,kij->tij", np.exp(phases[:, None] * orders), terms).real, dtype=float)
+
+        turns = 1 if self._on_arm else 2
+        own = floquet.multipliers(matrices, 2 * math.pi / turns, self._half_turn) ** turns
+        free = [complex(math.exp(rate * 2 * math.pi / speed)) for rate in self._free]
+        return tuple(sorted([*own.tolist(), *free], key=lambda value: (-abs(value), value.real, value.imag)))
 
     def growth(self, speed: float) -> float:
         """Growth rate of the slowest-dying disturbance [1/s]: the largest Re λ, or ln|μ|/T over a revolution T."""
         values = self.eigenvalues(speed)
         if values is not None:
-            return max(value.real for value in values)
+            return max((value.real for value in values), default=-math.inf)
         return growth_of(self.multipliers(speed), speed)
 
     @property
-    def _neutral_rate(self) -> float:
-        return 0.0 - self.scene.race.drag / self.scene.race.inertia_factor
+    def _free(self) -> list[float]:
+        """−h₀/J [1/s] of each motion of balls that is free of the support."""
+        return [
+            0.0 - race.drag / race.inertia_factor
+            for race, columns in zip(self.scene.races, self.coupled, strict=True)
+            for _ in range(columns.shape[0] - columns.shape[1])
+        ]
+
+    @property
+    def _size(self) -> int:
+        return len(self.scene.support.names)
+
+    @property
+    def _on_arm(self) -> bool:
+        return isinstance(self.scene.support, SwingArm)
+
+    @property
+    def _turned(self) -> bool:
+        """Whether the support is seen from the rotor."""
+        return not self._on_arm and self._size % 2 == 0
+
+    @property
+    def _half_turn(self) -> Array:
+        """What stands upside down after half a turn, unless it turns with the rotor."""
+        signs = np.ones(self.states)
+        if not self._on_arm and not self._turned:
+            signs[: 2 * self._size] = -1
+        return np.diag(signs)
+
+    @cached_property
+    def _plain(self) -> Scene:
+        """The scene without effects, and without a constant moment, which only moves the arm's place of rest."""
+        support = self.scene.support
+        support = replace(support, moment=0.0) if isinstance(support, SwingArm) else support
+        return replace(self.scene, effects=(), support=support)
+
+    @cached_property
+    def _parts(self) -> Complex:
+        """[degree, harmonic, row, column] of A times the speed; where the axis moves, of A at its one speed."""
+        count, speeds = FIRST_PHASES, (1.0,) if self.motion else SPEEDS
+        while True:
+            sampled = np.array([self._sampled(x, count) for x in speeds])
+            terms = np.fft.rfft(sampled, axis=1) / count
+            terms[:, 1:] *= 2
+            sizes = np.abs(terms).max(axis=(0, 2, 3), initial=0.0)
+            present = np.flatnonzero(sizes > NOTHING * sizes[0])
+            last = int(present[-1]) if len(present) else 0
+            if last < count // 2 - 1:
+                kept = terms[:, : last + 1]
+                return kept if self.motion else np.tensordot(_inverse_powers(), kept, axes=1)
+            if count == MOST_PHASES:
+                raise NotTrustworthyError("the linear motion about the balanced state turns too sharply to be judged")
+            count *= 2
+
+    def _sampled(self, x: float, count: int) -> Array:
+        """A at equally spaced phases of a turn, at x times the working speed; times x where A is a polynomial."""
+        speed = x * self.scene.speed
+        scene = replace(self._plain, speed=speed, duration=4 * math.pi / speed)
+        equations = assemble(scene)
+        return x * np.array([self._matrix(equations, 2 * math.pi * k / count) for k in range(count)])
+
+    def _matrix(self, equations: Equations, phase: float) -> Array:
+        """A at one phase: B⁻¹ (∂rhs B − B'), y = B z with q = R(φ) q_r; divided by Ω, in units of the scales."""
+        speed, size = equations.scene.speed, self._size
+        amplitudes = np.array(self.motion or (0.0,) * size) * np.exp(1j * phase)
+        moving = np.concatenate([amplitudes, 1j * speed * amplitudes]).real
+        still = np.concatenate([moving, self.angles, np.zeros(len(self.angles))])
+        matrix: Array = jacobian(equations, phase / speed, still)
+        if self._turned:
+            pairs, c, s = np.eye(size // 2), math.cos(phase), math.sin(phase)
+            turn, spin = np.kron(pairs, np.array([[c, -s], [s, c]])), speed * np.kron(pairs, QUARTER)
+            B, spun = np.eye(len(still)), np.zeros_like(matrix)
+            B[:size, :size] = B[size : 2 * size, size : 2 * size] = turn
+            B[size : 2 * size, :size] = spin @ turn
+            spun[:size, :size] = spun[size : 2 * size, size : 2 * size] = spin
+            matrix = np.asarray(np.linalg.solve(B, matrix @ B - spun @ B), dtype=float)
+        scaled = matrix * self.scales / self.scales[:, None] / speed
+        kept = _diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
+        return np.asarray(kept.T @ scaled @ kept, dtype=float)
 
 
 def growth_of(multipliers: tuple[complex, ...], speed: float) -> float:
     """ln|μ|/T of the largest multiplier over a revolution T [1/s]."""
-    largest = max(abs(value) for value in multipliers)
+    largest = max((abs(value) for value in multipliers), default=0.0)
     return math.log(largest) * speed / (2 * math.pi) if largest > 0 else -math.inf
 
 
-def _sorted(values: list[complex]) -> tuple[complex, ...]:
-    return tuple(sorted(values, key=lambda value: (-value.real, value.imag)))
+def _span(rows: Array) -> Array:
+    """Orthonormal columns that span the rows of a matrix."""
+    if 0 in rows.shape:
+        return np.zeros((rows.shape[1], 0))
+    _, sizes, directions = np.linalg.svd(rows)
+    return np.asarray(directions[: int((sizes > SPAN * np.abs(rows).sum()).sum())].T, dtype=float)
+
+
+def _diagonal(*blocks: Array) -> Array:
+    """A matrix of blocks along its diagonal."""
+    total = np.zeros((sum(len(block) for block in blocks), sum(block.shape[1] for block in blocks)))
+    row = column = 0
+    for block in blocks:
+        total[row : row + len(block), column : column + block.shape[1]] = block
+        row, column = row + len(block), column + block.shape[1]
+    return total
+
+
+def _inverse_powers() -> Array:
+    """From values at SPEEDS to the coefficients of 1, x, x²."""
+    return np.asarray(np.linalg.inv(np.vander(SPEEDS, increasing=True)), dtype=float)

@@ -1,33 +1,139 @@
 """Where balls can rest so that they balance, however many and however unequal they are."""
 
+import cmath
 import math
 from collections.abc import Callable
-from itertools import accumulate, pairwise
+from dataclasses import dataclass, replace
+from itertools import accumulate, islice, pairwise
 
-from abu_calc.dynamics.scene import Scene
+import numpy as np
+
+from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations import rhs
+from abu_calc.dynamics.jacobian import jacobian
+from abu_calc.dynamics.linearised import QUARTER, Complex
+from abu_calc.dynamics.receptance import dynamic_stiffness
+from abu_calc.dynamics.scene import LinearSupport, Race, Scene
+from abu_calc.dynamics.stationary import NotKnownError, needed_resultants, still_axis
 
 TOUCHING = 1e-9
 """Balls that overlap by less than this [rad] touch."""
+
+MOST_STEPS = 20
+"""Of Newton's method, which doubles the digits with each."""
 
 SLACK = 1e-12
 """A polygon that lacks less than this share of its longest side is closed."""
 
 
-def resting_angles(scene: Scene, half_angle: float = 0.0) -> tuple[float, ...] | None:
-    """Angles θ [rad] in the rotor with m₀e e^{iφ} + Σ m R_p e^{iθ} = 0; None when there are none.
+@dataclass(frozen=True)
+class Rest:
+    """Balls at rest in the rotor: their angles θ [rad], race by race, and how the support then moves.
 
-    One ball can only carry its own moment m R_p, two have one arrangement, of more n − 2 angles are free: the one given
-    is that of sides of a polygon in a circle, so equal balls are spread evenly about the light side. `half_angle` β
-    [rad]: touching neighbours are 2β apart, 0 for balls without size.
+    `motion`: amplitudes Q of the support's coordinates, Re(Q e^{iΩt}); empty where the axis is still.
+    """
+
+    angles: tuple[float, ...]
+    motion: tuple[complex, ...] = ()
+
+
+def resting_state(scene: Scene, half_angle: float = 0.0) -> Rest | None:
+    """Where the balls of a scene are at rest about races whose centres are still; None where they cannot be.
+
+    Everywhere Σ m R_p e^{iθ} of a plane is what `needed_resultants` asks for. One ball can only carry its own moment
+    m R_p, two have one arrangement, of more n − 2 angles are free: the one given is that of sides of a polygon in a
+    circle, so equal balls are spread evenly about the light side. `half_angle` β [rad]: touching neighbours are 2β
+    apart, 0 for balls without size. Raises NotKnownError where no formula gives it.
 
     Source: derived; for two balls Kladiev 1996, (4), with ε = 0.
     """
-    moments = [mass * scene.race.pitch_radius for mass in scene.race.ball_masses]
-    turns = _polygon([scene.imbalance, *moments])
-    if turns is None or any(turn < 2 * half_angle - TOUCHING for turn in turns[1:-1]):
+    needed = needed_resultants(scene)
+    if not needed and (scene.imbalance or scene.couple):
         return None
-    angles = [scene.imbalance_angle + turn for turn in accumulate(turns[:-1])]
-    return tuple(math.remainder(angle, 2 * math.pi) for angle in angles)
+    found: dict[int, tuple[float, ...]] = dict.fromkeys(range(len(scene.races)), ())
+    for place, resultant in needed.items():
+        races = {k: race for k, race in enumerate(scene.races) if race.plane_offset == place}
+        moments = [mass * race.pitch_radius for race in races.values() for mass in race.ball_masses]
+        turns = _polygon([abs(resultant), *moments])
+        if turns is None:
+            _refuse_other_splits(needed)
+            return None
+        ahead = iter(accumulate(turns[:-1], initial=cmath.phase(-resultant)))
+        next(ahead)
+        for k, race in races.items():
+            found[k] = tuple(math.remainder(angle, 2 * math.pi) for angle in islice(ahead, len(race.ball_masses)))
+            if _narrowest(found[k]) < 2 * max(half_angle, _own_half_angle(scene, race)) - TOUCHING:
+                _refuse_other_splits(needed)
+                return None
+    angles = tuple(angle for own in found.values() for angle in own)
+    return Rest(angles) if still_axis(scene) else _settled(scene, angles, _motion(scene, needed))
+
+
+def resting_angles(scene: Scene, half_angle: float = 0.0) -> tuple[float, ...] | None:
+    """The angles θ [rad] of `resting_state`, if there is one."""
+    rest = resting_state(scene, half_angle)
+    return None if rest is None else rest.angles
+
+
+def _refuse_other_splits(needed: dict[float, complex]) -> None:
+    """Of more than two planes, where this split has no state of rest another might have one."""
+    if len(needed) > 2:
+        raise NotKnownError(
+            "races in more than two planes share the load in proportion to what they carry; one of them cannot take "
+            "its share, and other splits are not tried"
+        )
+
+
+def _own_half_angle(scene: Scene, race: Race) -> float:
+    """Half the angle between touching balls [rad]; balls have a size only where they can meet."""
+    return math.asin(race.ball_radius / race.pitch_radius) if scene.effect("ball_contact") else 0.0
+
+
+def _narrowest(angles: tuple[float, ...]) -> float:
+    """The smallest gap between neighbours on the circle [rad]."""
+    places = sorted(angle % (2 * math.pi) for angle in angles)
+    return min((b - a for a, b in pairwise([*places, *(a + 2 * math.pi for a in places[:1])])), default=math.inf)
+
+
+def _motion(scene: Scene, needed: dict[float, complex]) -> Complex:
+    """Q of the support under the imbalance, the couple and balls whose races do not move."""
+    U = cmath.rect(scene.imbalance, scene.imbalance_angle) + sum(needed.values())
+    W = cmath.rect(scene.couple, scene.couple_angle) + sum(place * V for place, V in needed.items())
+    support: LinearSupport = scene.support  # type: ignore[assignment]
+    force = scene.speed**2 * np.array((U, -1j * U, W, -1j * W))
+    moved = np.linalg.solve(dynamic_stiffness(support, scene.speed), np.array(support.race_map).T @ force)
+    return np.asarray(moved, dtype=complex)
+
+
+def _settled(scene: Scene, angles: tuple[float, ...], motion: Complex) -> Rest:
+    """The state of rest near a first guess, which knows nothing of what balls do to a race that leans.
+
+    Newton's method on the equations themselves, seen from the rotor: the support and the sum of the balls have no
+    acceleration there. What is left of the balls' own is of the second order in the tilt. Range: isotropic supports.
+    """
+    equations, N, W = assemble(replace(scene, effects=())), len(motion), scene.speed
+    theta = np.array(angles)
+    sums = np.linalg.qr(np.array((-np.sin(theta), np.cos(theta))).T)[0]
+    # The state by the support's place q, seen from the rotor, and what moves the sum of the balls.
+    state = np.zeros((2 * N + 2 * len(theta), N + sums.shape[1]))
+    state[:N, :N], state[N : 2 * N, :N] = np.eye(N), W * np.kron(np.eye(N // 2), QUARTER)
+    state[2 * N : 2 * N + len(theta), N:] = sums
+    at_rest = np.concatenate([np.zeros(2 * N), theta, np.zeros(len(theta))])
+    unknown = np.concatenate([motion.real, np.zeros(sums.shape[1])])
+    inward = np.diag([W**2] * N + [0.0] * sums.shape[1])
+    for _ in range(MOST_STEPS):
+        y = at_rest + state @ unknown
+        slope, matrix = rhs(np, 0.0, y, equations.parameters), jacobian(equations, 0.0, y)
+        picked = [
+            np.vstack([part[N : 2 * N], sums.T @ part[2 * N + len(theta) :]]) for part in (slope[:, None], matrix)
+        ]
+        step = np.linalg.solve(picked[1] @ state + inward, picked[0][:, 0] + inward @ unknown)
+        unknown = unknown - step
+        if np.abs(step[:N]).max() <= SLACK * np.abs(unknown[:N]).max() and np.abs(step[N:]).max() <= TOUCHING:
+            x, y = unknown[:N:2], unknown[1:N:2]
+            found = np.stack([x + 1j * y, y - 1j * x], axis=1).ravel()
+            return Rest(tuple((theta + sums @ unknown[N:]).tolist()), tuple(found.tolist()))
+    raise NotKnownError("one race elsewhere than the imbalance: where its balls come to rest is not found")
 
 
 def _polygon(sides: list[float]) -> list[float] | None:

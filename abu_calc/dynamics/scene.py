@@ -6,10 +6,15 @@ Axes x, y are inertial; angles of a scene (imbalance, balls) are measured in the
 
 import math
 import sys
+from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
 
 from abu_calc.errors import InputError
 from abu_calc.validity import Range
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.effects.effect import Effect
 
 Matrix = tuple[tuple[float, ...], ...]
 
@@ -32,10 +37,13 @@ def _same_length(name: str, values: tuple[float, ...], count: int, of: str) -> N
 
 @dataclass(frozen=True)
 class LinearSupport:
-    """M q'' + C q' + K q = Pᵀ F in N coordinates q, and the race centre r = P q (2 × N), on which the force F acts.
+    """M q'' + (C + Ω G) q' + K q = Pᵀ F in N coordinates q; the frame P q is what the balls feel, F acts on it.
 
-    The mass M is what moves with the rotor WITHOUT balls; it must be symmetric and positive definite, which
-    `equations.assemble` verifies. Units: coordinates in m (then kg, N·s/m, N/m) unless their name says otherwise.
+    The rows of P are x and y of the race centre, all races in one plane; or four, x, y of the centre of mass and the
+    tilts θ_y, −θ_x: then a race at z moves by (x + z θ_y, y − z θ_x). The mass M is what moves with the rotor WITHOUT
+    balls; it must be symmetric and positive definite, which `equations.assemble` verifies; the gyroscopic matrix G
+    (none where empty) is antisymmetric, Ω the speed of the rotor. `axial_inertia`: the balls move axially with a race
+    that tilts. Units: coordinates in m (then kg, N·s/m, N/m) unless their name says otherwise.
     """
 
     mass: Matrix
@@ -43,19 +51,61 @@ class LinearSupport:
     stiffness: Matrix
     race_map: Matrix
     names: tuple[str, ...]
+    gyroscopic: Matrix = ()
+    axial_inertia: bool = False
+    bearings: tuple[float, ...] = ()
+    """Places of the bearings along the spindle [m], where motion is told too; none on supports that do not tilt."""
 
     def __post_init__(self) -> None:
         size = len(self.names)
+        if len(self.race_map) not in (2, 4):
+            raise InputError("race map: must have the rows x, y or x, y and two tilts")
+        if self.axial_inertia and len(self.race_map) != 4:
+            raise InputError("balls move axially on supports that tilt only")
         for name, matrix, rows in (
             ("support mass", self.mass, size),
             ("support damping", self.damping, size),
             ("support stiffness", self.stiffness, size),
-            ("race map", self.race_map, 2),
+            ("gyroscopic matrix", self.gyroscopic, size if self.gyroscopic else 0),
+            ("race map", self.race_map, len(self.race_map)),
         ):
             if len(matrix) != rows or any(len(row) != size for row in matrix):
                 raise InputError(f"{name}: must be {rows} × {size}")
             for row in matrix:
                 _finite(name, row)
+
+    @property
+    def tilts(self) -> bool:
+        """Whether races stand at different places along the spindle."""
+        return len(self.race_map) == 4
+
+
+@dataclass(frozen=True)
+class SwingArm:
+    """A rigid arm of length l [m] that turns by φ about its axis, the rotor at its end (Kovalenko 2010, eqs. (1)–(3)).
+
+    J_O φ'' + b l² φ' + c l² φ = moment + what rotor and balls do; J_O [kg m²] without balls, stiffness c [N/m] and
+    damping b [N·s/m] of the joint reduced to l. Work that is cut adds its own to the stiffness and to the moment
+    [N m]: `supports.swing_arm` says how. At φ = 0 the arm lies along +x; the axis is the rotor's.
+    """
+
+    length: float
+    inertia: float
+    stiffness: float
+    damping: float
+    moment: float = 0.0
+    names: ClassVar[tuple[str, ...]] = ("arm_angle",)
+    tilts: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        Range("arm length", 0, _LARGEST, "m", open_low=True).check(self.length)
+        Range("arm inertia", 0, _LARGEST, "kg m²", open_low=True).check(self.inertia)
+        Range("joint damping", *_NON_NEGATIVE, "N s/m").check(self.damping)
+        # The stiffness of work that pushes itself away is negative.
+        _finite("arm stiffness and moment", (self.stiffness, self.moment))
+
+
+Support = LinearSupport | SwingArm
 
 
 @dataclass(frozen=True)
@@ -64,7 +114,8 @@ class Race:
 
     pitch_radius R_p [m] to the ball centres; ball_masses [kg], none or more; drag h0 [1/s], the torque on a ball being
     −m·R_p²·h0·(speed relative to the race); inertia_factor J = 1 (point), 7/5 (rolling ball), 3/2 (rolling roller);
-    start_angles [rad] in the rotor; start_speeds [rad/s] relative to the race. Raises RangeError, InputError.
+    start_angles [rad] in the rotor; start_speeds [rad/s] relative to the race; plane_offset z [m] from the centre of
+    mass; ball_radius r [m], 0 where nothing tells it. Raises RangeError, InputError.
     """
 
     pitch_radius: float
@@ -73,12 +124,16 @@ class Race:
     inertia_factor: float
     start_angles: tuple[float, ...]
     start_speeds: tuple[float, ...]
+    plane_offset: float = 0.0
+    ball_radius: float = 0.0
 
     def __post_init__(self) -> None:
         Range("pitch radius", 0, _LARGEST, "m", open_low=True).check(self.pitch_radius)
         Range("rolling drag", *_NON_NEGATIVE, "1/s").check(self.drag)
         # Below 1 a ball would have less than its own mass, above 2 more than a rolling thin ring.
         Range("inertia factor", 1, 2).check(self.inertia_factor)
+        Range("ball radius", 0, self.pitch_radius, "m").check(self.ball_radius)
+        _finite("plane offset", (self.plane_offset,))
         for mass in self.ball_masses:
             Range("ball mass", 0, _LARGEST, "kg", open_low=True).check(mass)
         for name, values in (("start angles", self.start_angles), ("start speeds", self.start_speeds)):
@@ -93,17 +148,24 @@ class Race:
 
 @dataclass(frozen=True)
 class Scene:
-    """One simulation: speed Ω [rad/s], imbalance m₀e [kg m], its angle [rad], duration [s], start of the support."""
+    """One simulation: speed Ω [rad/s], imbalance m₀e [kg m], its angle [rad], duration [s], start of the support.
+
+    `couple`: χ(J_t − J_p) [kg m²] of a polar axis that leans by χ toward `couple_angle` [rad], on supports that tilt.
+    `effects`: what acts beside the support, the races and the imbalance.
+    """
 
     name: str
-    support: LinearSupport
+    support: Support
     speed: float
     imbalance: float
     imbalance_angle: float
-    race: Race
+    races: tuple[Race, ...]
     duration: float
     start_position: tuple[float, ...]
     start_velocity: tuple[float, ...]
+    couple: float = 0.0
+    couple_angle: float = 0.0
+    effects: tuple["Effect", ...] = ()
 
     def __post_init__(self) -> None:
         Range("speed", 0, _LARGEST, "rad/s", open_low=True).check(self.speed)
@@ -112,6 +174,9 @@ class Scene:
             "duration", self.revolution, _LARGEST, "s", remedy="results are means over at least one revolution"
         ).check(self.duration)
         _finite("imbalance angle", (self.imbalance_angle,))
+        _finite("couple imbalance", (self.couple, self.couple_angle))
+        if not self.support.tilts and (self.couple or any(race.plane_offset for race in self.races)):
+            raise InputError("only a support that tilts knows a couple and places along the spindle")
         for name, values in (("start position", self.start_position), ("start velocity", self.start_velocity)):
             _same_length(name, values, len(self.support.names), "support coordinate")
             _finite(name, values)
@@ -121,9 +186,47 @@ class Scene:
         """Time of one revolution, 2π/Ω [s]."""
         return 2 * math.pi / self.speed
 
+    @property
+    def ball_masses(self) -> tuple[float, ...]:
+        """Masses of all balls [kg], race by race."""
+        return tuple(mass for race in self.races for mass in race.ball_masses)
 
-def parted_angles(angles: tuple[float, ...]) -> tuple[float, ...]:
-    """The angles [rad] moved just enough that no two are within 1e-6 rad of each other on the circle.
+    @property
+    def ball_moments(self) -> tuple[float, ...]:
+        """m R_p of all balls [kg m], race by race."""
+        return tuple(mass * race.pitch_radius for race in self.races for mass in race.ball_masses)
+
+    @property
+    def static_moment(self) -> float:
+        """Σ m R_p [kg m] of all balls."""
+        return sum(self.ball_moments)
+
+    @property
+    def start_angles(self) -> tuple[float, ...]:
+        """Start angles of all balls [rad], race by race."""
+        return tuple(angle for race in self.races for angle in race.start_angles)
+
+    def effect(self, name: str) -> "Effect | None":
+        """The effect of this name, if the scene has it."""
+        return next((effect for effect in self.effects if effect.name == name), None)
+
+
+def only(scene: Scene, names: Collection[str]) -> Scene:
+    """The scene with none but these of its effects. Raises InputError for one that it has no data for."""
+    for name in names:
+        if scene.effect(name) is None:
+            present = ", ".join(effect.name for effect in scene.effects)
+            raise InputError("the scene has no data for this effect", found=name, allowed=present or "none")
+    return replace(scene, effects=tuple(effect for effect in scene.effects if effect.name in names))
+
+
+def without(scene: Scene, names: Collection[str]) -> Scene:
+    """The scene without these effects, whether it has them or not."""
+    return only(scene, [effect.name for effect in scene.effects if effect.name not in names])
+
+
+def parted_angles(angles: tuple[float, ...], least: float = SMALLEST_GAP) -> tuple[float, ...]:
+    """The angles [rad] moved just enough that no two are nearer to each other on the circle, as far as there is room.
 
     >>> parted_angles((0.5, 0.5, 2.0))
     (0.5, 0.500001, 2.0)
@@ -141,7 +244,7 @@ def parted_angles(angles: tuple[float, ...]) -> tuple[float, ...]:
     for k in (*range(first + 1, len(order)), *range(first)):
         natural += gaps[k]
         # The small allowance keeps balls that were parted before from being moved again.
-        placed = natural if natural - placed >= SMALLEST_GAP * (1 - 1e-6) else placed + SMALLEST_GAP
+        placed = natural if natural - placed >= least - 1e-6 * SMALLEST_GAP else placed + least
         if placed != natural:
             result[order[k]] = angles[order[k]] + (placed - natural)
     return tuple(result)
@@ -149,10 +252,12 @@ def parted_angles(angles: tuple[float, ...]) -> tuple[float, ...]:
 
 def with_parted_balls(scene: Scene) -> tuple[Scene, tuple[str, ...]]:
     """The scene with its balls parted where they start in one place, and the warnings that say so."""
-    parted = parted_angles(scene.race.start_angles)
-    if parted == scene.race.start_angles:
+    races = tuple(replace(race, start_angles=parted_angles(race.start_angles)) for race in scene.races)
+    parted = replace(scene, races=races)
+    if parted == scene:
         return scene, ()
-    names = ", ".join(str(k) for k, (a, b) in enumerate(zip(parted, scene.race.start_angles, strict=True), 1) if a != b)
+    pairs = enumerate(zip(parted.start_angles, scene.start_angles, strict=True), 1)
+    names = ", ".join(str(k) for k, (a, b) in pairs if a != b)
     gap = f"{SMALLEST_GAP:g} rad"
     warning = f"balls within {gap} of each other at the start were parted by {gap} (moved: {names})"
-    return replace(scene, race=replace(scene.race, start_angles=parted)), (warning,)
+    return parted, (warning,)

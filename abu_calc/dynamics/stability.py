@@ -1,50 +1,73 @@
-"""Stability of the balanced state: balls at rest in the race, opposite the imbalance, the axis still.
+"""Stability of the balanced state: balls at rest in their races, opposite the imbalance, the axis still.
 
 Sources: Green, Champneys & Lieven 2006 and Rodrigues, Champneys, Friswell & Wilson 2008, for two balls on an isotropic
-support. Printed: Kladiev 1996, (7), asks only for a speed above the natural frequency; that does not suffice.
+support; Kovalenko 2010, (17)–(24), for a swing arm. Printed: Kladiev 1996, (7), asks only for a speed above the natural
+frequency; that does not suffice.
 """
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
-from typing import Final
+from dataclasses import dataclass, replace
+from itertools import combinations, pairwise
+from typing import Final, Literal
 
 import numpy as np
 
+from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.linearised import Array, BalancedMotion, growth_of
-from abu_calc.dynamics.resting import resting_angles
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.resting import resting_state
+from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
+from abu_calc.dynamics.stationary import NotKnownError
+from abu_calc.errors import InputError
+from abu_calc.sizing.swing_arm import Arm, damping_limit
 from abu_calc.validity import Range
 
 MARGIN: Final = 1e-9
 """Growth per radian of rotation that is taken for none: below, rounding decides."""
 
-GRID, DEEPEST, BEND = 64, 6, 0.1
-"""Intervals of the first grid of speeds on an anisotropic support, how often one may be halved, and the share of its
-distance from zero by which the growth rate may leave a straight line."""
+GRID, COARSE = 64, 16
+"""Intervals of the first grid of speeds where a grid is needed, and where that must not take long."""
+
+FEW, MANY = 2, 12
+"""Natural frequencies up to which the speeds between any two of them are looked at, likewise."""
+
+DEEPEST, BEND = 6, 0.1
+"""How often an interval may be halved, and the share of its distance from zero by which the growth rate may leave a
+straight line."""
+
+MOST_SPEEDS: Final = 500
+"""Speeds at which the growth rate is looked at before no interval is halved any more."""
+
+MOST_STATES: Final = 16
+"""States for which all crossings can be solved for in a moment."""
 
 REAL: Final = 1e-4
 """A solution for the speed whose imaginary part is a smaller share than this may be one of a close pair."""
 
 Points = list[tuple[float, float]]
+State = Literal["balanced", "race still", "arm alone"]
 
 
 @dataclass(frozen=True)
 class Stability:
-    """The balanced state at one speed; rates in 1/s, angles in rad.
+    """One state at one speed; rates in 1/s, angles in rad.
 
-    `angles` None: the balls cannot balance, and nothing else is known. `eigenvalues` on an isotropic support,
-    `multipliers` of one revolution on any other. Directions in which balls move without changing their sum (n − 2 of
-    n) are neutral and do not count.
+    `state` judged: balanced; the races' centres still while the axis moves elsewhere ("race still"); or a swing arm
+    without balls ("arm alone"). `angles` None: the balls cannot balance. `eigenvalues` on an isotropic support,
+    `multipliers` of one revolution on any other. `stable` None where it is not known, `reason` says why. Directions in
+    which balls move without changing what they carry (n − 2 of the n of a race) are neutral and do not count.
+    `left_out`: effects of the scene that are no part of the linear motion.
     """
 
     speed: float
+    state: State | None
     angles: tuple[float, ...] | None
     eigenvalues: tuple[complex, ...] | None
     multipliers: tuple[complex, ...] | None
     growth_rate: float | None
-    stable: bool
+    stable: bool | None
+    reason: str | None
+    left_out: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -59,41 +82,97 @@ def stability(scene: Scene, half_angle: float = 0.0) -> Stability:
     """Whether every disturbance of the balanced state of a scene dies out, at its speed.
 
     Growth rate: the largest Re λ, or ln|μ|/T over a revolution T [1/s]; stable below −1e-9·Ω. `half_angle` [rad] of
-    touching balls, 0 for balls without size.
-    Range: constant speed, linear support, no dry friction. Raises NotTrustworthyError when multipliers do not settle.
+    touching balls, 0 for balls without size. A swing arm whose balls are none, or cannot balance, is judged alone; with
+    balls that cannot balance it is not called stable. Range: constant speed, small motions, no effects.
+    Raises NotTrustworthyError when multipliers do not settle.
     """
-    angles = resting_angles(scene, half_angle)
-    if angles is None:
-        return Stability(scene.speed, None, None, None, None, False)
-    motion = BalancedMotion(scene, angles)
+    left_out = tuple(effect.name for effect in scene.effects)
+    try:
+        state, motion = _judged(scene, half_angle)
+    except NotKnownError as error:
+        return Stability(scene.speed, None, None, None, None, None, None, str(error), left_out)
+    if motion is None:
+        return Stability(scene.speed, None, None, None, None, None, False, None, left_out)
     eigenvalues = motion.eigenvalues(scene.speed)
     multipliers = motion.multipliers(scene.speed) if eigenvalues is None else None
     growth = growth_of(multipliers, scene.speed) if multipliers else motion.growth(scene.speed)
-    return Stability(scene.speed, angles, eigenvalues, multipliers, growth, growth < -MARGIN * scene.speed)
+    carried = state != "arm alone" or not scene.ball_masses
+    stable = carried and growth < -MARGIN * scene.speed
+    angles = motion.angles if carried else None
+    return Stability(scene.speed, state, angles, eigenvalues, multipliers, growth, stable, None, left_out)
 
 
-def boundaries(scene: Scene, low: float, high: float, half_angle: float = 0.0) -> tuple[Boundary, ...]:
+def critical_damping(scene: Scene) -> float | None:
+    """Joint damping [N·s/m] that parametric resonance of a swing arm cannot overcome as long as nothing is balanced.
+
+    (m₀e/l)·ω₀·(1 + 17κ²/64), see `sizing.swing_arm.damping_limit`; ω₀ = l√(c/J_O) of the scene's stiffness, with the
+    balls' inertia in J_O. None on other supports, on an arm that does not stand, and beyond κ = 0.3. Source: Kovalenko
+    2010, (24).
+    """
+    if not isinstance(scene.support, SwingArm) or scene.support.stiffness <= 0:
+        return None
+    arm = _loaded(scene)
+    natural = arm.length * math.sqrt(arm.stiffness / arm.inertia)
+    joint = Arm(arm.length, arm.inertia, arm.stiffness, arm.damping, *(0.0,) * 6)
+    try:
+        return damping_limit(joint, scene.imbalance, natural)
+    except InputError:
+        return None
+
+
+def boundaries(
+    scene: Scene, low: float, high: float, half_angle: float = 0.0, *, coarse: bool = False
+) -> tuple[Boundary, ...]:
     """Every speed from `low` to `high` [rad/s] at which the balanced state of a scene gains or loses its stability.
 
-    Isotropic support: all of them, see `crossings`. Anisotropic support: the changes of sign of the growth rate on a
-    grid that is refined where the rate bends, comes near zero or turns back before it.
+    Isotropic support, axis still, up to 16 states: all of them, see `crossings`. Elsewhere the changes of sign of the
+    growth rate on a grid that is refined where the rate bends, comes near zero or turns back before it, at up to some
+    five hundred speeds; `coarse`: at some twenty, not refined. Without a state of rest at a speed nothing is stable
+    there. Raises NotKnownError where `stability` knows no answer.
     """
     Range("lowest speed", 0.0, unit="rad/s", open_low=True).check(low)
     Range("highest speed", low, 1e9, "rad/s", open_low=True).check(high)
-    angles = resting_angles(scene, half_angle)
-    if angles is None:
+    state, motion = _judged(scene, half_angle)
+    if state == "arm alone" and scene.ball_masses:
         return ()
-    motion = BalancedMotion(scene, angles)
+    moves = motion.motion if motion else isinstance(scene.support, LinearSupport) and scene.support.tilts
+    if motion is None and not moves:
+        return ()
 
     def excess(speed: float) -> float:
         """The growth rate per radian, beyond what is taken for none."""
-        return motion.growth(speed) / speed + MARGIN
+        there = _judged(_at(scene, speed), half_angle)[1] if moves else motion
+        return 1.0 if there is None else there.growth(speed) / speed + MARGIN
 
-    if motion.eigenvalues(scene.speed) is None:
-        points = _refined(excess, _first_grid(motion, low, high))
-    else:
+    if motion and not moves and motion.isotropic and motion.states <= MOST_STATES:
         points = [(speed, excess(speed)) for speed in _between(crossings(motion), low, high)]
+    elif coarse:
+        points = [(speed, excess(speed)) for speed in _first_grid(scene, low, high, COARSE, FEW)]
+    else:
+        points = _refined(excess, _first_grid(scene, low, high, GRID, MANY))
     return tuple(_changes(excess, points))
+
+
+def _judged(scene: Scene, half_angle: float) -> tuple[State | None, BalancedMotion | None]:
+    """What is judged of a scene, if there is anything."""
+    rest = resting_state(scene, half_angle)
+    if rest is not None and (scene.ball_masses or not isinstance(scene.support, SwingArm)):
+        return "race still" if rest.motion else "balanced", BalancedMotion(scene, rest.angles, rest.motion)
+    if not isinstance(scene.support, SwingArm):
+        return None, None
+    races = tuple(replace(race, ball_masses=(), start_angles=(), start_speeds=()) for race in scene.races)
+    return "arm alone", BalancedMotion(replace(scene, support=_loaded(scene), races=races), ())
+
+
+def _loaded(scene: Scene) -> SwingArm:
+    """The arm with the inertia of its balls, m (l² + R_p²) each, as J_O of Kovalenko 2010, (2), has it."""
+    arm: SwingArm = scene.support  # type: ignore[assignment]
+    added = sum(m * (arm.length**2 + race.pitch_radius**2) for race in scene.races for m in race.ball_masses)
+    return replace(arm, inertia=arm.inertia + added)
+
+
+def _at(scene: Scene, speed: float) -> Scene:
+    return replace(scene, speed=speed, duration=4 * math.pi / speed, effects=())
 
 
 def crossings(motion: BalancedMotion) -> list[float]:
@@ -103,12 +182,9 @@ def crossings(motion: BalancedMotion) -> list[float]:
     (Fuller 1968), or A is singular. A = L₀ + L₁Ω + L₂Ω², so each is an eigenvalue problem for Ω. Between its solutions
     stability cannot change; most of them change nothing.
     """
-    reference = motion.scene.speed
-    at = (0.5, 1.0, 2.0)
-    matrices = np.array([motion.harmonics(x * reference)[0].real * x for x in at])
-    parts = np.tensordot(np.linalg.inv(np.vander(at, increasing=True)), matrices, axes=1)
+    parts = motion.polynomial()
     found = [*_singular(parts), *_singular(np.array([_bialternate(part) for part in parts]))]
-    return sorted(x * reference for x in found)
+    return sorted(x * motion.scene.speed for x in found)
 
 
 def _bialternate(A: Array) -> Array:
@@ -137,43 +213,60 @@ def _between(speeds: Sequence[float], low: float, high: float) -> list[float]:
     return [low, *((a + b) / 2 for a, b in pairwise(inside)), high]
 
 
-def _first_grid(motion: BalancedMotion, low: float, high: float) -> list[float]:
-    """Evenly spaced in ratio, with the natural frequencies and the speeds half-way between them among them."""
-    support, race = motion.scene.support, motion.scene.race
+def _first_grid(scene: Scene, low: float, high: float, intervals: int, most: int) -> list[float]:
+    """Evenly spaced in ratio, and at natural frequencies; of up to `most` of them beside and half-way between too.
+
+    On a swing arm twice its natural frequency and what that is divided by 2 and 3: parametric resonance.
+    """
+    natural = _natural_frequencies(scene)
+    if isinstance(scene.support, SwingArm):
+        natural = [2 * natural[0] / k for k in (1, 2, 3)]
+    places = natural
+    if len(natural) <= most:
+        places = [place * factor for place in natural for factor in (0.99, 1.0, 1.01)]
+        places += [f(a, b) for a, b in combinations(natural, 2) for f in (_mean, _root_mean_square)]
+    inside = (float(place) for place in places if low < place < high)
+    return sorted({*np.geomspace(low, high, intervals + 1).tolist(), low, high, *inside})
+
+
+def _natural_frequencies(scene: Scene) -> list[float]:
+    """Speeds [rad/s] that are natural frequencies with the balls held, the rotor turning as fast."""
+    support = scene.support
+    if isinstance(support, SwingArm):
+        arm = _loaded(scene)
+        return [arm.length * math.sqrt(max(arm.stiffness, 0.0) / arm.inertia)]
     P = np.array(support.race_map)
-    mass = np.array(support.mass) + sum(race.ball_masses) * P.T @ P
-    squares = np.linalg.eigvals(np.linalg.solve(mass, np.array(support.stiffness))).real
-    natural = np.sqrt(np.maximum(squares, 0.0))
-    means = [f(pair) for pair in ((a, b) for a in natural for b in natural) for f in (_mean, _root_mean_square)]
-    places = [place * factor for place in means for factor in (0.99, 1.0, 1.01) if low < place * factor < high]
-    return sorted({*np.geomspace(low, high, GRID + 1).tolist(), low, high, *map(float, places)})
+    mass = np.array(support.mass) + P.T @ assemble(_at(scene, scene.speed)).parameters.ball_mass @ P
+    spinning = np.array(support.gyroscopic) if support.gyroscopic else 0.0
+    # Of e^{iΩt} at the speed Ω itself; what is negative is a motion that turns backward, or none.
+    squares = np.linalg.eigvals(np.linalg.solve(mass - 1j * spinning, np.array(support.stiffness))).real
+    return [float(value) for value in np.sqrt(np.maximum(squares, 0.0))]
 
 
-def _mean(pair: tuple[float, float]) -> float:
-    return sum(pair) / 2
+def _mean(a: float, b: float) -> float:
+    return (a + b) / 2
 
 
-def _root_mean_square(pair: tuple[float, float]) -> float:
-    return math.hypot(*pair) / math.sqrt(2)
+def _root_mean_square(a: float, b: float) -> float:
+    return math.hypot(a, b) / math.sqrt(2)
 
 
 def _refined(function: Callable[[float], float], grid: Sequence[float]) -> Points:
     """The function on the grid, halved where it bends or comes near zero, and at extremes towards zero."""
     points = [(x, function(x)) for x in grid]
-    for a, b in pairwise(list(points)):
-        points += _halved(function, a, b, DEEPEST)
+    intervals = list(pairwise(points))
+    for _ in range(DEEPEST + 1):
+        bent = []
+        for a, b in intervals[: max(0, MOST_SPEEDS - len(points))]:
+            x = (a[0] + b[0]) / 2
+            middle = (x, function(x))
+            points.append(middle)
+            nearest = min(abs(a[1]), abs(b[1]), abs(middle[1]))
+            if abs(middle[1] - (a[1] + b[1]) / 2) > BEND * nearest:
+                bent += [(a, middle), (middle, b)]
+        intervals = bent
     points.sort()
     return sorted([*points, *_extremes(function, points)])
-
-
-def _halved(function: Callable[[float], float], a: tuple[float, float], b: tuple[float, float], depth: int) -> Points:
-    """Points between two: none where the function is straight, seen from its distance to zero."""
-    x = (a[0] + b[0]) / 2
-    middle = (x, function(x))
-    nearest = min(abs(a[1]), abs(b[1]), abs(middle[1]))
-    if depth == 0 or abs(middle[1] - (a[1] + b[1]) / 2) <= BEND * nearest:
-        return [middle]
-    return [*_halved(function, a, middle, depth - 1), middle, *_halved(function, middle, b, depth - 1)]
 
 
 def _extremes(function: Callable[[float], float], points: Points) -> Points:

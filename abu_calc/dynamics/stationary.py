@@ -5,13 +5,85 @@ Angles [rad] from the zero mark; imbalances as complex numbers U e^{iφ} [kg m].
 
 import cmath
 import math
+from typing import Final
 
-from abu_calc.errors import InputError, RangeError
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.receptance import receptance
+from abu_calc.dynamics.scene import LinearSupport, Scene
+from abu_calc.errors import InputError, NotTrustworthyError, RangeError
+
+SAME: Final = 1e-12
+"""Relative; what differs by less is the same but for rounding."""
+
+Complex = NDArray[np.complex128]
+
+
+class NotKnownError(NotTrustworthyError):
+    """The balls may have a state of rest, but no formula here gives it."""
 
 
 def balls_resultant(imbalance: float, imbalance_angle: float) -> complex:
     """V = −m₀e e^{iφ} [kg m]: what the balls must add up to. It fixes two balls; of more, n − 2 angles stay free."""
     return -cmath.rect(imbalance, imbalance_angle)
+
+
+def needed_resultants(scene: Scene) -> dict[float, complex]:
+    """V [kg m] by the place z [m] of each plane with balls: what the balls of its races must add up to.
+
+    In one plane V = −m₀e e^{iφ}. On a support that tilts, force and couple must vanish: Σ V = −U, Σ zV = −W, U and W
+    the imbalance at the centre of mass and the couple χ(J_t − J_p); of more than two planes the split is that with the
+    least Σ |V|²/Σm R_p. One plane elsewhere than the imbalance balances nothing, but its balls can hold their race
+    still, V = −h(z; U, W)/h(z; 1, z), h its motion by forces and couples: known on isotropic supports. Range: small
+    tilts. Raises NotKnownError on others. Source: derived.
+    """
+    own = -cmath.rect(scene.imbalance, scene.imbalance_angle)
+    planes = {race.plane_offset: 0.0 for race in scene.races if race.ball_masses}
+    if not isinstance(scene.support, LinearSupport) or not scene.support.tilts or not planes:
+        return dict.fromkeys(planes, own)
+    couple = -cmath.rect(scene.couple, scene.couple_angle)
+    for race in scene.races:
+        if race.ball_masses:
+            planes[race.plane_offset] += race.static_moment
+    if len(planes) == 1:
+        (place,) = planes
+        if still_axis(scene):
+            return {place: own}
+        lever = np.array((1, place)) @ _forward(scene.support, scene.speed)
+        return {place: complex(lever @ (own, couple) / (lever @ (1, place)))}
+    places, capacities = np.array(list(planes)), np.array(list(planes.values()))
+    unit = float(np.abs(places).max(initial=0.0)) or 1.0
+    rows = np.array((np.ones_like(places), places / unit))
+    # Weighed by capacity, the smallest solution of two equations.
+    shares = capacities[:, None] * rows.T @ np.linalg.pinv(rows * capacities @ rows.T)
+    return dict(zip(planes, (shares @ (own, couple / unit)).tolist(), strict=True))
+
+
+def still_axis(scene: Scene) -> bool:
+    """Whether balls can leave nothing at all of imbalance and couple: force and couple vanish together."""
+    planes = {race.plane_offset for race in scene.races if race.ball_masses}
+    if not scene.support.tilts or len(planes) > 1:
+        return True
+    U = cmath.rect(scene.imbalance, scene.imbalance_angle)
+    W = cmath.rect(scene.couple, scene.couple_angle)
+    if not planes:
+        return not (U or W)
+    moment = U * next(iter(planes))
+    return abs(W - moment) <= SAME * (abs(W) + abs(moment))
+
+
+def _forward(support: LinearSupport, speed: float) -> Complex:
+    """x + iy and θ_y − iθ_x, rotating with the rotor, by a force and a couple that rotate with it: 2 × 2."""
+    h = receptance(support, speed)
+    straight, crossed = h[::2, ::2], h[::2, 1::2]
+    mirrored = np.abs(h[1::2, 1::2] - straight).max() + np.abs(h[1::2, ::2] + crossed).max()
+    if mirrored > 1e-9 * np.abs(h).max():
+        raise NotKnownError(
+            "one race elsewhere than the imbalance, on a support that differs along x and y: its balls cannot come "
+            "to rest, they swing twice per turn about a place that is not computed"
+        )
+    return np.asarray(straight - 1j * crossed, dtype=complex)
 
 
 def two_ball_angles(imbalance: float, ball_moment: float, imbalance_angle: float = 0.0) -> tuple[float, float]:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 class Trajectory:
     """States over time: y[state, moment] at the moments asked for, in ascending order [s].
 
-    `evaluations` counts calls of the right-hand side, `status` is how it ended, `message` says so in words.
+    `evaluations` counts calls of the right-hand side and of what is watched (order × steps stands for them with heyoka,
+    which makes none), `status` is how it ended, `message` says so in words.
     """
 
     t: NDArray[np.float64]
@@ -22,6 +23,8 @@ class Trajectory:
     steps: int
     status: str
     message: str
+    events: int = 0
+    """Switches of modes."""
 
     def at(self, times: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
         """y at moments that were asked for of the integrator; raises ValueError for any other."""

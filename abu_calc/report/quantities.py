@@ -69,6 +69,12 @@ QUANTITIES: Final[Mapping[str, Quantity]] = {
     "velocity_rms_mm_per_s": Quantity("velocity rms", "v", 3),
     "level_db": Quantity("level", "L", 4),
     "error_estimate": Quantity("error estimate", "", 2),
+    "largest_amplitude_mm": Quantity("largest since the start", "", 3),
+    "bearing_amplitudes_mm": Quantity("amplitudes at the bearings", "", 3),
+    "tilt_x_mrad": Quantity("tilt about x", "θ_x", 3),
+    "tilt_y_mrad": Quantity("tilt about y", "θ_y", 3),
+    "arm_angle_mrad": Quantity("angle of the arm", "φ", 4),
+    "rotor_speed_rpm": Quantity("speed of the rotor", "", 6),
     "unbalanced_amplitude_mm": Quantity("axis amplitude without balls", "A₀", 3),
     "t_s": Quantity("time", "t"),
     "x_mm": Quantity("axis, along the work", "x", 3),
@@ -77,6 +83,7 @@ QUANTITIES: Final[Mapping[str, Quantity]] = {
     "vy_mm_per_s": Quantity("velocity away from the work", "y'", 3),
     "speed_rpm": Quantity("speed", "Ω", 6),
     "growth_rate_per_s": Quantity("growth rate of a disturbance", "max Re λ", 4),
+    "critical_damping_N_s_per_m": Quantity("damping against parametric resonance", "h_sh", 4),
     "resting_angles_deg": Quantity("balls rest at", "θ", 5),
 }
 

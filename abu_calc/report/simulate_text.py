@@ -4,8 +4,10 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from abu_calc.checks import Check
+from abu_calc.dynamics.scene import Scene, SwingArm
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import check_blocks, default_blocks, facts, warning_blocks
+from abu_calc.report.effects import ledger_grid
 from abu_calc.report.quantities import number, shown
 
 CONVENTIONS = (
@@ -14,36 +16,71 @@ CONVENTIONS = (
     "imbalance) in the sense of rotation, ball speeds relative to the race. Settled: the imbalance left stays near its "
     "final value."
 )
-MODEL = "Planar support at constant speed, one race, viscous rolling drag; balls pass through each other."
 
 
 def simulate_blocks(
     title: str,
     start: str,
     result: dict[str, Any],
+    scene: Scene,
     checks: Sequence[Check],
     warnings: Iterable[str],
     defaults: Iterable[tuple[str, object]],
 ) -> tuple[Block, ...]:
     """The whole report."""
     keys = ("duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "unbalanced_amplitude_mm",
-            "velocity_rms_mm_per_s", "level_db", "error_estimate")  # fmt: skip
+            "largest_amplitude_mm", "bearing_amplitudes_mm", "velocity_rms_mm_per_s", "level_db",
+            "error_estimate")  # fmt: skip
     return (
-        Heading(f"{title}: simulation of the scene {result['scene']}"),
+        Heading(f"{title}: simulation{_of(result['scene'])}"),
         Paragraph(_verdict(result), checks[0].status),
         Heading("Motion"),
         facts(result, *keys),
         *_final(result["final"]),
-        *_effects(result["effects"]),
+        *([Heading("Effects"), ledger_grid(result["effects"])] if result["effects"] else []),
+        *_audit(result.get("audit")),
         *check_blocks(checks),
         *warning_blocks(warnings),
         *default_blocks(defaults),
         Heading("Model"),
-        Paragraph(f"{MODEL} Start: {start}."),
+        Paragraph(f"{_model(scene)} Start: {start}."),
         Paragraph(_cost(result["cost"])),
         Heading("Conventions"),
         Paragraph(CONVENTIONS),
     )
+
+
+def _of(scene: str) -> str:
+    """Which scene of a machine; a scene file holds but one."""
+    return "" if scene == "scene" else f" of the scene {scene}"
+
+
+def _model(scene: Scene) -> str:
+    """Support, races and balls in a sentence."""
+    if isinstance(scene.support, SwingArm):
+        support = "Rotor on a swing arm"
+    elif scene.support.tilts:
+        support = "Rigid rotor that moves in its plane and tilts"
+    else:
+        more = len(scene.support.names) - 2
+        support = "Planar support" + (f" with {more} more coordinates" if more else "")
+    races, balls = len(scene.races), len(scene.ball_masses)
+    contact = "" if scene.effect("ball_contact") or balls < 2 else "; balls pass through each other"
+    where = "one race" if races == 1 else f"{races} races"
+    return f"{support}, {where} with {balls} balls in all, viscous rolling drag{contact}."
+
+
+def _audit(audit: dict[str, Any] | None) -> list[Block]:
+    if audit is None:
+        return []
+    if not audit["effects"]:
+        return [Heading("Audit"), Paragraph("Every effect was in already.")]
+    told = (
+        f"With {', '.join(audit['effects'])} in as well, the results differ by {number(audit['difference'], 2)}; "
+        f"{number(audit['promise'], 2)} were estimated. It took {audit['evaluations']} evaluations, "
+        f"{audit['wall_s']:.2f} s."
+    )
+    return [Heading("Audit"), Paragraph(told)]
 
 
 def _verdict(result: dict[str, Any]) -> str:
@@ -60,20 +97,13 @@ def _final(final: dict[str, Any]) -> list[Block]:
     )
     blocks: list[Block] = [
         Heading(f"At the end, {shown('t_s', final['t_s'])}"),
-        facts(final, "x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s"),
+        facts(final, "x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad",
+              "rotor_speed_rpm"),  # fmt: skip
     ]
     return [*blocks, Grid(("ball", "angle", "speed"), rows, frozenset({1, 2}))] if rows else blocks
 
 
-def _effects(effects: Sequence[dict[str, Any]]) -> list[Block]:
-    rows = tuple(
-        (effect["name"], "in" if effect["included"] else "out",
-         "" if effect["weight"] is None else number(effect["weight"], 2), effect["why"])
-        for effect in effects
-    )  # fmt: skip
-    return [Heading("Effects"), Grid(("effect", "", "weight", "why"), rows, frozenset({2}))] if rows else []
-
-
 def _cost(cost: dict[str, Any]) -> str:
+    events = f", {cost['events']} events" if cost["events"] else ""
     work = f"{cost['integrator']}, tolerance {cost['tolerance']:g}, {cost['evaluations']} evaluations"
-    return f"Cost: {work} in {cost['steps']} steps, {cost['wall_s']:.2f} s."
+    return f"Cost: {work} in {cost['steps']} steps{events}, {cost['wall_s']:.2f} s. Integrator: {cost['why']}."

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from abu_calc.analysis.idle import left_out
-from abu_calc.analysis.simulate import Simulation
+from abu_calc.analysis.machine import Run
+from abu_calc.analysis.region import TrueRegion
 from abu_calc.report.outcome import finite
 from abu_calc.report.simulation import simulation_result
+from abu_calc.report.stability import boundaries_result
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import AccuracyBudget, friction_band
 from abu_calc.sizing.design import Design
@@ -21,13 +22,13 @@ if TYPE_CHECKING:
 Result = dict[str, Any]
 
 
-def size_result(design: Design, simulations: Sequence[Simulation]) -> Result:
+def size_result(design: Design, simulations: Sequence[Run], region: TrueRegion) -> Result:
     """Everything `abu size` tells, in the order in which it is printed."""
     need = design.autobalancer.requirement
     return {
         "system_mass_kg": design.system_mass,
         "effective_mass_kg": need.effective_mass,
-        "frequency": _frequency(design.frequency),
+        "frequency": _frequency(design.frequency) | _true_region(region),
         "imbalance_g_mm": from_si(design.imbalance.value, "g_mm"),
         "required_capacity_g_mm": from_si(need.required, "g_mm"),
         "required_capacity_limit_g_mm": from_si(need.printed_limit, "g_mm"),
@@ -111,6 +112,14 @@ def _frequency(region: FrequencyRegion) -> Result:
     }
 
 
+def _true_region(region: TrueRegion) -> Result:
+    limits = region.boundaries
+    return {
+        "stable": region.stable,
+        "stability_boundaries_rpm": None if limits is None else boundaries_result(limits),
+    }
+
+
 def _budget(budget: AccuracyBudget) -> Result:
     parts = {
         "race_eccentricity_um": budget.race_eccentricity,
@@ -124,11 +133,12 @@ def _budget(budget: AccuracyBudget) -> Result:
     return {key: finite(from_si(value, "um")) for key, value in parts.items()}
 
 
-def _reached(design: Design, simulations: Sequence[Simulation]) -> Result:
+def _reached(design: Design, simulations: Sequence[Run]) -> Result:
     """The friction band at the angles where the simulated balls came to rest."""
     one, arm = design.autobalancer, design.case.friction_arm
     for run in simulations:
-        band = friction_band(arm, one.pitch_radius, one.ball_diameter / 2, run.response.final.ball_angles)
+        angles = run.simulation.response.final.ball_angles
+        band = friction_band(arm, one.pitch_radius, one.ball_diameter / 2, angles)
         return {"rolling_friction_reached_um": finite(from_si(band, "um"))}
     return {}
 
@@ -141,14 +151,15 @@ def _vibration(vibration: Vibration) -> Result:
     return {**_levels(vibration.worst), "handles": handles}
 
 
-def _run(design: Design, run: Simulation) -> Result:
-    return simulation_result(run, left_out(design, run.response)) | _other_drags(design.track, run)
+def _run(design: Design, run: Run) -> Result:
+    result = simulation_result(run.simulation, run.ledger)
+    return result | _other_drags(design.track, run) if run.ledger.scene.name == "idle" else result
 
 
-def _other_drags(race: Track, run: Simulation) -> Result:
+def _other_drags(race: Track, run: Run) -> Result:
     """Settling at a third and at three times the drag: the simulated time, scaled by the rates of the slow motion."""
     (_, rate), *others = race.decay_rates
-    time = run.response.settling_time
+    time = run.simulation.response.settling_time
     return {
         "settling_estimates": [
             {"drag_per_s": drag, "settling_time_s": time * rate / other if time and other > 0 and rate > 0 else None}

@@ -15,9 +15,10 @@ CONVENTIONS = (
     "interference is positive when tight; angles of balls are measured from the imbalance in the sense of rotation."
 )
 START = (
-    "Scene idle: full speed, axis at rest, balls at rest in the race, bunched side by side 20° ahead of the imbalance; "
-    "planar springs, rolling inertia, viscous drag. Balls pass through each other; race eccentricity and dry friction "
-    "stand in the accuracy budget instead."
+    "Every scene starts at full speed, the axis at rest at its place, balls at rest in the race, bunched side by side "
+    "20° ahead of the imbalance; rolling inertia and viscous drag are always in. A weight is what leaving the effect out "
+    "may change, `abu effects` tells more. Two effects take long and are left to `abu simulate`: dry rolling friction, "
+    "which stands in the accuracy budget, and, but for the idle scene, ball contact: balls then pass through each other."
 )
 
 
@@ -93,12 +94,27 @@ def _need(result: dict[str, Any]) -> list[Block]:
         Heading("Frequencies and capacity"),
         facts(result, "system_mass_kg", "effective_mass_kg"),
         facts(result["frequency"], "speed_hz", "natural_frequencies_hz", "region", "finite_mass_gap"),
+        Paragraph(_stability(result["frequency"])),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
               "required_capacity_compliant_g_mm"),
         Heading("Accuracy budget, displacements at the wheel"),
         facts(result["accuracy_budget"], *(key for key, value in result["accuracy_budget"].items()
               if value or key not in ("plane_offset_um", "capacity_shortfall_um"))),
     ]  # fmt: skip
+
+
+def _stability(frequency: dict[str, Any]) -> str:
+    """What the eigenvalues say beside the simple rule."""
+    stable, limits = frequency["stable"], frequency["stability_boundaries_rpm"]
+    if stable is None or limits is None:
+        return "Whether the balanced state is stable at idle is not known."
+    word = "stable" if stable else "not stable"
+    changes = ", ".join(f"{number(one['speed_rpm'], 4)} rpm ({_above(one)} above)" for one in limits)
+    return f"Balanced state at idle, by its eigenvalues: {word} at the rated speed. Changes at {changes or 'no speed'}."
+
+
+def _above(boundary: dict[str, Any]) -> str:
+    return "stable" if boundary["stable_above"] else "not stable"
 
 
 def _vibration(result: dict[str, Any]) -> list[Block]:
@@ -130,15 +146,28 @@ def _simulation(result: dict[str, Any]) -> list[Block]:
             Facts(
                 tuple(
                     (f"settling at a drag of {other['drag_per_s']:g} 1/s", "about", shown("settling_time_s", time))
-                    for other in run["settling_estimates"]
+                    for other in run.get("settling_estimates", ())
                     if (time := other["settling_time_s"]) is not None
                 )
             ),
-            Paragraph(f"The balls rest at {angles} from the imbalance."),
+            Paragraph(f"The balls end at {angles} from the imbalance."),
+            Paragraph(f"Effects in: {_in(run)}. Left out: {_out(run)}."),
             Paragraph(f"Cost: {work}, {cost['wall_s']:.2f} s."),
-            Paragraph(START),
         ]  # fmt: skip
-    return blocks
+    return [*blocks, Paragraph(START)] if blocks else []
+
+
+def _in(run: dict[str, Any]) -> str:
+    return ", ".join(each["name"] for each in run["effects"] if each["included"]) or "none"
+
+
+def _out(run: dict[str, Any]) -> str:
+    out = [each for each in run["effects"] if not each["included"]]
+    return ", ".join(f"{each['name']} ({_weight(each['weight'])})" for each in out) or "none"
+
+
+def _weight(weight: float | None) -> str:
+    return "weight not known" if weight is None else f"weight {number(weight, 2)}"
 
 
 def _alternatives(result: dict[str, Any]) -> list[Block]:

@@ -16,38 +16,68 @@ FORBIDDEN = (
     "well above them, and light damping opens further gaps. Nothing is said of how far a disturbance may go: a start "
     "far away may end elsewhere (`abu simulate`)."
 )
+ON_A_GRID = (
+    "They were looked for on a grid of speeds, refined where the growth rate bends or comes near zero, at up to some "
+    "five hundred speeds: a gap far narrower than a hundredth of its speed may be missed."
+)
+KEYS = ("growth_rate_per_s", "critical_damping_N_s_per_m", "resting_angles_deg")
+BALANCED_TO_FIRST_ORDER = frozenset({"gravity"})
+"""Effects that leave the balanced state as it is, to the first order."""
 
 
-def stability_result(found: Stability, boundaries: Sequence[Boundary] | None) -> dict[str, Any]:
+def stability_result(
+    found: Stability, boundaries: Sequence[Boundary] | None, critical_damping: float | None
+) -> dict[str, Any]:
     """What `abu stability` tells; `boundaries_rpm` is null where no range of speeds was asked for."""
     return {
         "speed_rpm": from_si(found.speed, "rpm"),
+        "state": found.state,
         "stable": found.stable,
         "growth_rate_per_s": finite(found.growth_rate),
         "eigenvalues": _pairs(found.eigenvalues),
         "floquet_multipliers": _pairs(found.multipliers),
+        "critical_damping_N_s_per_m": critical_damping,
         "resting_angles_deg": None if found.angles is None else [wrapped_deg(angle) for angle in found.angles],
-        "boundaries_rpm": None
-        if boundaries is None
-        else [{"speed_rpm": from_si(one.speed, "rpm"), "stable_above": one.stable_above} for one in boundaries],
+        "effects_left_out": list(found.left_out),
+        "boundaries_rpm": None if boundaries is None else boundaries_result(boundaries),
     }
 
 
-def stability_warnings(found: Stability) -> list[str]:
-    """What the reader must know of how it was found."""
-    if found.angles is None:
-        return ["No eigenvalues: there is no balanced state at any speed."]
-    told = []
+def boundaries_result(boundaries: Sequence[Boundary]) -> list[dict[str, Any]]:
+    """Speeds where stability changes."""
+    return [{"speed_rpm": from_si(one.speed, "rpm"), "stable_above": one.stable_above} for one in boundaries]
+
+
+def stability_warnings(found: Stability, races: Sequence[int]) -> list[str]:
+    """What the reader must know of how it was found; `races`: how many balls each has."""
+    told = [f"No eigenvalues: {found.reason}."] if found.reason else []
+    if found.state is None and not found.reason:
+        told.append("No eigenvalues: there is no balanced state at this speed.")
+    if found.state == "race still":
+        told.append(
+            "The race is not in the plane of the imbalance: its balls hold the race itself still, the axis keeps "
+            "moving elsewhere. That state is judged."
+        )
+    if found.state == "arm alone":
+        why = "the balls cannot carry the imbalance" if any(races) else "there are no balls"
+        told.append(f"Judged is the forced motion of the arm alone with its imbalance: {why}.")
     if found.multipliers is not None:
         told.append(
-            "The support differs along x and y: Floquet multipliers of one revolution stand in place of eigenvalues."
+            "What is felt of the support changes as the rotor turns: Floquet multipliers of one revolution stand in "
+            "place of eigenvalues."
         )
-    if len(found.angles) > 2:
+    if found.angles is not None and max(races, default=0) > 2:
         told.append(
-            f"{len(found.angles)} balls can balance in many arrangements; judged is the one spread about the light "
+            f"{max(races)} balls of a race can balance in many arrangements; judged is the one spread about the light "
             "side with even gaps between equal balls. The neutral motions from one arrangement to another do not count."
         )
-    return told
+    return [*told, *_left_out(found.left_out)]
+
+
+def _left_out(names: Iterable[str]) -> list[str]:
+    """Effects of the scene that are no part of the linear motion."""
+    others = [name for name in names if name not in BALANCED_TO_FIRST_ORDER]
+    return [f"Left out of the linear motion, at steady speed: {', '.join(others)}."] if others else []
 
 
 def stability_blocks(
@@ -59,14 +89,14 @@ def stability_blocks(
     defaults: Iterable[tuple[str, object]],
 ) -> tuple[Block, ...]:
     """The whole report."""
-    word = "STABLE" if result["stable"] else "NOT STABLE"
+    word = {True: "STABLE", False: "NOT STABLE", None: "NOT JUDGED"}[result["stable"]]
     return (
         Heading(f"{title}: stability of the balanced state"),
         Paragraph(f"{word} at {shown('speed_rpm', result['speed_rpm'])}: {checks[0].message}.", checks[0].status),
-        facts(result, "growth_rate_per_s", "resting_angles_deg"),
+        facts(result, *(key for key in KEYS if result[key] != [])),
         *_values("Eigenvalues, 1/s", result["eigenvalues"]),
         *_values("Floquet multipliers of one revolution", result["floquet_multipliers"]),
-        *_boundaries(result["boundaries_rpm"], speeds),
+        *_boundaries(result, speeds),
         *check_blocks(checks),
         *warning_blocks(warnings),
         *default_blocks(defaults),
@@ -87,11 +117,17 @@ def _values(title: str, values: Sequence[Sequence[float]] | None) -> list[Block]
     return [Heading(title), Grid(("real part", "imaginary part"), rows, frozenset({0, 1}))]
 
 
-def _boundaries(boundaries: Sequence[dict[str, Any]] | None, speeds: str | None) -> list[Block]:
-    heading = Heading("Speeds where stability changes")
+def _boundaries(result: dict[str, Any], speeds: str | None) -> list[Block]:
+    heading, boundaries = Heading("Speeds where stability changes"), result["boundaries_rpm"]
     if boundaries is None:
         return [heading, Paragraph("Not asked for: --speeds LOW:HIGH finds them.")]
+    searched = [] if result["state"] == "balanced" and result["eigenvalues"] else [Paragraph(ON_A_GRID)]
     if not boundaries:
-        return [heading, Paragraph(f"None from {speeds} rpm.")]
+        return [heading, Paragraph(f"None from {speeds} rpm."), *searched]
+    return [heading, boundaries_grid(boundaries), *searched]
+
+
+def boundaries_grid(boundaries: Sequence[dict[str, Any]]) -> Grid:
+    """A row for each boundary."""
     rows = tuple((number(one["speed_rpm"], 6), "stable" if one["stable_above"] else "not stable") for one in boundaries)
-    return [heading, Grid(("rpm", "above it"), rows, frozenset({0}))]
+    return Grid(("rpm", "above it"), rows, frozenset({0}))

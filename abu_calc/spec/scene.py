@@ -1,26 +1,20 @@
 # ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """A scene file: one simulation given outright, and the rules between its tables."""
 
-import math
 from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
 from abu_calc.spec.scene_effects import Effects
-from abu_calc.spec.scene_support import DampingPair, SceneSwingArm, StiffnessPair, Tilting
+from abu_calc.spec.scene_race import SceneRace, refuse_overlap
+from abu_calc.spec.scene_support import Body, DampingPair, SceneSwingArm, StiffnessPair, Tilting
 from abu_calc.spec.table import Table, problem
+from abu_calc.spec.text import Part
 
-__all__ = ["Effects", "Initial", "SceneFile", "SceneRace", "SceneSwingArm", "SceneTable", "Tilting"]
+__all__ = ["Body", "Effects", "Initial", "SceneFile", "SceneRace", "SceneSwingArm", "SceneTable", "Tilting"]
 
-Mass = Annotated[float, Field(gt=0, le=1e12)]
-Angle = Annotated[float, Field(ge=-1e6, le=1e6)]
-BallSpeed = Annotated[float, Field(ge=-1e6, le=1e6)]
 Place = Annotated[float, Field(ge=-1e6, le=1e6)]
 Velocity = Annotated[float, Field(ge=-1e9, le=1e9)]
-
-MOST_BALLS: Final = 100
-TOUCHING: Final = 1e-6
-"""Balls that overlap by less than this at the start [rad] touch."""
 
 SPRINGS: Final = ("stiffness_N_per_m", "damping_N_s_per_m")
 NEEDED: Final = {
@@ -30,8 +24,8 @@ NEEDED: Final = {
 }
 REFUSED: Final = {
     "planar": ("tilting", "swing_arm"),
-    "tilting": (*SPRINGS, "swing_arm"),
-    "swing-arm": (*SPRINGS, "tilting"),
+    "tilting": (*SPRINGS, "swing_arm", "body"),
+    "swing-arm": (*SPRINGS, "tilting", "body"),
 }
 EXAMPLES: Final = {
     "mass_kg": "1.0",
@@ -41,70 +35,14 @@ EXAMPLES: Final = {
 
 
 class Initial(Table):
-    """Where the axis is at t = 0, and how fast."""
+    """Where the axis is at t = 0, and how fast; on a tilting support that at the centre of mass. A swing arm starts at
+    rest where it stands.
+    """
 
     x_mm: Place = Field(default=0.0, description="Place along x [mm]; -1e6 … 1e6. Default: 0.")
     y_mm: Place = Field(default=0.0, description="Place along y [mm]; -1e6 … 1e6. Default: 0.")
     vx_mm_per_s: Velocity = Field(default=0.0, description="Velocity along x [mm/s]; -1e9 … 1e9. Default: 0.")
     vy_mm_per_s: Velocity = Field(default=0.0, description="Velocity along y [mm/s]; -1e9 … 1e9. Default: 0.")
-
-
-class SceneRace(Table):
-    """A race and its balls; all angles are measured in the rotor, from its zero mark in the sense of rotation."""
-
-    pitch_radius_mm: float = Field(
-        description="Radius of the circle on which the balls' centres run [mm]; above 0 … 1e6.",
-        examples=[1000.0],
-        gt=0,
-        le=1e6,
-    )
-    plane_offset_mm: float = Field(
-        default=0.0,
-        description="Tilting support: place of the race along +z from the centre of mass [mm]; -100000 … 100000. "
-        "Default: 0.",
-        ge=-1e5,
-        le=1e5,
-    )
-    ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Mass of each ball [g]; above 0 … 1e12, up to 100 balls, none for the rotor alone.",
-        examples=[[50.0, 50.0]],
-    )
-    rolling_drag_per_s: float = Field(
-        description="Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; 0 … 1e7, "
-        "0 switches it off.",
-        examples=[0.01],
-        ge=0,
-        le=1e7,
-    )
-    start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Angle of each ball at the start [degrees]; -1e6 … 1e6.", examples=[[90.0, -90.0]]
-    )
-    start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = Field(
-        default=None,
-        description="Speed of each ball at the start, relative to the race [rpm]; -1e6 … 1e6. Without it: at rest in "
-        "the race.",
-        examples=[[0.0, 0.0]],
-    )
-
-    @property
-    def start_speeds(self) -> tuple[float, ...]:
-        """Speed of each ball at the start [rpm], whether given or not."""
-        return self.start_speeds_rpm if self.start_speeds_rpm is not None else (0.0,) * len(self.ball_masses_g)
-
-    def own_defaults(self) -> dict[str, object]:
-        """The speeds of the balls are the one default as long as another list."""
-        derived = {} if self.start_speeds_rpm is not None else {"start_speeds_rpm": self.start_speeds}
-        return {**super().own_defaults(), **derived}
-
-    @model_validator(mode="after")
-    def _lists_are_of_one_length(self) -> Self:
-        balls = len(self.ball_masses_g)
-        for key in ("start_angles_deg", "start_speeds_rpm"):
-            given = getattr(self, key)
-            if given is not None and len(given) != balls:
-                message = "one value for each ball of ball_masses_g"
-                raise problem(message, key, found=str(len(given)), allowed=str(balls))
-        return self
 
 
 class SceneTable(Table):
@@ -152,12 +90,13 @@ class SceneTable(Table):
     )
     rolling_inertia: bool = Field(
         default=False,
-        description="true: solid rolling balls, inertia factor 7/5; false: points. Default: false.",
+        description="true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: false.",
     )
     initial: Initial = Field(default_factory=Initial)
     race: Annotated[tuple[SceneRace, ...], Field(strict=False, min_length=1, max_length=10)] = Field(
         description="Races and their balls: [[scene.race]], one or more."
     )
+    body: Body | None = None
     tilting: Tilting | None = None
     swing_arm: SceneSwingArm | None = None
     effects: Effects = Field(default_factory=Effects)
@@ -187,15 +126,56 @@ class SceneTable(Table):
         return self
 
     @model_validator(mode="after")
-    def _planar_races_lie_in_the_plane(self) -> Self:
-        for index, race in enumerate(self.race):
-            if race.plane_offset_mm != 0 and self.support != "tilting":
+    def _lasts_the_run_up(self) -> Self:
+        if run_up := self.effects.run_up:
+            needed = (run_up.time_s or 0.0) + (run_up.run_down_s or 0.0)
+            if needed > self.duration_s:
+                raise problem(
+                    "the scene ends before the run-up and the run-down do",
+                    "duration_s",
+                    found=f"{self.duration_s:g} s",
+                    allowed=f"at least {needed:g} s",
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _only_a_spindle_that_tilts_has_places(self) -> Self:
+        places: list[tuple[tuple[Part, ...], float]] = [
+            (("race", index), race.plane_offset_mm) for index, race in enumerate(self.race)
+        ]
+        if contact := self.effects.grinding_contact:
+            places.append((("effects", "grinding_contact"), contact.plane_offset_mm))
+        for path, place in places:
+            if place != 0 and self.support != "tilting":
                 raise problem(
                     f'support = "{self.support}" knows no places along the spindle',
-                    *("race", index, "plane_offset_mm"),
-                    found=f"{race.plane_offset_mm:g} mm",
+                    *(*path, "plane_offset_mm"),
+                    found=f"{place:g} mm",
                     remedy='leave plane_offset_mm out, or use support = "tilting"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _an_arm_has_its_own_start_and_contact(self) -> Self:
+        if self.support != "swing-arm":
+            return self
+        for key in type(self.initial).model_fields:
+            if getattr(self.initial, key) != 0:
+                raise problem("a swing arm starts at rest where it stands", "initial", key, remedy=f"leave {key} out")
+        motor, arm = self.effects.motor, self.swing_arm
+        if motor and arm and motor.rotor_inertia_kg_m2 >= arm.moment_of_inertia_kg_m2:
+            raise problem(
+                "the rotor has more inertia than the arm that carries it",
+                *("effects", "motor", "rotor_inertia_kg_m2"),
+                found=f"{motor.rotor_inertia_kg_m2:g} kg·m²",
+                allowed=f"below swing_arm.moment_of_inertia_kg_m2, {arm.moment_of_inertia_kg_m2:g} kg·m²",
+            )
+        if self.effects.grinding_contact:
+            raise problem(
+                "a swing arm has its own contact with the work",
+                *("effects", "grinding_contact"),
+                remedy="write cutting = true in [scene.swing_arm] instead",
+            )
         return self
 
     @model_validator(mode="after")
@@ -209,26 +189,16 @@ class SceneTable(Table):
                         found=f"{radius:g} mm",
                         allowed=f"below pitch_radius_mm, {race.pitch_radius_mm:g} mm",
                     )
+                if race.ball_radius_mm not in (None, radius):
+                    raise problem(
+                        "a ball has one radius",
+                        *("race", index, "ball_radius_mm"),
+                        found=f"{race.ball_radius_mm:g} mm, and {radius:g} mm in {name}",
+                        remedy="write the same radius, or leave it out here",
+                    )
             if contact := self.effects.ball_contact:
-                self._refuse_overlap(index, race, math.asin(contact.ball_radius_mm / race.pitch_radius_mm))
+                refuse_overlap(index, race, contact.ball_radius_mm)
         return self
-
-    def _refuse_overlap(self, index: int, race: SceneRace, half_angle: float) -> None:
-        """Balls that have a size cannot start in one place."""
-        order = sorted(range(len(race.start_angles_deg)), key=lambda k: race.start_angles_deg[k] % 360)
-        angles = [math.radians(race.start_angles_deg[k] % 360) for k in order]
-        # A ball alone on its race is its own neighbour, a whole turn away.
-        for place, angle in enumerate(angles):
-            gap = (angles[(place + 1) % len(angles)] - angle) % math.tau or math.tau * (len(angles) == 1)
-            if gap < 2 * half_angle - TOUCHING:
-                one, other = sorted((order[place] + 1, order[(place + 1) % len(angles)] + 1))
-                raise problem(
-                    f"balls {one} and {other} overlap at the start",
-                    *("race", index, "start_angles_deg"),
-                    found=f"{math.degrees(gap):.6g}° apart",
-                    allowed=f"at least {math.degrees(2 * half_angle):.6g}°",
-                    remedy="part them, or leave [scene.effects.ball_contact] out",
-                )
 
     @model_validator(mode="after")
     def _motor_reaches_speed(self) -> Self:

@@ -71,6 +71,20 @@ class GrindingContact(Grinding):
         ge=-360,
         le=360,
     )
+    wheel_radius_mm: float | None = Field(
+        default=None,
+        description="Radius of the wheel [mm]; above 0 … 10000. With it cutting brakes a rotor that a motor drives.",
+        examples=[75.0],
+        gt=0,
+        le=1e4,
+    )
+    plane_offset_mm: float = Field(
+        default=0.0,
+        description="Tilting support: place of the wheel along +z from the centre of mass [mm]; -100000 … 100000. "
+        "Default: 0.",
+        ge=-1e5,
+        le=1e5,
+    )
 
 
 class SceneRunUp(Table):

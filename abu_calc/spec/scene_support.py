@@ -17,6 +17,20 @@ Position = Annotated[float, Field(ge=-1e5, le=1e5)]
 PER_BEARING: Final = ("bearing_stiffness_N_per_m", "bearing_damping_N_s_per_m")
 
 
+class Body(Table):
+    """Planar support: a further body that hangs on the rotor by a spring and a damper, such as a casing or a handle. It
+    starts at rest at its place.
+    """
+
+    mass_kg: float = Field(description="Mass of the body [kg]; above 0 … 1e9.", examples=[0.5], gt=0, le=1e9)
+    stiffness_N_per_m: StiffnessPair = Field(
+        description="Stiffness between rotor and body along x and y [N/m]; 0 … 1e15.", examples=[[1.0, 1.0]]
+    )
+    damping_N_s_per_m: DampingPair = Field(
+        description="Damping between rotor and body along x and y [N·s/m]; 0 … 1e12.", examples=[[0.02, 0.02]]
+    )
+
+
 class CoupleImbalance(Table):
     """Couple imbalance: the polar principal axis of inertia leans against the axis of rotation."""
 

@@ -104,7 +104,129 @@ def test_wrong_speeds_are_refused(scene: str, speeds: str) -> None:
     assert seen.status == 2 and "--speeds" in seen.err and "LOW:HIGH" in seen.err and seen.out == ""
 
 
-def test_what_is_not_simulated_yet_is_refused(scene: str) -> None:
-    for change in ("scene.support=tilting", "scene.support=swing-arm"):
-        seen = abu("stability", scene, "--set", change)
-        assert seen.status == 2 and "scene." in seen.err
+ARM = """\
+[scene]
+support = "swing-arm"
+speed_rpm = 2864.788975654
+imbalance_g_mm = 400.0
+duration_s = 12.0
+[[scene.race]]
+pitch_radius_mm = 30.0
+ball_masses_g = [10.0, 10.0]
+rolling_drag_per_s = 10.0
+start_angles_deg = [114.0, -57.0]
+[scene.swing_arm]
+arm_length_mm = 300.0
+moment_of_inertia_kg_m2 = 0.45
+joint_stiffness_N_per_m = 112500.0
+joint_damping_N_s_per_m = 150.0
+[scene.effects]
+gravity = {}
+dry_rolling_friction = { lever_arm_mm = 0.002, ball_radius_mm = 8.0 }
+"""
+TILTING = """\
+[scene]
+support = "tilting"
+mass_kg = 1.2
+speed_rpm = 3800.0
+imbalance_g_mm = 10.0
+duration_s = 12.0
+[[scene.race]]
+pitch_radius_mm = 30.0
+plane_offset_mm = 110.0
+ball_masses_g = [3.0, 3.0]
+rolling_drag_per_s = 20.0
+start_angles_deg = [114.0, -57.0]
+[[scene.race]]
+pitch_radius_mm = 30.0
+plane_offset_mm = -150.0
+ball_masses_g = [3.0, 3.0]
+rolling_drag_per_s = 30.0
+start_angles_deg = [114.0, -57.0]
+[scene.tilting]
+transverse_inertia_kg_m2 = 0.0138
+polar_inertia_kg_m2 = 0.00124
+bearing_positions_mm = [110.0, -150.0]
+bearing_stiffness_N_per_m = [[21500.0, 15800.0], [21500.0, 15800.0]]
+bearing_damping_N_s_per_m = [[5.375, 3.95], [5.375, 3.95]]
+couple_imbalance_angle = { magnitude_rad = 6.8e-5, angle_deg = 0.0 }
+"""
+
+
+def written(tmp_path: Path, text: str) -> str:
+    file = tmp_path / "other.toml"
+    file.write_text(text, encoding="utf-8")
+    return str(file)
+
+
+def test_a_swing_arm(tmp_path: Path) -> None:
+    """The worked arm at Ω/ω₀ = 2: balanced with balls at ± 131.8°, multipliers, the damping of (24)."""
+    document = abu("stability", written(tmp_path, ARM), "--speeds", "200:6000", "--json").document
+    result = document["result"]
+    assert result["stable"] and result["state"] == "balanced" and result["eigenvalues"] is None
+    assert sorted(result["resting_angles_deg"]) == pytest.approx([-131.81, 131.81], abs=0.01)
+    assert len(result["floquet_multipliers"]) == 6 and len(result["boundaries_rpm"]) == 1
+    assert result["critical_damping_N_s_per_m"] == pytest.approx(4e-4 / 0.3 * 150, rel=0.005)  # balls add inertia
+    assert result["effects_left_out"] == ["gravity", "dry_rolling_friction"]
+    assert any("dry_rolling_friction" in told and "gravity" not in told for told in document["warnings"])
+
+
+def test_a_swing_arm_alone(tmp_path: Path) -> None:
+    file = written(tmp_path, ARM)
+    empty = ["--set", "scene.race[0].ball_masses_g=[]", "--set", "scene.race[0].start_angles_deg=[]"]
+    seen = abu("stability", file, *empty, "--json")
+    assert seen.status == 0 and seen.document["result"]["state"] == "arm alone"
+    assert abu("stability", file, *empty).out.count("°") == 0
+    seen = abu("stability", file, "--set", "scene.imbalance_g_mm=700", "--json")
+    result = seen.document["result"]
+    assert seen.status == 1 and result["stable"] is False and len(result["floquet_multipliers"]) == 2
+    assert any("cannot carry" in told for told in seen.document["warnings"])
+
+
+def test_a_tilting_rotor(tmp_path: Path) -> None:
+    file = written(tmp_path, TILTING)
+    result = abu("stability", file, "--speeds", "1000:6000", "--json").document["result"]
+    assert result["stable"] and len(result["resting_angles_deg"]) == 4 and len(result["boundaries_rpm"]) == 3
+    assert result["critical_damping_N_s_per_m"] is None
+    alike = "scene.tilting.bearing_stiffness_N_per_m=[[2e4, 2e4], [2e4, 2e4]]"
+    damped = "scene.tilting.bearing_damping_N_s_per_m=[[5, 5], [5, 5]]"
+    result = abu("stability", file, "--set", alike, "--set", damped, "--json").document["result"]
+    assert len(result["eigenvalues"]) == 16 and result["floquet_multipliers"] is None
+
+
+def test_what_is_not_known_is_not_done(tmp_path: Path) -> None:
+    lone = "scene.race[1].ball_masses_g=[]", "scene.race[1].start_angles_deg=[]"
+    given = [word for one in lone for word in ("--set", one)]
+    seen = abu("stability", written(tmp_path, TILTING), *given, "--speeds", "1000:6000", "--json")
+    assert seen.status == 1 and seen.document["status"] == "not-done"
+    assert seen.document["result"]["stable"] is None and seen.document["result"]["boundaries_rpm"] is None
+    assert "differs along x and y" in seen.document["checks"][0]["message"]
+
+
+def test_scenes_of_a_machine() -> None:
+    tables = ["--set", "swing_arm.arm_length_mm=350.0"]
+    for name in ("swing-arm-idle", "swing-arm-cutting"):
+        result = abu("stability", "avtovaz-707-222", *tables, "--scene", name, "--json").document["result"]
+        assert result["floquet_multipliers"] and result["critical_damping_N_s_per_m"] > 0
+    seen = abu("stability", "avtovaz-707-222", "--scene", "run-up")
+    assert seen.status == 2 and "--scene" in seen.err and "swing-arm-idle" in seen.err
+
+
+def test_size_tells_the_true_region() -> None:
+    frequency = abu("size", "avtovaz-707-370", "--json").document["result"]["frequency"]
+    (one,) = frequency["stability_boundaries_rpm"]
+    assert frequency["stable"] is True and one["stable_above"] and 130 < one["speed_rpm"] < 250
+
+
+@pytest.mark.parametrize("hertz", [2.5, 40.0])
+def test_where_the_true_region_contradicts_the_simple_rule(hertz: float) -> None:
+    """On a stiff, heavily damped suspension, whose phase lag makes the balls flutter; a warning says so."""
+    from abu_calc.analysis.region import true_region
+    from abu_calc.cli.load import load
+    from abu_calc.sizing import size
+
+    design = size(load("avtovaz-707-222", [f"suspension.natural_frequencies_hz=[{hertz}, {hertz * 1.5}]"]).machine)
+    region = true_region(design)
+    assert design.frequency.balancing_possible and region.boundaries is not None
+    assert region.stable is (hertz == 2.5)
+    assert [("finite-mass gap" in told) for told in region.warnings] == [True] * (hertz != 2.5)

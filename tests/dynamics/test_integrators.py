@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.equations import Equations, assemble
+from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError
@@ -73,14 +73,17 @@ def test_samples_are_where_they_were_asked_for():
 
 def run_away(power: int) -> Equations:
     """y' = y^power from 1: beyond every bound at t = 1 for a square."""
+    scene = coupled_scene()
     return Equations(
+        scene=scene,
         states=("y",),
         rhs=lambda xp, t, y, p: y**power,
-        parameters=assemble(coupled_scene()).parameters,
+        parameters=assemble(scene).parameters,
         initial=(1.0,),
         scales=(1.0,),
         relative=(True,),
         longest_step=1.0,
+        breaks=(),
     )
 
 

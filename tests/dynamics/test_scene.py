@@ -7,9 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.scene import LinearSupport, parted_angles, with_parted_balls
+from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
+from abu_calc.dynamics.effects.registry import REGISTRY
+from abu_calc.dynamics.scene import LinearSupport, Race, only, parted_angles, with_parted_balls, without
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.errors import InputError
+from abu_calc.spec.scene_effects import Effects
 from tests.dynamics.scenes import dimensionless
 
 SCENE = dimensionless(2.0, 0.05, 0.01, 0.01, 0.01, (0.0, 1.0), 10.0)
@@ -26,7 +30,7 @@ def test_scene_refuses_what_is_no_quantity(name, value):
 @pytest.mark.parametrize("name", ["pitch_radius", "drag", "inertia_factor"])
 def test_race_refuses_what_is_no_quantity(name, value):
     with pytest.raises(InputError):
-        replace(SCENE.race, **{name: value})
+        replace(SCENE.races[0], **{name: value})
 
 
 @pytest.mark.parametrize(
@@ -41,7 +45,7 @@ def test_race_refuses_what_is_no_quantity(name, value):
 )
 def test_race_refuses_wrong_balls(change):
     with pytest.raises(InputError):
-        replace(SCENE.race, **change)
+        replace(SCENE.races[0], **change)
 
 
 def test_scene_refuses_less_than_one_revolution_and_wrong_starts():
@@ -75,7 +79,50 @@ def test_parted_balls_keep_apart_and_near_their_places(angles):
 
 def test_balls_apart_are_left_alone_and_parting_is_told():
     assert with_parted_balls(SCENE) == (SCENE, ())
-    scene, warnings = with_parted_balls(replace(SCENE, race=replace(SCENE.race, start_angles=(1.0, 1.0))))
-    assert scene.race.start_angles == pytest.approx((1.0, 1.000001), abs=1e-12)
+    scene, warnings = with_parted_balls(replace(SCENE, races=(replace(SCENE.races[0], start_angles=(1.0, 1.0)),)))
+    assert scene.start_angles == pytest.approx((1.0, 1.000001), abs=1e-12)
     assert len(warnings) == 1
     assert "1e-06 rad" in warnings[0]
+
+
+def test_balls_of_a_size_are_parted_by_their_size():
+    """The last digits of a file: three balls of 0.5 rad that overlap by rounding."""
+    parted = parted_angles((0.0, 0.4999999, 0.9999998), 0.5)
+    assert parted == pytest.approx((0.0, 0.5, 1.0), abs=1e-15)
+    assert parted_angles(parted, 0.5) == parted
+
+
+def test_scene_refuses_couple_and_places_where_nothing_tilts():
+    with pytest.raises(InputError, match="couple"):
+        replace(SCENE, couple=1e-6)
+    with pytest.raises(InputError, match="places along the spindle"):
+        replace(SCENE, races=(*SCENE.races, replace(SCENE.races[0], plane_offset=0.1)))
+    with pytest.raises(InputError, match="couple imbalance"):
+        replace(SCENE, couple_angle=math.nan)
+    with pytest.raises(InputError, match="ball radius"):
+        replace(SCENE.races[0], ball_radius=1.5)
+
+
+def test_balls_of_all_races_are_told_race_by_race():
+    second = Race(2.0, (0.3,), 0.1, 1.0, (5.0,), (0.0,))
+    scene = replace(SCENE, races=(*SCENE.races, second))
+    assert scene.ball_masses == (0.05, 0.05, 0.3)
+    assert scene.ball_moments == (0.05, 0.05, 0.6)
+    assert scene.start_angles == (0.0, 1.0, 5.0)
+    assert scene.static_moment == pytest.approx(0.7)
+
+
+def test_effects_are_picked_by_name_and_keep_their_order():
+    scene = replace(SCENE, effects=(RaceEccentricity(1e-3), Gravity()))
+    assert only(scene, ["gravity", "race_eccentricity"]) == scene
+    assert only(scene, ["gravity"]).effects == (Gravity(),)
+    assert without(scene, ["gravity", "motor"]).effects == (RaceEccentricity(1e-3),)
+    assert only(scene, []).effects == ()
+    with pytest.raises(InputError, match=r"no data.*found motor; allowed: race_eccentricity, gravity"):
+        only(scene, ["gravity", "motor"])
+
+
+def test_every_effect_of_the_registry_has_its_table():
+    names = [name for name, _ in REGISTRY]
+    assert sorted(names) == sorted(Effects.model_fields)
+    assert [kind.name for _, kind in REGISTRY] == names

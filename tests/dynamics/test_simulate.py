@@ -15,14 +15,14 @@ from abu_calc.analysis.response import (
     settling_time,
 )
 from abu_calc.analysis.simulate import difference, simulate
-from abu_calc.dynamics.equations import assemble
+from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.receptance import receptance, unbalanced_amplitude
 from abu_calc.dynamics.scene import LinearSupport, Race, Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import dimensionless, straight_grinder
-from tests.dynamics.test_equations import in_units
+from tests.dynamics.transforms import in_units
 
 
 def without_balls(stiffness: tuple[float, float] = (1.0, 3.0)) -> Scene:
@@ -67,7 +67,7 @@ def test_receptance_of_a_mass_on_a_mass():
     s = k2 + 1j * W * c2
     expected = 1 / (k1 - W**2 * m1 - W**2 * m2 * s / (s - W**2 * m2))
     np.testing.assert_allclose(receptance(support, W), expected * np.eye(2), rtol=1e-12, atol=1e-15)
-    scene = Scene("hand", support, W, 0.1, 0.0, Race(1.0, (), 0.0, 1.0, (), ()), 600.0, (0.0,) * 4, (0.0,) * 4)
+    scene = Scene("hand", support, W, 0.1, 0.0, (Race(1.0, (), 0.0, 1.0, (), ()),), 600.0, (0.0,) * 4, (0.0,) * 4)
     assert simulate(scene).response.axis_amplitude == pytest.approx(abs(expected) * 0.1 * W**2, rel=1e-3)
 
 
@@ -216,7 +216,7 @@ def test_more_samples_on_request():
 
 def test_difference_knows_the_circle_and_equal_balls():
     scene = dimensionless(3.0, 0.02, 0.02, 0.2, 0.3, (1.0, 2.5, 4.0), 50.0)
-    scene = replace(scene, race=replace(scene.race, ball_masses=(0.02, 0.02, 0.03)))
+    scene = replace(scene, races=(replace(scene.races[0], ball_masses=(0.02, 0.02, 0.03)),))
     one = simulate(scene, 0.05).response
     a, b, c = one.final.ball_angles
 

@@ -38,8 +38,8 @@ def test_three_balls_fix_only_their_sum():
 
 def merged(scene: Scene, guess: float) -> complex:
     """Axis displacement w in the rotor with all balls at the angle ψ where it pulls no further: Im(w e^{−iψ}) = 0."""
-    support, b = scene.support, scene.race.static_moment
-    mass = support.mass[0][0] + sum(scene.race.ball_masses)
+    support, b = scene.support, scene.static_moment
+    mass = support.mass[0][0] + sum(scene.ball_masses)
     D = support.stiffness[0][0] - mass * scene.speed**2 + 1j * scene.speed * support.damping[0][0]
 
     def displacement(psi: float) -> complex:
@@ -80,7 +80,7 @@ def test_disc_with_a_mass_of_one_kilogram():
         speed=1.5,
         imbalance=1.0,
         imbalance_angle=math.radians(45),
-        race=Race(1.0, (1.0, 1.0), 0.5, 1.0, (math.radians(55), math.radians(15)), (0.0, 0.0)),
+        races=(Race(1.0, (1.0, 1.0), 0.5, 1.0, (math.radians(55), math.radians(15)), (0.0, 0.0)),),
         duration=300.0,
         start_position=(0.0, 0.0),
         start_velocity=(0.0, 0.0),

@@ -41,10 +41,16 @@ rolling_inertia = false
 [[scene.race]]
 pitch_radius_mm = 1000.0
 plane_offset_mm = 0.0
+ball_radius_mm = 8.0
+corrector = "ball"
 ball_masses_g = [50.0, 50.0]
 rolling_drag_per_s = 0.01
 start_angles_deg = [90.0, -90.0]
 start_speeds_rpm = [0.0, 0.0]
+[scene.body]
+mass_kg = 0.5
+stiffness_N_per_m = [1.0, 1.0]
+damping_N_s_per_m = [0.02, 0.02]
 [scene.effects]
 gravity = { }
 dry_rolling_friction = { lever_arm_mm = 0.002, ball_radius_mm = 8.0 }
@@ -61,6 +67,8 @@ cutting_coefficient = 0.35
 rotation_sense = -1
 runout_mm = 0.04
 runout_angle_deg = 0.0
+wheel_radius_mm = 75.0
+plane_offset_mm = 0.0
 """
 TILTING = """\
 [scene]

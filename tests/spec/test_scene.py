@@ -93,6 +93,21 @@ CASES: list[tuple[str, str, int | None, str, tuple[str, ...]]] = [
      ("cannot reach", "19.0986")),
     (RACE, effect('grinding_contact = { contact = "rigid", contact_stiffness_N_per_m = 1 }'), 13,
      "scene.effects.grinding_contact.contact_stiffness_N_per_m", ("no stiffness",)),
+    (RACE, effect("grinding_contact = { plane_offset_mm = 5 }"), 13, "scene.effects.grinding_contact.plane_offset_mm",
+     ("places along the spindle",)),
+    (RACE, effect("grinding_contact = { wheel_radius_mm = 0 }"), 13, "scene.effects.grinding_contact.wheel_radius_mm",
+     ("above 0 mm",)),
+    (RACE, effect("run_up = { time_s = 400, run_down_s = 301 }"), 9, "scene.duration_s", ("at least 701 s",)),
+    (ANGLES, ANGLES + "\ncorrector = 'rollers'", 17, "scene.race[0].corrector", ('nearest is "roller"',)),
+    (ANGLES, ANGLES + "\nball_radius_mm = 1000", 17, "scene.race[0].ball_radius_mm", ("larger than their race",)),
+    (ANGLES, ANGLES + "\nball_radius_mm = 0", 17, "scene.race[0].ball_radius_mm", ("above 0 mm",)),
+    (ANGLES, ANGLES + "\nball_radius_mm = 7\n[scene.effects]\nball_contact = { ball_radius_mm = 8 }", 17,
+     "scene.race[0].ball_radius_mm", ("one radius", "8 mm in ball_contact")),
+    (RACE, "[scene.body]\nmass_kg = 0.5\n" + RACE, 12, "scene.body.stiffness_N_per_m", ("missing",)),
+    (RACE, "[scene.body]\nmass_kg = 0\nstiffness_N_per_m = [1, 1]\ndamping_N_s_per_m = [0, 0]\n" + RACE, 13,
+     "scene.body.mass_kg", ("above 0 kg",)),
+    (ANGLES, "start_angles_deg = [0, 180]\n[scene.effects]\nball_contact = { ball_radius_mm = 999.9999999999999 }",
+     14, "scene.race[0].ball_masses_g", ("fill their race", "at most 1")),
 ]  # fmt: skip
 
 TILTING_CASES: list[tuple[str, str, str, tuple[str, ...]]] = [
@@ -141,6 +156,35 @@ def test_other_supports_keep_to_their_own_keys(tmp_path: Path) -> None:
     assert read(tmp_path, ARM.replace("wheel_radius_mm = 115.0\ncutting = true", "")).scene.swing_arm is not None
 
 
+BODY = "[scene.body]\nmass_kg = 0.5\nstiffness_N_per_m = [1, 1]\ndamping_N_s_per_m = [0, 0]\n"
+
+FOREIGN: list[tuple[str, str, str, str, str]] = [
+    (TILTING, "[scene.tilting]", BODY + "[scene.tilting]", "body", "takes no body"),
+    (ARM, "[scene.swing_arm]", BODY + "[scene.swing_arm]", "body", "takes no body"),
+    (ARM, "duration_s = 12", "duration_s = 12\ninitial = { vx_mm_per_s = 1 }", "initial.vx_mm_per_s", "at rest"),
+    (ARM, "[scene.swing_arm]", "[scene.effects.grinding_contact]\n[scene.swing_arm]", "effects.grinding_contact",
+     "contact with the work"),
+    (ARM, "[scene.swing_arm]", "[scene.effects.motor]\nrotor_inertia_kg_m2 = 0.45\n[scene.swing_arm]",
+     "effects.motor.rotor_inertia_kg_m2", "more inertia than the arm"),
+    (ARM, "pitch_radius_mm = 30", "pitch_radius_mm = 30\nplane_offset_mm = 1", "race[0].plane_offset_mm", "no places"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "old", "new", "key", "words"), FOREIGN, ids=[case[3] for case in FOREIGN])
+def test_a_support_refuses_what_belongs_to_another(
+    tmp_path: Path, text: str, old: str, new: str, key: str, words: str
+) -> None:
+    assert text.count(old) == 1
+    error = refused(tmp_path, text.replace(old, new))
+    assert error.place.key == f"scene.{key}" and words in str(error)
+
+
+def test_a_wheel_of_a_tilting_rotor_has_a_place(tmp_path: Path) -> None:
+    contact = "[scene.effects]\ngrinding_contact = { plane_offset_mm = 60, contact = 'rigid' }\n[scene.tilting]"
+    read_in = read(tmp_path, TILTING.replace("[scene.tilting]", contact)).scene.effects.grinding_contact
+    assert read_in is not None and (read_in.plane_offset_mm, read_in.wheel_radius_mm) == (60, None)
+
+
 def test_balls_that_touch_or_have_no_size_are_read(tmp_path: Path) -> None:
     """Two balls of radius 707.1 mm on a pitch radius of 1 m span 90° each: at ±45° they touch."""
     near = SCENE.replace("[90.0, -90.0]", "[45.0, -45.0]")
@@ -157,7 +201,8 @@ def test_every_table_and_key_is_known_and_read(tmp_path: Path) -> None:
     seen = set(re.findall(r"^ *(\w+) =", PLANAR + TILTING + ARM, re.MULTILINE))
     seen |= set(re.findall(r"[{,] (\w+) =", PLANAR + TILTING + ARM))
     keys = {key for _, table in all_tables(SceneFile) for key in table.model_fields}
-    assert keys - seen - {"race", "tilting", "swing_arm", "effects", "grinding_contact"} == {"run_down_s"}
+    tables = {"race", "body", "tilting", "swing_arm", "effects", "grinding_contact"}
+    assert keys - seen - tables == {"run_down_s"}
     assert read(tmp_path, PLANAR).scene.effects.names == tuple(Effects.model_fields)
     assert len(read(tmp_path, TILTING).scene.race) == 2
     assert read(tmp_path, ARM).scene.mass_kg is None

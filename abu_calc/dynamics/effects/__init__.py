@@ -1,1 +1,1 @@
-"""One file per effect: its equation and source, its force beside its energy or power, and what it weighs."""
+"""Effects: what acts in a scene beside its support, its races and the imbalance. One effect, one file."""

@@ -1,34 +1,44 @@
-"""Integration by SciPy's DOP853 (Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.5)."""
+"""Integration by SciPy: DOP853 (Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.5), and
+Radau IIA of order 5 where the equations are stiff (Hairer & Wanner 1996, the second volume, IV.8).
+"""
 
 import importlib
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.equations import Equations
+from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, Array, Run, lost
+from abu_calc.dynamics.jacobian import jacobian
+from abu_calc.dynamics.modes import Modes, starting, watched, watches
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.validity import Range
+from abu_calc.errors import NotTrustworthyError
 
 if TYPE_CHECKING:
-    from scipy.integrate import DOP853
+    from scipy.integrate import OdeSolver
 
-NAME = "scipy-dop853"
+Method = Literal["scipy-dop853", "scipy-rk45", "scipy-lsoda", "scipy-radau", "scipy-bdf"]
 
-TOLERANCE = Range("tolerance", 1e-13, 0.1)
-"""Below, rounding decides; above, the method's own estimate of its error means nothing."""
+KINDS = {
+    "scipy-dop853": "DOP853",
+    "scipy-rk45": "RK45",
+    "scipy-lsoda": "LSODA",
+    "scipy-radau": "Radau",
+    "scipy-bdf": "BDF",
+}
 
 LOOSE, ORDER = 1e-3, 8
 """Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
 tolerance alike, they would agree without being right."""
 
-STIFF = 300.0
-"""Largest |eigenvalue| × time of a linear system that an explicit method still takes cheaply."""
+STIFF = 100.0
+"""Decay per radian of the fastest oscillation beyond which an explicit method spends its steps on what has died out."""
 
-MOST_EVALUATIONS = 12_000_000
-"""Some minutes of work; a scene that needs more is stiff or too long for this method."""
+CHECKS = (0.25, 0.5, 0.75, 1.0)
+"""Places in a step at which events are looked for."""
 
 
 def load() -> None:
@@ -36,65 +46,186 @@ def load() -> None:
     importlib.import_module("scipy.integrate")
 
 
+def is_stiff(equations: Equations) -> bool:
+    """Whether the spectrum at the start calls for an implicit method."""
+    state, modes = starting(equations)
+    values = np.linalg.eigvals(jacobian(equations, 0.0, state, modes))
+    fastest = max(float(np.abs(values.imag).max()), equations.scene.speed)
+    return bool(-values.real.min() > STIFF * fastest)
+
+
 def integrate(
     equations: Equations,
     tolerance: float,
-    sample_times: Sequence[float] | NDArray[np.float64],
+    sample_times: Sequence[float] | Array,
     most_evaluations: int = MOST_EVALUATIONS,
+    method: Method = "scipy-dop853",
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending.
 
-    The error of a step is held below tolerance × (scale of the state, plus its size where `relative`). Raises
-    InputError for moments that do not ascend from 0, RangeError for the tolerance, and NotTrustworthyError, naming the
-    moment, when the motion leaves the finite numbers or the steps become too small or too many.
+    The error of a step is held below tolerance × (scale of the state, plus its size where `relative`). Events are
+    located on the dense output. Raises InputError for moments that do not ascend from 0, RangeError for the tolerance,
+    and NotTrustworthyError, naming the moment, when the motion leaves the finite numbers, stalls in events, or the
+    steps become too small or too many.
     """
-    from scipy.integrate import DOP853
+    return _Run(equations, tolerance, sample_times, most_evaluations, method=method).trajectory()
 
-    TOLERANCE.check(tolerance)
-    samples = np.asarray(sample_times, dtype=float)
-    if not (len(samples) and samples[0] >= 0 and 0 < samples[-1] < np.inf and np.all(np.diff(samples) > 0)):
-        raise InputError("sample times must be finite and ascend from 0 or later")
-    # SciPy accepts nothing below 100 units of rounding. It takes an array, though its type stubs know numbers only.
-    relative: Any = np.where(equations.relative, tolerance, 100 * np.finfo(float).eps)
-    absolute: Any = tolerance * np.array(equations.scales)
-    longest = equations.longest_step * min(1.0, (tolerance / LOOSE) ** (1 / ORDER))
-    # Overflow and invalid numbers are looked for after each step, where the moment can be told.
-    with np.errstate(all="ignore"):
-        solver = DOP853(
-            lambda t, y: equations.rhs(np, t, y, equations.parameters),
-            0.0,
-            np.array(equations.initial, dtype=float),
-            samples[-1],
+
+@dataclass
+class _Run(Run):
+    """One integration by a solver of SciPy's."""
+
+    method: Method = "scipy-dop853"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.longest = self.equations.longest_step * min(1.0, (self.tolerance / LOOSE) ** (1 / ORDER))
+        self.step = self.longest / 100
+
+    @property
+    def name(self) -> str:
+        """The method."""
+        return self.method
+
+    def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
+        """Step by step; events are looked for within each."""
+        solver = self._solver(t, state, modes, bound)
+        watcher = _Watcher(self.equations, modes, t, state) if watches(self.equations) else None
+        spent = self.evaluations
+        while solver.status == "running":
+            self.evaluations = spent + solver.nfev
+            if self.evaluations > self.most_evaluations:
+                raise lost(solver.t, f"more work than allowed, {self.evaluations} evaluations")
+            message = solver.step()
+            if message is not None or not np.isfinite(solver.y).all():
+                raise lost(solver.t, message or "a state is no longer finite")
+            self.steps, self.step = self.steps + 1, solver.step_size or self.step
+            # Interpolation costs a quarter of a step, so only where it is asked for.
+            asked = watcher is not None or self.samples[self.done] <= solver.t
+            dense = solver.dense_output() if asked else None
+            event = watcher.event(dense, solver.t_old, solver.t) if watcher else None
+            self.evaluations = spent + solver.nfev + (watcher.evaluations if watcher else 0)
+            if dense is not None:
+                last = int(np.searchsorted(self.samples, solver.t if event is None else event, side="right"))
+                if last > self.done:
+                    self.fill(dense(self.samples[self.done : last]))
+            if event is not None:
+                if event == t:  # what was just switched shows in a short step, before the error of a long one hides it
+                    self.step = (solver.t - t) / 10
+                return event, dense(event), True  # type: ignore[misc]
+        return bound, solver.y, False
+
+    def _solver(self, t: float, state: Array, modes: Modes, bound: float) -> "OdeSolver":
+        import scipy.integrate
+
+        equations, parameters = self.equations, self.equations.in_mode(modes)
+        # SciPy accepts nothing below 100 units of rounding. It takes an array, though its type stubs know numbers only.
+        relative: Any = np.where(equations.relative, self.tolerance, 100 * np.finfo(float).eps)
+        absolute: Any = self.tolerance * np.array(equations.scales)
+        implicit: Any = {}
+        if self.method in ("scipy-radau", "scipy-bdf", "scipy-lsoda"):
+            implicit = {"jac": lambda t, y: jacobian(equations, t, y, modes)}
+        if self.method in ("scipy-radau", "scipy-bdf"):  # their Newton iteration takes one number only
+            relative = max(self.tolerance, 1e-12)
+        kind = getattr(scipy.integrate, KINDS[self.method])
+        solver: OdeSolver = kind(
+            lambda t, y: equations.rhs(np, t, y, parameters),
+            t,
+            state,
+            bound,
             rtol=relative,
             atol=absolute,
-            max_step=longest,
+            max_step=self.longest,
             # SciPy's own guess depends on the unit of time (1e-6 of it for motion from rest).
-            first_step=min(longest / 100, samples[-1]),
+            first_step=min(self.step, self.longest, bound - t),
+            **implicit,
         )
-        states, steps = _march(solver, samples, most_evaluations)
-    return Trajectory(
-        t=samples,
-        y=states,
-        integrator=NAME,
-        tolerance=tolerance,
-        evaluations=solver.nfev,
-        steps=steps,
-        status="finished",
-        message=f"reached the end at {samples[-1]:g} s",
-    )
+        return solver
 
 
-def transition(matrix: Callable[[float], NDArray[np.float64]], end: float) -> NDArray[np.float64]:
+@dataclass
+class _Watcher:
+    """Looks for the first moment at which one of the watched numbers falls below zero."""
+
+    equations: Equations
+    modes: Modes
+    t: float
+    state: Array
+    evaluations: int = 0
+
+    def __post_init__(self) -> None:
+        self.parameters = self.equations.in_mode(self.modes)
+        # A number that starts at zero has just been switched: it counts once it has risen.
+        self.before = self._values(self.t, self.state)
+        self.since = self.t
+
+    def _values(self, t: float, y: Array) -> Array:
+        self.evaluations += 1
+        return np.array(watched(self.equations, t, y, self.parameters), dtype=float)
+
+    def event(self, dense: Any, start: float, end: float) -> float | None:
+        """The first event between two moments, None when there is none."""
+        times, rows = [self.since], [self.before]
+        for part in CHECKS:
+            t = start + part * (end - start) if part < 1 else end
+            values = self._values(t, dense(t))
+            times.append(t)
+            rows.append(values)
+            found = self._dips(dense, times[-3:], rows[-3:])
+            if len(fallen := np.flatnonzero(values < 0)):
+                found.append(self._first(fallen, dense, t))
+            if found:
+                return min(found)
+            self.before, self.since = values, t
+        return None
+
+    def _dips(self, dense: Any, times: list[float], rows: list[Array]) -> list[float]:
+        """Events of numbers that fall below zero and rise again within three checks, by a parabola through them."""
+        if len(times) < 3:
+            return []
+        (a, b, c), (first, second, third) = times, rows
+        slope, later = (second - first) / (b - a), (third - second) / (c - b)
+        bend = (later - slope) / (c - a)
+        lowest = (a + b) / 2 - slope / (2 * np.where(bend > 0, bend, 1.0))
+        depth = first + (lowest - a) * (slope + bend * (lowest - b))
+        dips = (bend > 0) & (lowest > a) & (lowest < c) & (depth < 0) & (first > 0) & (second > 0) & (third > 0)
+        found = []
+        for index in np.flatnonzero(dips):
+            t = float(lowest[index])
+            if self._values(t, dense(t))[index] < 0:
+                found.append(self._crossing(int(index), dense, a if t < b else b, t))
+        return found
+
+    def _first(self, fallen: NDArray[np.intp], dense: Any, t: float) -> float:
+        """The first of the events that lie behind at t; each is looked for before the one found last."""
+        while len(fallen):
+            t = self._located(int(fallen[0]), dense, t)
+            fallen = fallen[1:][self._values(t, dense(t))[fallen[1:]] < 0]
+        return t
+
+    def _located(self, index: int, dense: Any, t: float) -> float:
+        if self.before[index] <= 0:  # it never rose: the event is the very start
+            return self.since
+        return self._crossing(index, dense, self.since, t)
+
+    def _crossing(self, index: int, dense: Any, above: float, below: float) -> float:
+        from scipy.optimize import brentq
+
+        xtol = 1e-15 * max(abs(below), 1e-300)
+        return float(brentq(lambda s: self._values(s, dense(s))[index], above, below, xtol=xtol, rtol=1e-14))
+
+
+def transition(matrix: Callable[[float], Array], end: float) -> Array:
     """The map z(0) → z(end) of z' = A(t) z, errors below 1e-9 of what has grown; A(t) a small real matrix.
 
-    DOP853, or Radau where A would force more than some hundred steps on it (Hairer & Wanner 1996, IV.8). Raises
-    NotTrustworthyError when the integration fails.
+    DOP853, or Radau where A would force more than some hundred steps on it. Raises NotTrustworthyError when the
+    integration fails.
     """
     from scipy.integrate import solve_ivp
 
     start = matrix(0.0)
     unit = np.eye(len(start))
-    stiff = float(np.abs(np.linalg.eigvals(start)).max()) * end > STIFF
+    stiff = float(np.abs(np.linalg.eigvals(start)).max()) * end > 3 * STIFF
     # Of the columns of the map side by side, the Jacobian is A for each.
     implicit: Any = {"method": "Radau", "jac": lambda t, z: np.kron(matrix(t), unit)} if stiff else {"method": "DOP853"}
     try:
@@ -118,31 +249,4 @@ def _not_integrated(reason: str) -> NotTrustworthyError:
     return NotTrustworthyError(
         f"the linear motion cannot be integrated: {reason}\n"
         "  ask for a speed nearer to the natural frequencies, or for less drag"
-    )
-
-
-def _march(solver: "DOP853", samples: NDArray[np.float64], most_evaluations: int) -> tuple[NDArray[np.float64], int]:
-    """The states at the samples, and the steps it took to get past them."""
-    states = np.empty((len(solver.y), len(samples)))
-    done = int(samples[0] == 0)
-    states[:, :done] = solver.y[:, None]
-    steps = 0
-    while solver.status == "running":
-        if solver.nfev > most_evaluations:
-            raise _lost(solver, f"more work than allowed, {solver.nfev} evaluations")
-        message = solver.step()
-        if message is not None or not np.isfinite(solver.y).all():
-            raise _lost(solver, message or "a state is no longer finite")
-        steps += 1
-        upto = int(np.searchsorted(samples, solver.t, side="right"))
-        if upto > done:  # interpolation costs a quarter of a step, so only where it is asked for
-            states[:, done:upto] = solver.dense_output()(samples[done:upto])
-            done = upto
-    return states, steps
-
-
-def _lost(solver: "DOP853", reason: str) -> NotTrustworthyError:
-    return NotTrustworthyError(
-        f"integration lost at t = {solver.t:.6g} s: {reason.rstrip('.')}\n"
-        "  shorten the run, or look for a drag, stiffness or speed that is far from any real machine"
     )

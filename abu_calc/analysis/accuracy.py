@@ -1,0 +1,210 @@
+"""What accuracy costs in time: every rung of the ladder, integrator and tolerance, against a reference that is verified."""
+
+import math
+import statistics
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Final
+
+from abu_calc.analysis.differences import QUANTITIES, Told
+from abu_calc.analysis.ledger import Ledger
+from abu_calc.analysis.response import Response, evaluate, needed_moments
+from abu_calc.analysis.rungs import Estimate, averaged, closed_form
+from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.envelope import AVERAGED
+from abu_calc.dynamics.integrators import choice
+from abu_calc.dynamics.scene import Scene, only, with_parted_balls
+from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.errors import AbuError, InputError, NotTrustworthyError
+
+TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
+ENVELOPE_TOLERANCES: Final = (1e-2, 1e-4, 1e-6)
+TRIAL, ORDER = 1e-3, 8
+"""Tolerance of a first, loose run, and the order by which tighter ones take longer."""
+
+QUICK: Final = ("heyoka", "scipy-dop853")
+"""Integrators that are measured first."""
+MOST_EVALUATIONS: Final = 2_000_000
+"""Of one run; a method that needs more has no number."""
+
+REPEATS: Final = 3
+LONG: Final = 0.5
+"""Seconds above which one repeat has to do."""
+
+@dataclass(frozen=True)
+class Point:
+    """One computation: error against the reference, evaluations, and time of the integration alone.
+
+    `wall_s` is the median of repeats when everything is loaded, `cold_s` the first run with import and compilation.
+    `error` None: the method gave no number, `note` says why.
+    """
+
+    rung: str
+    integrator: str | None
+    tolerance: float | None
+    error: float | None
+    evaluations: int
+    steps: int
+    wall_s: float | None
+    cold_s: float | None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The full scene, integrated by two methods; `disagreement` is how far they are apart, and errors are no surer."""
+
+    integrators: tuple[str, str]
+    tolerances: tuple[float, float]
+    disagreement: float
+    response: Response
+    wall_s: float
+
+
+@dataclass(frozen=True)
+class Study:
+    """The price list of a scene; `chosen` is the cheapest point whose error is below the accuracy, if there is one."""
+
+    quantity: str
+    accuracy: float
+    reference: Reference
+    points: tuple[Point, ...]
+    chosen: Point | None
+    skipped: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to compute, named: `run` is what is timed, `tell` reads what it says, evaluations and steps."""
+
+    rung: str
+    integrator: str | None
+    tolerance: float | None
+    run: Callable[[], Any]
+    tell: Callable[[Any], tuple[Told, int, int]]
+
+    @property
+    def name(self) -> str:
+        """Rung, integrator and tolerance in words."""
+        parts = (self.rung, self.integrator, None if self.tolerance is None else f"{self.tolerance:g}")
+        return " ".join(part for part in parts if part)
+
+
+def study(
+    full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: float, progress: Callable[[str], None]
+) -> Study:
+    """Measure within `budget` seconds; what no longer fits is skipped, and named.
+
+    Raises NotTrustworthyError when two methods do not agree on the reference better than the accuracy, and InputError
+    for a quantity nobody knows.
+    """
+    if quantity not in QUANTITIES:
+        raise InputError("not one of the known quantities", found=quantity, allowed=", ".join(QUANTITIES))
+    end = time.perf_counter() + budget
+    full, _ = with_parted_balls(full)
+    progress("reference")
+    reference = _reference(full, quantity, accuracy, budget)
+    points: list[Point] = []
+    skipped: list[str] = []
+    longest: dict[tuple[str, str | None], float] = {}
+    for method in methods(full, with_parted_balls(ledger.scene)[0]):
+        kind, name = (method.rung, method.integrator), method.name
+        # A tighter tolerance takes longer than the one before.
+        if time.perf_counter() + longest.get(kind, 0.0) > end:
+            skipped.append(name)
+            continue
+        progress(name)
+        points.append(_point(full, method, reference, quantity, end))
+        longest[kind] = points[-1].cold_s or 0.0
+    return Study(quantity, accuracy, reference, tuple(points), cheapest(points, accuracy, reference), tuple(skipped))
+
+
+def cheapest(points: list[Point], accuracy: float, reference: Reference) -> Point | None:
+    """The quickest point whose error, with what the reference is unsure of, is below the accuracy."""
+    sure = [
+        point for point in points
+        if point.error is not None and point.wall_s is not None and point.error + reference.disagreement <= accuracy
+    ]  # fmt: skip
+    return min(sure, key=lambda point: point.wall_s or 0.0, default=None)
+
+
+def methods(full: Scene, scene: Scene) -> Iterator[Method]:
+    """All ways to compute, cheap ones first; closed forms and envelope leave out what they cannot average."""
+    smooth = only(scene, [effect.name for effect in scene.effects if effect.name in AVERAGED])
+    yield Method("closed-form", None, None, lambda: closed_form(smooth), _told)
+    for tolerance in ENVELOPE_TOLERANCES:
+        yield Method("envelope", "scipy-dop853", tolerance, partial(averaged, smooth, tolerance), _told)
+    quick: list[str] = [name for name in QUICK if name in choice.available(assemble(scene))]
+    for name in quick:
+        for tolerance in TOLERANCES:
+            yield _integration("equations", scene, name, tolerance)
+    if full.effects != scene.effects:
+        for name in (name for name in quick if name in choice.available(assemble(full))):
+            for tolerance in TOLERANCES[1:5:2]:
+                yield _integration("everything", full, name, tolerance)
+    for name in (name for name in choice.available(assemble(scene)) if name not in QUICK):
+        for tolerance in TOLERANCES:
+            yield _integration("equations", scene, name, tolerance)
+
+
+def _told(estimate: Estimate) -> tuple[Told, int, int]:
+    return estimate, estimate.evaluations, estimate.steps
+
+
+def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method:
+    equations, moments = assemble(scene), needed_moments(scene)
+
+    def tell(trajectory: Trajectory) -> tuple[Told, int, int]:
+        return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
+
+    return Method(rung, name, tolerance, lambda: choice.integrate_with(name, equations, tolerance, moments, MOST_EVALUATIONS),
+                  tell)  # fmt: skip
+
+
+def _point(full: Scene, method: Method, reference: Reference, quantity: str, end: float) -> Point:
+    """One method, run once cold and then warm as long as there is time."""
+    started = time.perf_counter()
+    try:
+        run = method.run()
+    except AbuError as failure:
+        note = str(failure).splitlines()[0]
+        return Point(method.rung, method.integrator, method.tolerance, None, 0, 0, None, None, note)
+    cold = time.perf_counter() - started
+    warm = []
+    for _ in range(REPEATS if cold < LONG else 1):
+        if time.perf_counter() + cold > end:
+            break
+        started = time.perf_counter()
+        method.run()
+        warm.append(time.perf_counter() - started)
+    told, evaluations, steps = method.tell(run)
+    error = QUANTITIES[quantity](full, told, reference.response)
+    return Point(method.rung, method.integrator, method.tolerance, error if math.isfinite(error) else None, evaluations,
+                 steps, statistics.median(warm) if warm else cold, cold, "" if math.isfinite(error) else "not settled alike")  # fmt: skip
+
+
+def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
+    """Two methods at tight tolerances; they must agree better than half the accuracy.
+
+    A loose run first tells how long they will take.
+    """
+    equations, moments, started = assemble(full), needed_moments(full), time.perf_counter()
+    (one, loose), (other, tight) = choice.verifiers(equations, accuracy)
+    trial = choice.integrate_with(one, equations, TRIAL, moments, MOST_EVALUATIONS)
+    expected = (time.perf_counter() - started) * (1 + (TRIAL / loose) ** (1 / ORDER))
+    if expected > budget:
+        raise NotTrustworthyError(
+            f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"
+            f"  give more time (--budget {2 * expected:.0f}), or shorten the run (--duration)"
+        )
+    first = evaluate(full, choice.integrate_with(one, equations, loose, moments, MOST_EVALUATIONS))
+    second = evaluate(full, choice.integrate_with(other, equations, tight, moments, MOST_EVALUATIONS))
+    apart = QUANTITIES[quantity](full, first, second)
+    if not apart <= accuracy / 2:
+        raise NotTrustworthyError(
+            f"{full.name}: no reference: {one} and {other} differ by {apart:.2g} in the {quantity}\n"
+            "  ask for less accuracy, or shorten the run: a chaotic motion has no reference"
+        )
+    return Reference((one, other), (loose, tight), apart, second, time.perf_counter() - started)

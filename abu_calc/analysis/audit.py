@@ -1,0 +1,35 @@
+"""An audit: the same scene once more with every effect in, and what that really changed."""
+
+from dataclasses import dataclass
+
+from abu_calc.analysis.differences import difference
+from abu_calc.analysis.ledger import Ledger
+from abu_calc.analysis.simulate import Simulation, simulate
+from abu_calc.dynamics.scene import Scene
+
+
+@dataclass(frozen=True)
+class Audit:
+    """The true difference, counted as accuracy counts errors, beside what the weights of the effects left out promised."""
+
+    difference: float
+    promise: float
+    effects: tuple[str, ...]
+    """Those taken in for the audit."""
+    evaluations: int
+    wall_s: float
+
+
+def audit(full: Scene, ledger: Ledger, run: Simulation, accuracy: float, integrator: str = "auto") -> Audit:
+    """Simulate the scene with all its effects to the same accuracy. Raises NotTrustworthyError as `simulate` does."""
+    added = tuple(entry.name for entry in ledger.entries if not entry.included)
+    if not added:
+        return Audit(0.0, 0.0, (), 0, 0.0)
+    whole = simulate(full, accuracy, integrator=integrator)
+    return Audit(
+        difference=difference(run.scene, run.response, whole.response),
+        promise=ledger.promise,
+        effects=added,
+        evaluations=whole.cost.evaluations,
+        wall_s=whole.cost.wall_s,
+    )

@@ -1,0 +1,78 @@
+"""Which effects of a scene are simulated: those whose absence would be seen at the accuracy asked for."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+from abu_calc.dynamics.effects.effect import Weight
+from abu_calc.dynamics.scene import Scene
+
+SHARE: Final = 0.5
+"""Of the accuracy; what all effects left out may weigh together. The rest is for the errors of integration."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One effect: whether it is in, what leaving it out changes, counted as accuracy counts errors, and why so."""
+
+    name: str
+    included: bool
+    weight: float | None
+    why: str
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """The scene to simulate, and what stands for each effect there is data for; `promise`: weight of what is out."""
+
+    scene: Scene
+    entries: tuple[Entry, ...]
+
+    @property
+    def promise(self) -> float:
+        """What the effects left out should change at most, where that is known."""
+        return sum((entry.weight or 0.0) for entry in self.entries if not entry.included)
+
+
+def chosen(
+    full: Scene,
+    accuracy: float,
+    wanted: Sequence[str] = (),
+    unwanted: Sequence[str] = (),
+    why_unwanted: str = "left out by request",
+) -> Ledger:
+    """The scene with the effects it calls for, out of one that has all there is data for.
+
+    The lightest are left out as long as they weigh no more together than half the accuracy; an effect of unknown weight
+    is in. `wanted` and `unwanted` are asked for by name.
+    """
+    weights = {effect.name: effect.weight(full) for effect in full.effects}
+    out = _light(weights, accuracy)
+    entries = tuple(
+        Entry(name, name in wanted or (name not in out and name not in unwanted), weight.value,
+              f"asked for; {weight.why}" if name in wanted
+              else f"{why_unwanted}; {weight.why}" if name in unwanted
+              else _why(weight, name in out))
+        for name, weight in weights.items()
+    )  # fmt: skip
+    kept = {entry.name for entry in entries if entry.included}
+    scene = replace(full, effects=tuple(effect for effect in full.effects if effect.name in kept))
+    return Ledger(scene, entries)
+
+
+def _light(weights: dict[str, Weight], accuracy: float) -> frozenset[str]:
+    """The lightest effects that weigh no more together than their share of the accuracy."""
+    known = [(weight.value, name) for name, weight in weights.items() if weight.value is not None]
+    out, total = set(), 0.0
+    for value, name in sorted(known):
+        total += value
+        if total > SHARE * accuracy:
+            break
+        out.add(name)
+    return frozenset(out)
+
+
+def _why(weight: Weight, light: bool) -> str:
+    if weight.value is None:
+        return f"not estimated, so in; {weight.why}"
+    return f"{'below' if light else 'above'} what the accuracy lets pass; {weight.why}"

@@ -1,0 +1,54 @@
+"""The scenes a machine file calls for, simulated with the effects they call for."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from abu_calc.analysis.idle import WORK
+from abu_calc.analysis.ledger import Ledger, chosen
+from abu_calc.analysis.simulate import Simulation, simulate
+from abu_calc.dynamics.from_design import scene_of_design
+from abu_calc.errors import NotTrustworthyError
+from abu_calc.sizing.design import Design
+
+FRICTION: Final = ("dry_rolling_friction",)
+SWITCHING: Final = (*FRICTION, "ball_contact")
+"""Effects that may switch several times in each turn: friction stands in the accuracy budget, and scenes other than the
+idle one are information."""
+
+LEFT_OUT: Final = "left out by abu size, since it takes long; abu simulate takes it in"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One scene that was simulated, and which of its effects were."""
+
+    ledger: Ledger
+    simulation: Simulation
+
+
+@dataclass(frozen=True)
+class Failure:
+    """One scene that gave no number to be trusted, and why."""
+
+    scene: str
+    reason: str
+
+
+def scenes_of(design: Design) -> tuple[str, ...]:
+    """Names of the scenes the file calls for, the idle one first."""
+    table = design.case.table
+    grinding = ("grinding",) if table.grinding else ()
+    return ("idle", *grinding, *(("swing-arm-idle", "swing-arm-cutting") if table.swing_arm else ()))
+
+
+def simulated(design: Design, accuracy: float) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:
+    """All of them, each within the work that `abu size` may take."""
+    runs, failures = [], []
+    for name in scenes_of(design):
+        unwanted = FRICTION if name == "idle" else SWITCHING
+        try:
+            ledger = chosen(scene_of_design(design, name), accuracy, unwanted=unwanted, why_unwanted=LEFT_OUT)
+            runs.append(Run(ledger, simulate(ledger.scene, accuracy, most_evaluations=WORK)))
+        except NotTrustworthyError as error:
+            failures.append(Failure(name, str(error).splitlines()[0]))
+    return tuple(runs), tuple(failures)

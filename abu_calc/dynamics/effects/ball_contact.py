@@ -1,0 +1,224 @@
+"""Balls of one race cannot pass each other: they meet, press and part.
+
+    gap between neighbours ≥ 2β,    sin β = r/R_p
+
+An impact leaves −e times the speed of approach; it acts on all balls and the support by the full mass matrix. Pairs
+that touch with equal speeds press with λ ≥ 0 and move together, or part. With dry friction, which of them press and
+which of them stick is one problem. An impact knows no friction. Source: Newton's impact law, pair by pair; for the rest
+Glocker 2001, Set-Valued Force Laws.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from abu_calc.dynamics.effects.dry_rolling_friction import AT_REST
+from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.touching import Responses, impacts, pressing, responses
+from abu_calc.errors import InputError
+from abu_calc.validity import Range
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.modes import Moment
+
+TOUCHING = 1e-9
+"""Gaps [rad] up to this are closed: events are located no better."""
+
+GRAZING, LIFT = 1e-6, 1e-6
+"""A rebound slower than the first, relative to the slow motion of the balls, or that would part the two by less than
+the second [rad] before they are pressed together again, is none: else they would bounce without end."""
+
+MARGIN = 1e-11
+"""A pair parts when it would have to be pulled together by this much of m R_p Ω², so that it parts with certainty."""
+
+
+@dataclass(frozen=True, eq=False)
+class Neighbours:
+    """Gaps between neighbours, race by race, and which of them are closed for good.
+
+    Gap i: θ[ahead] − θ[behind] + turns; it may not fall below `least`. `joined`: 1 where the two move together.
+    `rear`, `front` (gaps × balls): 1 for the balls of a joined gap's chain behind and ahead of it. `mates`: see Loads.
+    """
+
+    behind: tuple[int, ...]
+    ahead: tuple[int, ...]
+    turns: Array
+    touching: Array
+    least: Array
+    joined: Array
+    rear: Array
+    front: Array
+    mates: Array | None
+
+    def gaps(self, theta: Array) -> Array:
+        """All gaps [rad]."""
+        gaps: Array = theta[list(self.ahead)] - theta[list(self.behind)] + self.turns
+        return gaps
+
+    def joining(self, joined: Array, theta: Array) -> "Neighbours":
+        """The same balls with other gaps joined, at these angles."""
+        balls, pairs = len(theta), len(joined)
+        rear, front, mates = np.zeros((pairs, balls)), np.zeros((pairs, balls)), np.eye(balls)
+        after = {self.behind[i]: self.ahead[i] for i in np.flatnonzero(joined)}
+        before = {ahead: behind for behind, ahead in after.items()}
+        for i in np.flatnonzero(joined):
+            rear[i, _chain(self.behind[i], before)] = front[i, _chain(self.ahead[i], after)] = 1.0
+            members = np.flatnonzero(rear[i] + front[i])
+            mates[np.ix_(members, members)] = 1.0
+        least = np.minimum(self.touching, self.gaps(theta) - _rounding(theta))
+        return replace(self, joined=joined, least=least, rear=rear, front=front, mates=mates if joined.any() else None)
+
+
+def _rounding(theta: Array) -> float:
+    """What a gap that opens may lack of 2β [rad]."""
+    return float(1e-13 + 8 * np.spacing(np.abs(theta).max()))
+
+
+def _chain(start: int, following: dict[int, int]) -> list[int]:
+    """A ball and those that follow."""
+    found = [start]
+    while found[-1] in following:
+        found.append(following[found[-1]])
+    return found
+
+
+@dataclass(frozen=True)
+class BallContact(Effect):
+    """`ball_radius` r [m], `restitution` e, 0 … 1. Mode: `Neighbours`; None where no race has two balls."""
+
+    ball_radius: float
+    restitution: float
+
+    name: ClassVar[str] = "ball_contact"
+    kind: ClassVar[Kind] = "dissipative"
+    switches: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        Range("ball radius", 0, math.inf, "m", open_low=True).check(self.ball_radius)
+        Range("restitution", 0, 1).check(self.restitution)
+
+    def first_mode(self, scene: Scene) -> Any:
+        """The neighbours at the start, none joined. Raises InputError where balls overlap or fill their race."""
+        behind: list[int] = []
+        ahead: list[int] = []
+        turns: list[float] = []
+        spans: list[float] = []
+        first = 0
+        for race in scene.races:
+            order, more = _order(race), _turns(race)
+            if len(order) > 1:
+                span = self._span(race)
+                behind += [first + k for k in order]
+                ahead += [first + k for k in (*order[1:], order[0])]
+                turns += more
+                spans += [span] * len(order)
+            first += len(race.ball_masses)
+        if not behind:
+            return None
+        least, theta = np.array(spans), np.array(scene.start_angles)
+        none = np.zeros(len(least))
+        rows = np.zeros((len(least), first))
+        found = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, rows, rows, None)
+        _check_apart(found, theta)
+        return found.joining(none, theta)
+
+    def _span(self, race: Race) -> float:
+        """2β [rad]. Raises InputError where the balls do not fit."""
+        balls = len(race.ball_masses)
+        half = math.asin(self.ball_radius / race.pitch_radius) if self.ball_radius < race.pitch_radius else math.pi
+        if 2 * half * balls > 2 * math.pi - 1e-6:
+            raise InputError(
+                "the balls fill their race and cannot move against each other",
+                found=f"{balls} balls of {self.ball_radius:g} m on a pitch radius of {race.pitch_radius:g} m",
+                allowed=f"at most {int((math.pi - 1e-6) / half)} balls",
+                remedy="fewer or smaller balls; or leave ball_contact out",
+            )
+        return 2 * half
+
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """Joined balls move together."""
+        if mode is not None and mode.mates is not None:
+            loads.mates = mode.mates
+
+    def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
+        """Gaps that are open: gap − 2β. Joined: what the chain behind pushes with, and what the chain ahead resists.
+
+        Balls that move press by what their own inertia leaves over. Where they stick, friction takes up to f n of each,
+        and what holds is every distribution of forces that pulls nobody.
+        """
+        if mode is None:
+            return []
+        gaps, joined = mode.gaps(m.theta) - mode.least, mode.joined
+        if mode.mates is None:
+            return [*gaps]
+        left = p.masses * solved.left
+        held = 0.0 * left if loads.hold is None else loads.hold * p.masses * solved.normal * (1 - loads.free)
+        unit = MARGIN * p.moments.mean() * p.speed**2
+        push, resist = mode.rear.dot(left + held) / unit + 1, mode.front.dot(held - left) / unit + 1
+        return [*(joined * push + (1 - joined) * gaps), *(joined * resist + (1 - joined))]
+
+    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+        """Impacts of what meets; then which of the touching pairs press and stay together."""
+        mode: Neighbours | None = moment.mode
+        if mode is None:
+            return moment.y, mode
+        p, first = moment.parameters, 2 * moment.parameters.size
+        theta, rates = moment.y[first : first + p.balls], slice(first + p.balls, first + 2 * p.balls)
+        touching = np.flatnonzero((mode.joined > 0) | (mode.gaps(theta) - mode.touching <= TOUCHING))
+        joined = np.zeros(len(mode.joined))
+        if len(touching):
+            answer = responses(moment, [mode.behind[i] for i in touching], [mode.ahead[i] for i in touching])
+            slow = moment.equations.scales[rates.start]
+            lifts = np.sqrt(2 * LIFT * np.maximum(-answer.pairs.dot(answer.accelerations / p.radii), 0.0))
+            moment = replace(moment, y=impacts(answer, moment.y, rates, self.restitution, GRAZING * slow + lifts))
+            joined[touching] = self._pressing(answer, moment.y[rates], AT_REST * slow, p, mode.joined[touching])
+        # A gap that has just been found to open must be clearly above its bound, or rounding would close it at once.
+        least = mode.least + _rounding(theta) / 2
+        if np.array_equal(joined, mode.joined) and np.all((mode.gaps(theta) >= least) | (joined > 0)):
+            return moment.y, mode
+        return moment.y, mode.joining(joined, theta)
+
+    def _pressing(self, answer: Responses, rates: Array, rest: float, p: Parameters, joined: Array) -> Array:
+        """1 for each touching pair that stays together."""
+        together = np.abs(answer.pairs.dot(rates)) <= rest
+        unit = MARGIN * float(p.moments.mean()) * p.speed**2
+        found = np.zeros(len(together))
+        directions = np.where(np.abs(rates) <= rest, 0.0, np.sign(rates))
+        found[together] = pressing(answer.among(together), directions, joined[together], unit / 2)
+        return found
+
+    def weight(self, scene: Scene) -> Weight:
+        """Not estimated: without it balls pass through each other."""
+        return Weight(None, "balls that meet stop each other; without it they would pass")
+
+
+def _order(race: Race) -> list[int]:
+    """The balls of a race as they stand round it."""
+    return sorted(range(len(race.ball_masses)), key=lambda k: race.start_angles[k] % (2 * math.pi))
+
+
+def _turns(race: Race) -> list[float]:
+    """Full turns [rad] that make each gap the angle from a ball to the next."""
+    angles, order = race.start_angles, _order(race)
+    whole = [angles[k] - angles[k] % (2 * math.pi) for k in order]
+    following = [*whole[1:], whole[0] - 2 * math.pi] if whole else []
+    return [here - after for here, after in zip(whole, following, strict=True)]
+
+
+def _check_apart(neighbours: Neighbours, theta: Array) -> None:
+    """Refuse balls that overlap at the start."""
+    short = neighbours.touching - neighbours.gaps(theta)
+    if np.any(short > TOUCHING):
+        worst = int(short.argmax())
+        one, other = sorted((neighbours.behind[worst] + 1, neighbours.ahead[worst] + 1))
+        raise InputError(
+            f"balls {one} and {other} overlap at the start",
+            found=f"{math.degrees(neighbours.gaps(theta)[worst]):g}° apart",
+            allowed=f"at least {math.degrees(neighbours.touching[worst]):g}°",
+            remedy="part them, or leave ball_contact out",
+        )

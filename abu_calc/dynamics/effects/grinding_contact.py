@@ -1,0 +1,279 @@
+"""Grinding contact: the wheel is pressed to the work on the −y side, where it cuts.
+
+    N along +y,    T = s f N along x,    h = y_w + ε sin(turn + φ₀): how far the wheel's surface stands off its place
+
+    compliant    N = N₀ − c_n h while that is positive (touching), 0 else (apart)
+    rigid        h = 0 without parting: N is the reaction, negative where the wheel would part
+    face         N = N₀, along the spindle: runout does not press, T moves the mean place alone and is left out
+
+The axis is counted from static equilibrium under the press force N₀, so along y acts N − N₀; T acts as a whole. s = −1:
+friction opposes a rotation from +x to +y; s = +1 is T as Kladiev 1996 prints it, which drives that rotation. Both work
+on the centre of the wheel's surface, ε e^{i(turn + φ₀)} off the axis, R_w above the work: a driven rotor feels
+
+    ε (N cos − T sin)(turn + φ₀) + T R_w,    face: s f N₀ R_w
+
+Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and `separates`
+tells where that cannot be. Compliance, one-sided contact and torque are derived.
+"""
+
+import math
+import sys
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+
+from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations import accelerations
+from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.dynamics.receptance import receptance, reference_moment, weighing_amplitude
+from abu_calc.dynamics.scene import LinearSupport, Scene
+from abu_calc.errors import InputError
+from abu_calc.validity import Range
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.assemble import Equations
+    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.trajectory import Trajectory
+
+Contact = Literal["compliant", "rigid", "face"]
+
+_LARGEST = sys.float_info.max
+
+TOUCHING, APART = 1.0, 0.0
+
+NEAR = 1e-9
+"""Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
+
+
+@dataclass(frozen=True)
+class GrindingContact(Effect):
+    """`press_force` N₀ [N], `cutting_coefficient` f, `contact_stiffness` c_n [N/m] where compliant, `rotation_sense` s.
+
+    `runout` ε [m] of the wheel's surface at `runout_angle` φ₀ [rad] from the zero mark, `wheel_radius` R_w [m], 0 where
+    nothing tells it: then cutting does not brake the rotor; `plane_offset` z [m] of the wheel on supports that tilt.
+    """
+
+    press_force: float
+    cutting_coefficient: float
+    contact: Contact = "compliant"
+    contact_stiffness: float = 0.0
+    rotation_sense: int = -1
+    runout: float = 0.0
+    runout_angle: float = 0.0
+    wheel_radius: float = 0.0
+    plane_offset: float = 0.0
+
+    name: ClassVar[str] = "grinding_contact"
+    kind: ClassVar[Kind] = "driven"
+
+    def __post_init__(self) -> None:
+        Range("press force", 0, _LARGEST, "N").check(self.press_force)
+        Range("cutting coefficient", 0, _LARGEST).check(self.cutting_coefficient)
+        Range("wheel runout", 0, _LARGEST, "m").check(self.runout)
+        Range("wheel radius", 0, _LARGEST, "m").check(self.wheel_radius)
+        if self.contact == "compliant":
+            Range("contact stiffness", 0, _LARGEST, "N/m", open_low=True).check(self.contact_stiffness)
+        if self.rotation_sense not in (-1, 1):
+            raise InputError("rotation sense", found=str(self.rotation_sense), allowed="-1, 1")
+
+    @property
+    def switches(self) -> bool:  # type: ignore[override]
+        """Wheel and work part where the contact is compliant."""
+        return self.contact == "compliant"
+
+    @property
+    def drag(self) -> float:
+        """s f: T per N."""
+        return self.rotation_sense * self.cutting_coefficient
+
+    def first_mode(self, scene: Scene) -> Any:
+        """Touching; raises InputError on supports that have no such contact."""
+        self._row(scene)
+        return TOUCHING if self.switches else None
+
+    def _row(self, scene: Scene) -> Array:
+        """y_w per unit of each coordinate of the support."""
+        support = scene.support
+        if not isinstance(support, LinearSupport):
+            raise InputError(
+                "a swing arm has a contact of its own", remedy="describe the cutting in the arm's own table"
+            )
+        if self.plane_offset and not support.tilts:
+            raise InputError("only a support that tilts knows where along the spindle the wheel is")
+        P = np.array(support.race_map)
+        return np.asarray(P[1] + self.plane_offset * P[3] if support.tilts else P[1])
+
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """N and T on the frame, or the constraint."""
+        if self.contact == "rigid":
+            loads.bound = self._bound(m, p)
+            loads.add(frame=-self.press_force * self._held(p))
+        elif self.contact == "compliant" or p.rotor == "driven":
+            loads.add(frame=self._force(m, p, self._pressed(m, mode, p)))
+
+    def _surface(self, m: Motion, p: Parameters) -> tuple[Any, Any, Any, Any]:
+        """h, h' without the turning of the rotor, and ε (cos, sin)(turn + φ₀)."""
+        place = m.turn + self.runout_angle
+        x, y = self.runout * m.xp.cos(place), self.runout * m.xp.sin(place)
+        row = p.race_map[1] + self.plane_offset * p.race_map[3] if len(p.race_map) == 4 else p.race_map[1]  # type: ignore[index,arg-type]
+        return row.dot(m.support[: p.size]) + y, row.dot(m.support[p.size :]), x, y
+
+    def _pressed(self, m: Motion, mode: Any, p: Parameters) -> Any:
+        """N [N] of a contact that is not rigid."""
+        if self.contact == "face":
+            return self.press_force
+        return mode * (self.press_force - self.contact_stiffness * self._surface(m, p)[0])
+
+    def _rows(self, x: Any, y: Any, turning: Any, p: Parameters) -> Array:
+        """A force (x, y) at the wheel and a torque on the rotor, as the frame feels them."""
+        z = self.plane_offset
+        rows = [x, y, z * x, z * y] if len(p.race_map) == 4 else [x, y]  # type: ignore[arg-type]
+        return np.array([*rows, turning] if p.rotor == "driven" else rows)
+
+    def _held(self, p: Parameters) -> Array:
+        """The press."""
+        return self._rows(0.0, 1.0, 0.0, p)
+
+    def _direction(self, m: Motion, p: Parameters) -> Array:
+        """What the frame feels per unit N."""
+        if self.contact == "face":
+            return self._rows(0.0, 0.0, self.drag * self.wheel_radius, p)
+        _, _, x, y = self._surface(m, p)
+        return self._rows(self.drag, 1.0, x - self.drag * y + self.drag * self.wheel_radius, p)
+
+    def _force(self, m: Motion, p: Parameters, normal: Any) -> Array:
+        """All that acts on the frame."""
+        force: Array = normal * self._direction(m, p)
+        return force if self.contact == "face" else force - self.press_force * self._held(p)
+
+    def _bound(self, m: Motion, p: Parameters) -> Bound:
+        """h'' = −2 Ω h' − Ω² h.
+
+        An integrator's errors of h'' = 0 would add up over time; so they die within a turn (Baumgarte 1972, Computer
+        Methods in Applied Mechanics and Engineering 1), and without any nothing is added.
+        """
+        h, moved, x, y = self._surface(m, p)
+        strayed = p.speed * (2 * (moved + x * m.speed) + p.speed * h)
+        value = y * m.speed * m.speed - x * m.acceleration - strayed
+        return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, p))
+
+    def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
+        """How deep the wheel is in the work while touching, the gap while apart [m]."""
+        if not self.switches:
+            return []
+        return [(2 * mode - 1) * (self.press_force / self.contact_stiffness - self._surface(m, p)[0])]
+
+    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+        """Touching where the wheel is in the work; at its very surface, where it is about to be."""
+        if not self.switches:
+            return moment.y, moment.mode
+        m, _, solved = moment.solved(APART)
+        p = moment.parameters
+        h, moved, x, y = self._surface(m, p)
+        unloaded = self.press_force / self.contact_stiffness
+        rows = self._rows(0.0, 1.0, x, p)
+        turning = 0.0 if p.rotor == "driven" else x * solved.rotor
+        depth, deeper = unloaded - h, -(moved + x * m.speed)
+        ever = -(float(rows.dot(solved.frame)) + turning - y * m.speed * m.speed)
+        mode = TOUCHING if _inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
+        return moment.y, moment.mode if mode == moment.mode else mode
+
+    def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
+        """Of N − N₀, T and, where it is driven, the torque, by the motion of frame and rotor [W].
+
+        The work of the compliant spring is in it. What a rotor of given speed needs to carry the runout past the work
+        is the drive's, not of the coordinates.
+        """
+        normal = solved.reaction if self.contact == "rigid" else self._pressed(m, mode, p)
+        rates = p.race_map.dot(m.support[p.size :])  # type: ignore[union-attr]
+        return self._force(m, p, normal).dot(np.append(rates, m.speed) if p.rotor == "driven" else rates)
+
+    def remarks(self, scene: Scene, trajectory: "Trajectory") -> tuple[str, ...]:
+        """Whether wheel and work part in the last twentieth of the run."""
+        from abu_calc.dynamics.assemble import assemble
+
+        late = trajectory.t >= 0.95 * scene.duration
+        last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
+        if self.contact == "face" or not late.any() or not separates(assemble(scene), last):
+            return ()
+        word = "would part if they could" if self.contact == "rigid" else "part again and again"
+        return (f"wheel and work {word}: press harder, or run the wheel truer",)
+
+    def weight(self, scene: Scene) -> Weight:
+        """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
+
+        N~ = −(y + E)/(1/c_n + h_wn), y of the wheel without contact, E = −iε e^{iφ₀}, h_wn its motion by the contact.
+        """
+        self._row(scene)
+        if self.contact == "face":
+            driven = any(effect.rotor == "driven" for effect in scene.effects)
+            return Weight(None, self._braking) if driven else Weight(0.0, "presses along the spindle alone")
+        h = receptance(scene.support, scene.speed)
+        wheel = np.vstack([np.eye(2), self.plane_offset * np.eye(2)])[: len(h)]
+        moment = reference_moment(scene) * scene.speed**2 * np.exp(1j * scene.imbalance_angle)
+        free = (wheel[:, 1] @ h)[:2] @ (moment * np.array((1, -1j)))
+        answer = h[:2] @ (wheel @ np.array((self.drag, 1.0)))
+        seen = wheel[:, 1] @ h @ (wheel @ np.array((self.drag, 1.0)))
+        give = 1 / self.contact_stiffness if self.contact == "compliant" else 0.0
+        normal = -(free - 1j * self.runout * np.exp(1j * self.runout_angle)) / (give + seen)
+        X, Y = normal * answer
+        changed = float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
+        return Weight(changed / weighing_amplitude(scene), f"holds the axis, and runout drives it; {self._braking}")
+
+    @property
+    def _braking(self) -> str:
+        return (
+            "cutting brakes a driven rotor"
+            if self.wheel_radius
+            else "no wheel radius: cutting does not brake the rotor"
+        )
+
+    def placed(self, scene: Scene) -> Scene:
+        """The scene started on the constraint of a rigid contact, h = h' = 0, by the shortest way; else unchanged."""
+        row = self._row(scene)
+        if self.contact != "rigid":
+            return scene
+        speed = 0.0 if getattr(scene.effect("run_up"), "up", 0.0) else scene.speed
+        wanted = -self.runout * math.sin(self.runout_angle), -self.runout * math.cos(self.runout_angle) * speed
+        start = scene.start_position, scene.start_velocity
+        position, velocity = (
+            tuple((np.array(now) + row * (target - row @ now) / (row @ row)).tolist())
+            for now, target in zip(start, wanted, strict=True)
+        )
+        return replace(scene, start_position=position, start_velocity=velocity)
+
+
+def _inside(depth: float, deeper: float, ever: float, near: float) -> bool:
+    """Whether depth + deeper t + ½ ever t² counts as inside: by its sign, or where that is nothing by what follows.
+
+    An excursion that stays nothing is none, so that a graze is not entered.
+    """
+    if abs(depth) > near:
+        return depth > 0
+    if deeper * ever < 0:
+        return (depth - deeper**2 / (2 * ever) > near) if deeper > 0 else (depth - deeper**2 / (2 * ever) > -near)
+    return (deeper or ever) >= 0
+
+
+def normal_forces(equations: "Equations", trajectory: "Trajectory") -> Array:
+    """N [N] at the samples of a run with a grinding contact; raises InputError for a scene without.
+
+    Rigid: of the no-separation solution, so it may be negative. Balls that stick by dry friction count as rolling.
+    """
+    contact = equations.scene.effect("grinding_contact")
+    if not isinstance(contact, GrindingContact):
+        raise InputError("the scene has no grinding contact")
+    p = equations.parameters
+    found = []
+    for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
+        motion, _, solved = accelerations(np, t, y, p)
+        normal = solved.reaction if contact.contact == "rigid" else contact._pressed(motion, TOUCHING, p)
+        found.append(normal if contact.contact == "rigid" else max(normal, 0.0))
+    return np.array(found, dtype=float)
+
+
+def separates(equations: "Equations", trajectory: "Trajectory") -> bool:
+    """Whether wheel and work part, or would part if they could, at any sample of a run."""
+    return bool(normal_forces(equations, trajectory).min() <= 0)

@@ -1,0 +1,67 @@
+"""Run-up and run-down: the rotor's speed rises from 0 to Ω at an even pace, and falls to 0 at the end of the run.
+
+    Ω' = Ω/T_up for t < T_up,   0,   −Ω/T_down for t > duration − T_down
+
+A rolling ball is turned by the race that accelerates: (J − 1) r Ω'/R_p on θ''. Source: derived from the rolling energy
+½ (J − 1) m (r·turn' − R_p θ')². With a motor the rotor starts from rest, its torque sets the pace, and in the run-down it
+is switched off.
+"""
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.motion import Motion
+from abu_calc.dynamics.parameters import Rotor
+from abu_calc.dynamics.scene import Scene
+from abu_calc.errors import InputError
+
+
+@dataclass(frozen=True)
+class RunUp(Effect):
+    """`up`, `down` [s]: times from standstill to the scene's speed and back; 0 for none."""
+
+    up: float
+    down: float = 0.0
+
+    name: ClassVar[str] = "run_up"
+    kind: ClassVar[Kind] = "driven"
+
+    @property
+    def rotor(self) -> Rotor:
+        """Its speed is given."""
+        return "guided"
+
+    def move(self, m: Motion, mode: Any, own: Any) -> None:
+        """The rotor accelerates evenly."""
+        m.acceleration = mode
+
+    def breaks(self, scene: Scene) -> tuple[float, ...]:
+        """Ends of the run-up, begin of the run-down."""
+        if self.up + self.down > scene.duration:
+            raise InputError(
+                "the run ends before the run-up and the run-down do",
+                found=f"{scene.duration:g} s",
+                allowed=f"at least {self.up + self.down:g} s",
+                remedy="a longer duration",
+            )
+        ends = (self.up if self.up else 0.0, scene.duration - self.down if self.down else 0.0)
+        return tuple(sorted({end for end in ends if 0 < end < scene.duration}))
+
+    def mode_at(self, scene: Scene, t: float, mode: Any) -> Any:
+        """Ω' [rad/s²] from t on; nothing is given where a motor drives."""
+        if scene.effect("motor"):
+            return 0.0
+        if t < self.up:
+            return scene.speed / self.up
+        if self.down and t >= scene.duration - self.down:
+            return -scene.speed / self.down
+        return 0.0
+
+    def first_mode(self, scene: Scene) -> Any:
+        """Ω' at t = 0."""
+        return self.mode_at(scene, 0.0, None)
+
+    def weight(self, scene: Scene) -> Weight:
+        """It is the scene itself."""
+        return Weight(None, "the speed itself: without it there is no run-up")

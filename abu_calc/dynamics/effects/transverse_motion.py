@@ -1,0 +1,197 @@
+"""Transverse motion: balls roll across the race too, in its groove, by w along the spindle.
+
+Geometry, to second order in w/b, b = ρ − r the radius of the curve of the balls' centres across a groove of radius ρ:
+
+    R = R_p − w²/2b,    R' = −w w'/b,    place R e_r + (w + a_z cos turn) ẑ,    tangent ∂place/∂w = ẑ − (w/b) e_r
+
+Along the race that adds the acceleration 2 R' γ', outward −(w w'' + w'²)/b. Across it, per ball mass,
+
+    (J + (w/b)²) w'' = −(w/b) (R γ'² + w'²/b) − h₀ w' + a_z (turn'² cos turn + turn'' sin turn) − frame's acceleration
+                       − (J − 1) γ' (R θ' w/b + ν),        ν' = w' (γ' − R θ'/b)
+    J R θ''          = … − 2 R' γ' − (J − 1) (R' θ' + R' γ' − ν w'/b)
+
+The terms of J − 1 are the turning of a ball that rolls without slip both ways, its spin I ω' = r n × friction resolved
+in the contact's frame; ν = r × (spin about the contact's normal, relative to the race) where that is free, 0 where the
+contact locks it. They take nothing from the energy ½ (J − 1) m [(R θ')² + w'² + ν²] of rolling in the race. So
+
+    ω_t² = (1/J) Ω² R_p/b,    with free spin Ω² [(1/J) R_p/b + (J − 1)/J]
+
+Locked, J = 7/5: ω_t = Ω at 5 (R − r) = 7 (ρ − r), at every speed (Kladiev 1996, eq. (12), R the radius of the raceway):
+then an axial runout "shakes out" dry friction. Printed: not said that it takes a locked spin; with free spin it is at
+ρ = R. The axial runout is a motion of the machine along the spindle, once per turn: a swash of the race itself stands
+still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b times the rotor's acceleration in ν'.
+"""
+
+import math
+import sys
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations import owned
+from abu_calc.dynamics.motion import Across, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.errors import NotTrustworthyError
+from abu_calc.validity import Range
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.modes import Moment
+
+_LARGEST = sys.float_info.max
+_EDGE = 1e-9
+"""What is left of the groove at an event that was located."""
+
+
+@dataclass(frozen=True)
+class TransverseMotion(Effect):
+    """`groove_radius` ρ, `ball_radius` r, `axial_runout` a_z [m]; `free_spin`: about the contact's normal."""
+
+    groove_radius: float
+    ball_radius: float
+    axial_runout: float = 0.0
+    free_spin: bool = False
+
+    name: ClassVar[str] = "transverse_motion"
+    kind: ClassVar[Kind] = "driven"
+    switches: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        Range("ball radius", 0, _LARGEST, "m", open_low=True).check(self.ball_radius)
+        Range("groove radius", self.ball_radius, _LARGEST, "m", open_low=True).check(self.groove_radius)
+        Range("axial runout", 0, _LARGEST, "m").check(self.axial_runout)
+
+    @property
+    def ball_states(self) -> tuple[str, ...]:  # type: ignore[override]
+        """w, w' and, where it is free, ν."""
+        return ("across", "across'", "spin") if self.free_spin else ("across", "across'")
+
+    @property
+    def bend(self) -> float:
+        """b = ρ − r [m]."""
+        return self.groove_radius - self.ball_radius
+
+    def _split(self, own: Any) -> tuple[Array, Array, Any]:
+        """w, w', ν of all balls."""
+        parts = (np.zeros(0) if own is None else own).reshape(len(self.ball_states), -1)
+        return parts[0], parts[1], parts[2] if self.free_spin else 0.0
+
+    def move(self, m: Motion, mode: Any, own: Any) -> None:
+        """Balls off the middle stand nearer to the axis."""
+        w, rolled, _ = self._split(own)
+        radii = m.radii - w * w / (2 * self.bend)
+        m.moments = m.moments * (radii / m.radii)
+        m.radii, m.rolled = radii, rolled
+
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """Coriolis and rolling along the race, and the direction across."""
+        w, v, spin = self._split(own)
+        lean, rolling = w / self.bend, p.inertia_factors - 1
+        lever, nearer, curved = -lean * levers.outward, -lean * v, v * v / self.bend
+        drive = -lean * (m.radii * m.swing * m.swing + curved) - p.drags / p.radii * v
+        drive = drive - rolling * m.swing * (m.radii * m.rate * lean + spin)
+        if levers.carried_outward is not None:
+            drive = drive + lean * levers.carried_outward
+        if levers.height is not None:
+            self._lean(m, w, v, levers, loads, p)
+        if self.axial_runout:
+            self._shake(m, levers, loads, p)
+        if levers.axial is not None:
+            lever, drive = lever + levers.axial[0], drive - levers.axial[1]
+        levers.carry(2 * nearer * m.swing, -curved)
+        loads.add(pull=-rolling * (nearer * (m.rate + m.swing) - spin * v / self.bend))
+        turning = _turning(p)
+        if turning:  # what turns the rotor turns the balls
+            rows = np.zeros(len(p.frame_mass))
+            rows[turning] = 1.0
+            loads.add(frame=rows * (p.masses * p.spins).dot(nearer * m.rate))
+        loads.across = Across(lever, p.inertia_factors + lean * lean, drive, -lean)
+
+    def _lean(self, m: Motion, w: Array, v: Array, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """On a race that leans, a ball off its plane is nearer to the axis or further from it: −½ m γ'² 2 w w_t."""
+        (height, rise), (lever, _, slope) = levers.height, levers.axial  # type: ignore[misc]
+        outward = m.swing * m.swing * w
+        loads.add(pull=-slope * outward, frame=-lever.dot(p.masses * outward))
+        levers.sunk = levers.sunk + 2 * w * height
+        levers.sinking = levers.sinking + 2 * m.swing * (w * rise + v * height)
+
+    def _shake(self, m: Motion, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """The races' own acceleration along the spindle, and how the turning of a driven rotor makes it."""
+        c, s, zero = m.xp.cos(m.turn), m.xp.sin(m.turn), 0.0 * m.cos
+        shaken = zero - self.axial_runout * (m.speed * m.speed * c + m.acceleration * s)
+        rows = [zero] * len(levers.outward)
+        for row in _turning(p):
+            rows[row] = zero - self.axial_runout * s
+        lever, carried, slope = levers.axial or (0.0, 0.0, zero)
+        if levers.height is not None:  # this way is none of the lean, and sees the going round of the other
+            loads.add(frame=np.array(rows).dot(p.masses * m.swing * m.swing * levers.height[0]))
+        levers.axial = (lever + np.array(rows), carried + shaken, slope)
+        if levers.sunk is None:
+            levers.sunk = levers.sinking = zero
+
+    def rates(self, m: Motion, own: Any, solved: Solved) -> Array:
+        """w', w'', ν'."""
+        _, v, _ = self._split(own)
+        spun = [v * (m.swing - m.radii * m.rate / self.bend)] if self.free_spin else []
+        return np.concatenate([v, solved.across, *spun])
+
+    def start(self, scene: Scene) -> tuple[float, ...]:
+        """Balls at rest in the middle of the groove."""
+        return (0.0,) * (len(self.ball_states) * len(scene.ball_masses))
+
+    def scales(self, scene: Scene) -> tuple[float, ...]:
+        """The axial runout, or a hundredth of the ball; rates at the speed of the rotor."""
+        balls, way = len(scene.ball_masses), max(self.axial_runout, 0.01 * self.ball_radius)
+        return (way,) * balls + (way * scene.speed,) * (balls * (len(self.ball_states) - 1))
+
+    def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
+        """1 − (w/w_max)²: no further than the groove reaches, nor far enough to lose half the pitch radius."""
+        w, _, _ = self._split(own)
+        return [*(1 - w * w / self.bend**2), *(1 - w * w / (self.bend * p.radii))]
+
+    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+        """Nothing changes; raises NotTrustworthyError when a ball has climbed out of its groove."""
+        motion, loads, solved = moment.solved(moment.mode)
+        _, mode, own = owned(moment.y, moment.parameters)[moment.index]
+        left = self.watch(motion, mode, own, loads, solved, moment.parameters)
+        if left and min(left) < _EDGE:
+            ball = 1 + int(np.argmin(left)) % moment.parameters.balls
+            raise NotTrustworthyError(
+                f"ball {ball} climbs out of its groove at t = {moment.t:.6g} s\n"
+                "  less axial runout, more rolling drag, or a groove radius whose resonance is further from the speed"
+            )
+        return moment.y, moment.mode
+
+    def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
+        """Drag across, −Σ m h₀ w'², and what the drag along the race takes at R beyond what it takes at R_p [W].
+
+        The axial runout is part of the balls' places, like the turning of the rotor: its work is the drive's.
+        """
+        _, v, _ = self._split(own)
+        drag = p.drags / p.radii
+        return -(p.masses * drag).dot(v * v + p.radii * (m.radii - p.radii) * m.rate * m.rate)
+
+    def weight(self, scene: Scene) -> Weight:
+        """Σ m w²/2b as an imbalance, w the way across at steady state; None at a resonance that nothing damps."""
+        why = "balls off the middle of the groove stand nearer to the axis"
+        if not self.axial_runout:
+            return Weight(0.0, "no axial runout: the balls stay in the middle of the groove")
+        lost = [self._way(scene, race) ** 2 / (2 * self.bend) * sum(race.ball_masses) for race in scene.races]
+        if not all(math.isfinite(moment) for moment in lost):
+            return Weight(None, f"{why}; the axial runout meets their resonance")
+        return Weight(unbalanced_amplitude(scene, sum(lost)) / weighing_amplitude(scene), why)
+
+    def _way(self, scene: Scene, race: Race) -> float:
+        """Amplitude of w by the axial runout [m], as far as the groove reaches."""
+        J, speed = race.inertia_factor, scene.speed
+        stiffness = race.pitch_radius / self.bend + (J - 1 if self.free_spin else 0.0) - J
+        resistance = abs(complex(stiffness, race.drag / speed))
+        return min(self.axial_runout / resistance, self.bend) if resistance > 1e-12 else math.inf
+
+
+def _turning(p: Parameters) -> list[int]:
+    """Rows of the frame that turn the rotor: the arm's and a driven rotor's own."""
+    return [*([0] if p.arm_length is not None else []), *([-1] if p.rotor == "driven" else [])]

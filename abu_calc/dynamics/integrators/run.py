@@ -1,0 +1,111 @@
+"""What all integrators share: the way from event to event, and how a run is refused, given up and handed on."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.modes import Modes, at_break, settled, starting
+from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.validity import Range
+
+Array = NDArray[np.float64]
+
+TOLERANCE = Range("tolerance", 1e-13, 0.1)
+"""Below, rounding decides; above, a method's own estimate of its error means nothing."""
+
+MOST_EVALUATIONS = 12_000_000
+"""Some minutes of SciPy's work; a scene that needs more is stiff or too long for this method."""
+
+MOST_EVENTS = 1_000_000
+
+STALLED, MOST_STALLED = 1e-9, 200
+"""Revolutions within which so many events in a row mean that the motion does not go on."""
+
+
+@dataclass
+class Run(ABC):
+    """One integration on its way; each library says how it goes through one segment."""
+
+    equations: Equations
+    tolerance: float
+    sample_times: Sequence[float] | Array
+    most_evaluations: int
+    evaluations: int = 0
+    steps: int = 0
+    events: int = 0
+    done: int = 0
+    """How many samples are filled."""
+    samples: Array = field(init=False)
+    states: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        TOLERANCE.check(self.tolerance)
+        self.samples = samples = np.asarray(self.sample_times, dtype=float)
+        if not (len(samples) and samples[0] >= 0 and 0 < samples[-1] < np.inf and np.all(np.diff(samples) > 0)):
+            raise InputError("sample times must be finite and ascend from 0 or later")
+        self.states = np.empty((len(self.equations.states), len(samples)))
+
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """Of the integrator."""
+
+    @abstractmethod
+    def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
+        """Toward the bound, at most up to the next event: moment and state reached, and whether it is an event."""
+
+    def trajectory(self) -> Trajectory:
+        """The whole run. Raises NotTrustworthyError, naming the moment, when it cannot be finished."""
+        # Overflow and invalid numbers are looked for as the run goes on, where the moment can be told.
+        with np.errstate(all="ignore"):
+            self._go()
+        return Trajectory(
+            t=self.samples,
+            y=self.states,
+            integrator=self.name,
+            tolerance=self.tolerance,
+            evaluations=self.evaluations,
+            steps=self.steps,
+            events=self.events,
+            status="finished",
+            message=f"reached the end at {self.samples[-1]:g} s",
+        )
+
+    def fill(self, states: Array) -> None:
+        """The next samples, one column each."""
+        more = self.done + states.shape[1]
+        self.states[:, self.done : more] = states
+        self.done = more
+
+    def _go(self) -> None:
+        equations, end = self.equations, float(self.samples[-1])
+        state, modes = starting(equations)
+        if self.samples[0] == 0:
+            self.fill(state[:, None])
+        ends = [*(moment for moment in equations.breaks if 0 < moment < end), end]
+        t, stalled = 0.0, 0
+        while t < end:
+            before, bound = t, next(moment for moment in ends if moment > t)
+            t, state, happened = self.segment(t, state, modes, bound)
+            if happened:
+                self.events += 1
+                stalled = stalled + 1 if t - before < STALLED * equations.scene.revolution else 0
+                if self.events > MOST_EVENTS or stalled > MOST_STALLED:
+                    raise lost(t, "the motion stalls in ever more events")
+            if t == bound:
+                modes = at_break(equations, t, modes)
+            if t < end:
+                state, modes = settled(equations, t, state, modes)
+
+
+def lost(t: float, reason: str) -> NotTrustworthyError:
+    """The error that says where and why an integration was given up."""
+    return NotTrustworthyError(
+        f"integration lost at t = {t:.6g} s: {reason.rstrip('.')}\n"
+        "  shorten the run, or look for a drag, stiffness or speed that is far from any real machine"
+    )

@@ -1,0 +1,154 @@
+"""Kinematics that the support, the balls and all effects share, and the place where effects leave what they add."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from abu_calc.dynamics.parameters import Array, Parameters
+
+
+@dataclass(slots=True)
+class Motion:
+    """Where everything is and how fast, at one moment.
+
+    Angles γ = θ + turn of the balls are inertial; e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). `support`: (q, q');
+    `turn`, `speed`: of the rotor, inertial; `acceleration` of it as far as it is given; `swing`: γ' of each ball;
+    `offset`: where the races' centres stand off the axis [m], x and y; `rolled`: speed of the balls' rolling across the
+    race [m/s], where they have that freedom; None without.
+    """
+
+    xp: Any
+    t: Any
+    support: Array
+    theta: Array
+    rate: Array
+    turn: Any
+    speed: Any
+    acceleration: Any
+    sin: Array
+    cos: Array
+    swing: Array
+    radii: Array
+    moments: Array
+    offset: Any = None
+    rolled: Any = None
+
+
+@dataclass(slots=True)
+class Levers:
+    """What balls feel of the frame, whose accelerations are A (d).
+
+    `along`, `outward` (d × n): acceleration of a ball's place in the race along e_t and e_r per unit A. `mass` (d × d):
+    what balls at rest in their races weigh, None where it is to be summed up. `carried_along`, `carried_outward` (n):
+    what that place has without any A, beside going round; None for nothing. `axial`: where balls move along the
+    spindle as their race tilts: lever (d × n), what is carried (n), way per way along the race (n).
+    """
+
+    along: Array
+    outward: Array
+    mass: Array | None
+    carried_along: Any = None
+    carried_outward: Any = None
+    axial: tuple[Array, Array, Array] | None = None
+    height: tuple[Array, Array] | None = None
+    """Where balls stand along the spindle by the tilt of their race, and how fast [m, m/s]."""
+    sunk: Any = None
+    """By how much R_p² is less, seen along the spindle, since the race leans [m²]; with `axial`."""
+    sinking: Any = None
+    """γ' times its rate."""
+
+    def carry(self, along: Any, outward: Any) -> None:
+        """Add to the acceleration with which the races are carried along."""
+        self.carried_along = along if self.carried_along is None else self.carried_along + along
+        self.carried_outward = outward if self.carried_outward is None else self.carried_outward + outward
+
+
+@dataclass(slots=True)
+class Across:
+    """One more direction in which each ball can move: its lever (d × n), inertia per ball mass, what drives it (n).
+
+    `outward` (n): way along e_r per way in this direction, with which `press` acts on it too; `grip`, `free`: as there.
+    """
+
+    along: Array
+    inertia: Any
+    drive: Array
+    outward: Array
+    grip: Any = None
+    free: Any = None
+
+    @property
+    def give(self) -> Any:
+        """Acceleration by force per ball mass."""
+        return (1.0 if self.free is None else self.free) / self.inertia
+
+
+@dataclass(slots=True)
+class Bound:
+    """A constraint row · A = value; its reaction acts on the frame along `force`."""
+
+    row: Array
+    value: Any
+    force: Array
+
+
+@dataclass(slots=True)
+class Loads:
+    """What effects add; None: nothing, and then it costs nothing.
+
+    `pull`, `press` (n): forces on the balls per ball mass, along e_t and e_r; `frame` (d): forces on the frame; `grip`
+    (n): dry friction along −e_t per normal force, signed; `free` (n): 1, or 0 for a ball that sticks; `mates` (n × n):
+    1 for balls that move together; `hold` (n): largest friction that holds balls in place, per normal force.
+    """
+
+    pull: Any = None
+    press: Any = None
+    frame: Any = None
+    grip: Any = None
+    free: Any = None
+    mates: Any = None
+    hold: Any = None
+    across: Across | None = None
+    bound: Bound | None = None
+
+    def add(self, **more: Any) -> None:
+        """Add to `pull`, `press` or `frame`."""
+        for name, value in more.items():
+            before = getattr(self, name)
+            setattr(self, name, value if before is None else before + value)
+
+
+@dataclass(slots=True)
+class Solved:
+    """Accelerations at one moment: of the frame A (d), of the balls along the race R_p θ'' (n), of the support q'' (N).
+
+    `normal` (n): normal force of ball and race per ball mass, None where no effect asks for it; `across` (n): of the
+    second direction; `rotor`: of the rotor, inertial less the support's; `reaction` of a constraint [N]; `left` (n):
+    force along the race per ball mass that neighbours or the race take from balls that move together or stick;
+    `across_left` (n): all force in the second direction.
+    """
+
+    frame: Array
+    balls: Array
+    support: Array
+    normal: Any
+    across: Any
+    rotor: Any
+    reaction: Any
+    left: Any = None
+    across_left: Any = None
+
+
+def motion_of(xp: Any, t: Any, y: Any, p: Parameters) -> Motion:
+    """The kinematics of the state y = (q, q', θ, θ', states of effects, rotor's turn and speed) at time t."""
+    n, first = 2 * p.size, 2 * p.size + p.balls
+    theta, rate = y[n:first], y[first : first + p.balls]
+    if p.rotor == "steady":
+        turn, speed = p.speed * t, p.speed
+    else:
+        turn, speed = y[-2], y[-1]
+    if p.arm_length is not None:
+        turn, speed = turn + y[0], speed + y[1]
+    gamma = theta + turn
+    return Motion(
+        xp, t, y[:n], theta, rate, turn, speed, 0.0, xp.sin(gamma), xp.cos(gamma), rate + speed, p.radii, p.moments
+    )

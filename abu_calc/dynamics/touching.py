@@ -1,0 +1,157 @@
+"""Balls that touch: what impacts do to all speeds, and which touching pairs press.
+
+Accelerations are linear in forces on the balls, so unit forces tell all that is needed of the mass matrix, whatever the
+support and the other effects.
+"""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from abu_calc.dynamics.equations import derivative, loaded, solve_loaded
+from abu_calc.dynamics.parameters import Array
+from abu_calc.errors import NotTrustworthyError
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.modes import Moment
+
+MOST_IMPACTS = 10_000
+"""In a chain that passes impacts on without end, all that still approach lose their speed at once."""
+
+SOFT = 1e-11
+"""Compliance of contacts and of sticking, relative to that of the balls: it picks one distribution of the forces of a
+chain that sticks between its neighbours, where rigid bodies leave them open."""
+
+SURPLUS = 1e-7 / 4
+"""A ball at rest slips when pulled by this much more, relatively, than friction holds."""
+
+
+@dataclass(frozen=True, eq=False)
+class Responses:
+    """Of a moment with all balls free: R_p θ'', normal forces per ball mass, and what forces do to them.
+
+    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_force`, `normal_by_force` (n × n),
+    `state_by_force` (states × n): per unit force along the race [N] on each ball. `friction` (n): m f, zero without dry
+    friction.
+    """
+
+    t: float
+    pairs: Array
+    accelerations: Array
+    by_force: Array
+    normal: Array
+    normal_by_force: Array
+    state_by_force: Array
+    friction: Array
+
+    def among(self, chosen: Array) -> "Responses":
+        """The same for some of the pairs."""
+        return replace(self, pairs=self.pairs[chosen])
+
+
+def responses(moment: "Moment", behind: list[int], ahead: list[int]) -> Responses:
+    """What unit forces on each ball do at a moment, for pairs of balls."""
+    p = moment.parameters
+    m, levers, loads = loaded(np, moment.t, moment.y, p)
+    hold = np.zeros(p.balls) if loads.hold is None else loads.hold
+    # What friction does to balls that it cannot hold is known.
+    grip = np.zeros(p.balls) if loads.grip is None else np.where(hold > 0, 0.0, loads.grip)
+    loads.mates, loads.free, loads.grip = None, None, grip
+    pull = np.zeros(p.balls) if loads.pull is None else loads.pull
+    base = solve_loaded(m, levers, loads, p)
+    state = derivative(m, base, moment.y, p)
+    # Forces as large as those in the scene lose no digits in the difference.
+    unit = p.radii * p.speed**2
+    columns = []
+    for ball in range(p.balls):
+        loads.pull = pull.copy()
+        loads.pull[ball] += unit[ball]
+        more, force = solve_loaded(m, levers, loads, p), p.masses[ball] * unit[ball]
+        changed = (more.balls - base.balls, more.normal - base.normal, derivative(m, more, moment.y, p) - state)
+        columns.append([column / force for column in changed])
+    by_force, normal_by_force, state_by_force = (np.array(rows).T for rows in zip(*columns, strict=True))
+    unity = np.eye(p.balls)
+    return Responses(
+        moment.t, unity[ahead] - unity[behind], base.balls, by_force, base.normal, normal_by_force, state_by_force,
+        hold * p.masses,
+    )  # fmt: skip
+
+
+def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow: Array) -> Array:
+    """The state after all pairs that approach have met, v⁺ = v⁻ + M⁻¹ Dᵀ Λ; the same object where none does.
+
+    One after the other, the fastest approach first: each leaves −e times its speed of approach, so energy never grows.
+    Pairs that then part or approach more slowly than `slow` (P) [rad/s] get equal speeds, momentum kept.
+    """
+    D, kicks = answer.pairs, answer.state_by_force.dot(answer.pairs.T)
+    matrix, relative, total = D.dot(kicks[rates]), D.dot(y[rates]), np.zeros(len(D))
+    for count in range(MOST_IMPACTS):
+        worst = int((relative + slow).argmin())
+        near = np.abs(relative) <= slow if count < MOST_IMPACTS - 1 else relative <= slow
+        if relative[worst] < -slow[worst] and not near[worst]:
+            impulse = -(1 + restitution) * relative[worst] / matrix[worst, worst]
+            total[worst] += impulse
+            relative = relative + matrix[:, worst] * impulse
+        elif np.any(np.abs(relative) > 1e-6 * slow, where=near):
+            impulses = -np.linalg.solve(matrix[np.ix_(near, near)], relative[near])
+            total[near] += impulses
+            relative = relative + matrix[:, near].dot(impulses)
+            relative[near] = 0.0
+        else:
+            break
+    return y + kicks.dot(total) if total.any() else y
+
+
+def pressing(answer: Responses, directions: Array, joined: Array, margin: float) -> Array:
+    """1 for each touching pair with equal speeds that presses, 0 for one that parts.
+
+    Relative acceleration ≥ 0 ⟂ λ ≥ 0 of pairs, and Coulomb's law of the balls at rest (direction 0) on their races, as
+    one complementarity problem. Block principal pivoting from the pairs that were joined, after some rounds by the
+    first index alone: it ends, because the matrix is symmetric and positive definite but for a small f (Júdice & Pires
+    1994). `margin` [N]: what counts as no force. Raises NotTrustworthyError when a large f leaves no solution.
+    """
+    problem = _Problem(answer, margin)
+    rests = (directions == 0) & (answer.friction > 0)
+    status, fixed = np.concatenate([joined, np.where(rests, 0.0, directions)]), np.concatenate([joined < 0, ~rests])
+    for attempt in range(20 + 10 * len(status)):
+        wrong, better = problem.failing(status)
+        wrong &= ~fixed
+        if not wrong.any():
+            return status[: len(joined)]
+        if attempt > 10 + len(status):
+            wrong &= np.cumsum(wrong) <= 1
+        status = np.where(wrong, better, status)
+    raise NotTrustworthyError(
+        f"at t = {answer.t:.6g} s no combination of touching and sticking balls is consistent\n"
+        "  check the lever arm of dry rolling friction, or leave ball_contact out"
+    )
+
+
+class _Problem:
+    """Forces z = (λ of pairs, friction on balls) and what they do: w = W z + q, relative and own accelerations."""
+
+    def __init__(self, answer: Responses, margin: float) -> None:
+        self.pairs, balls = answer.pairs.shape
+        E = np.vstack([answer.pairs, np.eye(balls)])
+        self.W, self.q = E.dot(answer.by_force).dot(E.T), E.dot(answer.accelerations)
+        rows = np.zeros((self.pairs, len(E)))
+        self.most = np.concatenate([np.zeros(self.pairs), answer.friction * answer.normal])
+        self.most_by_force = np.vstack([rows, answer.friction[:, None] * answer.normal_by_force.dot(E.T)])
+        self.margin = margin
+
+    def failing(self, status: Array) -> tuple[Array, Array]:
+        """Which assumptions fail, and what is better: pairs 1 joined or 0; balls 0 sticking or ±1."""
+        pair = np.arange(len(status)) < self.pairs
+        held = np.where(pair, status > 0, status == 0)
+        unit, own = np.eye(len(status)), np.diag(self.W)
+        # A force that is not free to hold is 0 in a pair, and −σ f n on a ball.
+        signs = np.where(pair, 0.0, status)
+        matrix = np.where(held[:, None], self.W + SOFT * np.diag(own), unit + signs[:, None] * self.most_by_force)
+        z = np.linalg.solve(matrix, np.where(held, -self.q, -signs * self.most))
+        w, most = self.W.dot(z) + self.q, np.maximum(self.most + self.most_by_force.dot(z), 0.0)
+        parts, meets = z < -self.margin, w < -self.margin * own
+        slips, stops = np.abs(z) > (1 + SURPLUS) * most, status * w < -self.margin * own
+        wrong = np.where(pair, np.where(held, parts, meets), np.where(held, slips, stops))
+        better = np.where(pair, 1.0 - status, np.where(held, -np.sign(z), 0.0))
+        return wrong, better

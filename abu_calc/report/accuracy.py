@@ -1,0 +1,149 @@
+"""The price list of a scene as a result, as a table, and as a picture in plain characters."""
+
+import math
+from typing import Any, Final
+
+from abu_calc.analysis.accuracy import Point, Reference, Study
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.outcome import finite
+from abu_calc.report.quantities import number
+
+MARKS: Final = {
+    "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
+    "scipy-radau": "I", "scipy-bdf": "B", "heyoka": "H",
+}  # fmt: skip
+WIDTH: Final = 58
+HEIGHT: Final = 16
+
+ABOUT: Final = (
+    "Errors are against the reference, with every effect there is data for: amplitude relative to the larger of itself "
+    "and 1 % of that without balls, level likewise of the velocity (0.01 is 0.09 dB), settling time relative, angles in "
+    "rad. Times are those of the integration alone: warm, the median of repeats; cold, the first run with import and "
+    "compilation. They belong to this machine at this moment."
+)
+
+
+def study_result(study: Study) -> dict[str, Any]:
+    """The study under the keys of the interface."""
+    return {
+        "quantity": study.quantity,
+        "accuracy": study.accuracy,
+        "reference": _reference(study.reference),
+        "points": [point_result(point) for point in study.points],
+        "chosen": None if study.chosen is None else point_result(study.chosen),
+        "skipped": list(study.skipped),
+    }
+
+
+def point_result(point: Point) -> dict[str, Any]:
+    """One point; what could not be computed is null, with a note."""
+    return {
+        "rung": point.rung,
+        "integrator": point.integrator,
+        "tolerance": point.tolerance,
+        "error": finite(point.error),
+        "evaluations": point.evaluations,
+        "steps": point.steps,
+        "wall_s": finite(point.wall_s),
+        "cold_s": finite(point.cold_s),
+        "note": point.note,
+    }
+
+
+def _reference(reference: Reference) -> dict[str, Any]:
+    return {
+        "integrators": list(reference.integrators),
+        "tolerances": list(reference.tolerances),
+        "disagreement": reference.disagreement,
+        "wall_s": reference.wall_s,
+    }
+
+
+def study_blocks(title: str, scene: str, study: Study) -> tuple[Block, ...]:
+    """The whole report."""
+    reference = study.reference
+    sure = (
+        f"Reference: {reference.integrators[0]} at {reference.tolerances[0]:g} and {reference.integrators[1]} at "
+        f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}; {reference.wall_s:.1f} s."
+    )
+    skipped = [Paragraph(f"Not measured in the time allowed (--budget): {', '.join(_grouped(study.skipped))}.")]
+    return (
+        Heading(f"{title}: what accuracy of the {study.quantity} costs in the scene {scene}"),
+        Paragraph(_chosen(study), "fail" if study.chosen is None else "pass"),
+        Paragraph(sure),
+        Heading("Points"),
+        _grid(study),
+        *(skipped if study.skipped else []),
+        Heading("Error against time"),
+        *(Paragraph(line, indent=0) for line in picture(study.points)),
+        Paragraph(", ".join(f"{mark} {name}" for name, mark in MARKS.items()) + "; small letters: everything."),
+        Heading("Conventions"),
+        Paragraph(ABOUT),
+    )
+
+
+def _grouped(names: tuple[str, ...]) -> list[str]:
+    """Rung and integrator once, with all their tolerances."""
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        method, _, tolerance = name.rpartition(" ") if " " in name else (name, "", "")
+        groups.setdefault(method.replace("scipy-", ""), []).append(tolerance)
+    return [f"{method} {'/'.join(tolerances)}".rstrip() for method, tolerances in groups.items()]
+
+
+def _chosen(study: Study) -> str:
+    one = study.chosen
+    if one is None or one.error is None or one.wall_s is None:
+        return f"Nothing measured reaches an error of {study.accuracy:g}."
+    tolerance = "" if one.tolerance is None else f" at tolerance {one.tolerance:g}"
+    method = one.rung if one.integrator is None else f"{one.rung}, {one.integrator}{tolerance}"
+    return f"For an error of {study.accuracy:g}: {method}; error {number(one.error, 2)}, {_time(one.wall_s)}."
+
+
+def _grid(study: Study) -> Grid:
+    rows = tuple(
+        (point.rung, (point.integrator or "").removeprefix("scipy-"),
+         "" if point.tolerance is None else f"{point.tolerance:.0e}",
+         "-" if point.error is None else f"{point.error:.1e}", str(point.evaluations or ""),
+         _time(point.wall_s), _time(point.cold_s))
+        for point in study.points
+    )  # fmt: skip
+    return Grid(("rung", "by", "tolerance", "error", "evaluations", "warm", "cold"), rows, frozenset({2, 3, 4, 5, 6}))
+
+
+def _time(seconds: float | None) -> str:
+    return "" if seconds is None else f"{1000 * seconds:.3g} ms"
+
+
+def picture(points: tuple[Point, ...]) -> list[str]:
+    """Error upward, time to the right, both in decades."""
+    known = [(math.log10(point.wall_s), math.log10(max(point.error, 1e-16)), _mark(point))
+             for point in points if point.wall_s and point.error is not None]  # fmt: skip
+    if not known:
+        return ["nothing to draw"]
+    times, errors = [x for x, _, _ in known], [y for _, y, _ in known]
+    left, right = math.floor(min(times)), math.ceil(max(times))
+    low, high = math.floor(min(errors)), math.ceil(max(errors))
+    right, high = max(right, left + 1), max(high, low + 1)
+    cells = [[" "] * WIDTH for _ in range(HEIGHT)]
+    for x, y, mark in known:
+        column = round((x - left) / (right - left) * (WIDTH - 1))
+        row = round((high - y) / (high - low) * (HEIGHT - 1))
+        cells[row][column] = mark
+    lines = []
+    for row, content in enumerate(cells):
+        decade = high - row * (high - low) / (HEIGHT - 1)
+        nearest = round(decade)
+        shown = abs(decade - nearest) * (HEIGHT - 1) / (high - low) < 0.5
+        lines.append(f"{f'1e{nearest}' if shown else '':>8} |{''.join(content)}".rstrip())
+    axis = [" "] * (WIDTH + 6)
+    for decade in range(left, right + 1):
+        column = round((decade - left) / (right - left) * (WIDTH - 1))
+        for offset, letter in enumerate(f"1e{decade}"):
+            axis[column + offset] = letter
+    return [*lines, f"{'error':>8} +{'-' * WIDTH}", f"{'':8}  {''.join(axis).rstrip()} s"]
+
+
+def _mark(point: Point) -> str:
+    mark = MARKS[point.rung if point.rung in MARKS else point.integrator or ""]
+    return mark.lower() if point.rung == "everything" else mark

@@ -1,0 +1,126 @@
+"""A race of a scene and its balls."""
+
+import math
+from typing import Annotated, Final, Literal, Self
+
+from pydantic import Field, model_validator
+
+from abu_calc.spec.table import Table, problem
+
+Mass = Annotated[float, Field(gt=0, le=1e12)]
+Angle = Annotated[float, Field(ge=-1e6, le=1e6)]
+BallSpeed = Annotated[float, Field(ge=-1e6, le=1e6)]
+
+MOST_BALLS: Final = 100
+TOUCHING: Final = 1e-6
+"""Balls that overlap by less than this at the start [rad] touch."""
+
+
+class SceneRace(Table):
+    """A race and its balls; all angles are measured in the rotor, from its zero mark in the sense of rotation."""
+
+    pitch_radius_mm: float = Field(
+        description="Radius of the circle on which the balls' centres run [mm]; above 0 … 1e6.",
+        examples=[1000.0],
+        gt=0,
+        le=1e6,
+    )
+    plane_offset_mm: float = Field(
+        default=0.0,
+        description="Tilting support: place of the race along +z from the centre of mass [mm]; -100000 … 100000. "
+        "Default: 0.",
+        ge=-1e5,
+        le=1e5,
+    )
+    ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
+        description="Mass of each ball [g]; above 0 … 1e12, up to 100 balls, none for the rotor alone.",
+        examples=[[50.0, 50.0]],
+    )
+    ball_radius_mm: float | None = Field(
+        default=None,
+        description="Radius of a ball [mm]; above 0 … 1000, smaller than pitch_radius_mm, the same as in the effects. "
+        "Only a rolling ball that is run up needs it; without it that of the effects, and if they have none, balls are "
+        "taken as small.",
+        examples=[8.0],
+        gt=0,
+        le=1000,
+    )
+    corrector: Literal["ball", "roller"] = Field(
+        default="ball",
+        description="What rolls in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or "
+        "roller (3/2). Default: ball.",
+    )
+    rolling_drag_per_s: float = Field(
+        description="Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; 0 … 1e7, "
+        "0 switches it off.",
+        examples=[0.01],
+        ge=0,
+        le=1e7,
+    )
+    start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
+        description="Angle of each ball at the start [degrees]; -1e6 … 1e6.", examples=[[90.0, -90.0]]
+    )
+    start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = Field(
+        default=None,
+        description="Speed of each ball at the start, relative to the race [rpm]; -1e6 … 1e6. Without it: at rest in "
+        "the race.",
+        examples=[[0.0, 0.0]],
+    )
+
+    @property
+    def start_speeds(self) -> tuple[float, ...]:
+        """Speed of each ball at the start [rpm], whether given or not."""
+        return self.start_speeds_rpm if self.start_speeds_rpm is not None else (0.0,) * len(self.ball_masses_g)
+
+    def own_defaults(self) -> dict[str, object]:
+        """The speeds of the balls are the one default as long as another list."""
+        derived = {} if self.start_speeds_rpm is not None else {"start_speeds_rpm": self.start_speeds}
+        return {**super().own_defaults(), **derived}
+
+    @model_validator(mode="after")
+    def _lists_are_of_one_length(self) -> Self:
+        balls = len(self.ball_masses_g)
+        for key in ("start_angles_deg", "start_speeds_rpm"):
+            given = getattr(self, key)
+            if given is not None and len(given) != balls:
+                message = "one value for each ball of ball_masses_g"
+                raise problem(message, key, found=str(len(given)), allowed=str(balls))
+        return self
+
+    @model_validator(mode="after")
+    def _balls_are_smaller_than_the_race(self) -> Self:
+        if self.ball_radius_mm is not None and self.ball_radius_mm >= self.pitch_radius_mm:
+            raise problem(
+                "the balls are larger than their race",
+                "ball_radius_mm",
+                found=f"{self.ball_radius_mm:g} mm",
+                allowed=f"below pitch_radius_mm, {self.pitch_radius_mm:g} mm",
+            )
+        return self
+
+
+def refuse_overlap(index: int, race: SceneRace, ball_radius: float) -> None:
+    """Balls that have a size [mm] cannot start in one place, and need room to move."""
+    half_angle = math.asin(ball_radius / race.pitch_radius_mm)
+    order = sorted(range(len(race.start_angles_deg)), key=lambda k: race.start_angles_deg[k] % 360)
+    angles = [math.radians(race.start_angles_deg[k] % 360) for k in order]
+    if 2 * half_angle * len(angles) > math.tau - TOUCHING:
+        raise problem(
+            "the balls fill their race and cannot move against each other",
+            *("race", index, "ball_masses_g"),
+            found=f"{len(angles)} balls",
+            allowed=f"at most {int((math.pi - TOUCHING) / half_angle)} of ball_radius_mm = {ball_radius:g}",
+            remedy="fewer or smaller balls, or leave [scene.effects.ball_contact] out",
+        )
+    # A ball alone on its race is its own neighbour, a whole turn away.
+    for place, angle in enumerate(angles):
+        gap = (angles[(place + 1) % len(angles)] - angle) % math.tau or math.tau * (len(angles) == 1)
+        if gap < 2 * half_angle - TOUCHING:
+            one, other = sorted((order[place] + 1, order[(place + 1) % len(angles)] + 1))
+            raise problem(
+                f"balls {one} and {other} overlap at the start",
+                *("race", index, "start_angles_deg"),
+                found=f"{math.degrees(gap):.6g}° apart",
+                allowed=f"at least {math.degrees(2 * half_angle):.6g}°",
+                remedy="part them, or leave [scene.effects.ball_contact] out",
+            )

@@ -1,0 +1,124 @@
+"""The scenes that are measured, and references for them that two integrators of different kinds agree on."""
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import cast
+
+import numpy as np
+
+from abu_calc import read_machine, size
+from abu_calc.dynamics.assemble import Equations, assemble
+from abu_calc.dynamics.from_design import scene_of_design
+from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
+from abu_calc.dynamics.scene import Scene, SwingArm, only
+from abu_calc.sizing.design import Design
+from abu_calc.spec.presets import names
+from tests.benchmarks.equations import grinder
+from tests.benchmarks.measuring import Array, Run
+
+SMOOTH = ("race_eccentricity", "gravity")
+"""Effects without events, which peers have too."""
+
+MOMENTS = 51
+"""Of the common grid, from the start to the end."""
+
+BALLS = (2, 4, 8, 16, 32, 64)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene with what all candidates share."""
+
+    name: str
+    scene: Scene
+    equations: Equations
+    moments: Array
+
+    @property
+    def rows(self) -> list[int]:
+        """Which states are compared: the support's coordinates and the ball angles."""
+        size, balls = self.equations.parameters.size, self.equations.parameters.balls
+        return [*range(size), *range(2 * size, 2 * size + balls)]
+
+    @property
+    def scales(self) -> Array:
+        """Of these."""
+        return np.array(self.equations.scales)[self.rows]
+
+    def run(self, candidate: str, tolerance: float) -> Run:
+        """One run of the library itself, `candidate` as it names its integrators."""
+
+        def go() -> tuple[Array, int]:
+            if candidate == "heyoka":
+                found = heyoka_.integrate(self.equations, tolerance, self.moments)
+            else:
+                method = cast(scipy_.Method, candidate)
+                found = scipy_.integrate(self.equations, tolerance, self.moments, method=method)
+            return found.y[self.rows], found.evaluations
+
+        return Run(f"abu-calc {candidate}", tolerance, go)
+
+    def reference(self) -> tuple[Array, float]:
+        """Coordinates, and how far the two integrators that vouch for them are apart."""
+        (one, loose), (other, tight) = (("scipy-dop853", 1e-12), ("scipy-rk45", 1e-11))
+        if choice.unfit(self.equations) is None:
+            other, tight = "heyoka", 1e-13
+        first, second = self.run(one, loose).go()[0], self.run(other, tight).go()[0]
+        return second, float((np.abs(first - second) / self.scales[:, None]).max())
+
+
+def case(name: str, scene: Scene) -> Case:
+    """A case on the common grid."""
+    return Case(name, scene, assemble(scene), np.linspace(0.0, scene.duration, MOMENTS))
+
+
+@cache
+def design(preset: str) -> Design:
+    """A preset, sized."""
+    machine = read_machine(preset).machine
+    return size(machine)  # type: ignore[arg-type]
+
+
+def presets() -> list[str]:
+    """The presets of whole machines that can be sized."""
+    return [name for name in names() if hasattr(read_machine(name).machine, "autobalancer")]
+
+
+def with_effects(scene: Scene, wanted: Collection[str]) -> Scene:
+    """The scene with those of these effects that it has."""
+    return only(scene, [effect.name for effect in scene.effects if effect.name in wanted])
+
+
+def smooth(preset: str) -> Case:
+    """A preset idling, balls bunched, with eccentricity and gravity."""
+    return case(preset, with_effects(scene_of_design(design(preset), "idle"), SMOOTH))
+
+
+def friction(preset: str = "avtovaz-707-222") -> Case:
+    """Balls that find their places and stick there, without gravity, which would shake them loose."""
+    scene = scene_of_design(design(preset), "idle")
+    return case("stuck by friction", with_effects(scene, ("race_eccentricity", "dry_rolling_friction")))
+
+
+def contact(preset: str = "avtovaz-707-222") -> Case:
+    """Wheel and work touch and part."""
+    scene = scene_of_design(design(preset), "grinding")
+    return case("contact", with_effects(scene, (*SMOOTH, "grinding_contact")))
+
+
+def resonance(preset: str = "swing-arm-grinder") -> Case:
+    """The arm pressed to the work, at the speed at which it resonates with its balls."""
+    scene = with_effects(scene_of_design(design(preset), "swing-arm-cutting"), SMOOTH)
+    arm = scene.support
+    if not isinstance(arm, SwingArm):
+        raise TypeError("the resonance is that of a swing arm")
+    square = arm.length**2
+    speed = math.sqrt(arm.stiffness * square / (arm.inertia + sum(scene.ball_masses) * square))
+    return case("arm in resonance", replace(scene, speed=speed))
+
+
+def many_balls(count: int) -> Case:
+    """The straight grinder with so many balls round its race."""
+    return case(f"{count} balls", grinder(count))

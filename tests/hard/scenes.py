@@ -1,0 +1,143 @@
+"""Scenes the hard cases share, and the judges that hold a run to what must hold."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from abu_calc.analysis.differences import difference
+from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.simulate import Simulation, simulate
+from abu_calc.dynamics.assemble import Equations, assemble
+from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.energy import Bodies, energy, power
+from abu_calc.dynamics.integrators.choice import integrate_with, unfit
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
+from abu_calc.dynamics.modes import at_break, settled
+from abu_calc.dynamics.scene import Race, Scene, Support, with_parted_balls
+from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.trajectory import Trajectory
+
+RPM = math.pi / 30
+CLAIM = 3.0
+"""A run may be wrong by so many times the error it claims."""
+
+ROUNDING = 1e-6
+"""A claim below this is met by anything as near: what it is compared with has an error of its own."""
+
+
+def machine(
+    speed: float,
+    angles: Sequence[float],
+    duration: float,
+    *effects: Effect,
+    mass: float = 5.0,
+    frequencies: tuple[float, float] = (80.0, 80.0),
+    damping_ratio: float = 0.1,
+    imbalance: float = 200e-6,
+    ball_mass: float = 0.0167,
+    drag: float = 20.0,
+    pitch_radius: float = 0.024,
+    inertia_factor: float = 1.4,
+    start_speeds: Sequence[float] | None = None,
+) -> Scene:
+    """A hand grinder of 5 kg without its balls, whose natural frequencies [rad/s] are those of this mass."""
+    stiffness = mass * frequencies[0] ** 2, mass * frequencies[1] ** 2
+    damping = 2 * damping_ratio * mass * frequencies[0], 2 * damping_ratio * mass * frequencies[1]
+    speeds = tuple(start_speeds) if start_speeds else (0.0,) * len(angles)
+    race = Race(pitch_radius, (ball_mass,) * len(angles), drag, inertia_factor, tuple(angles), speeds)
+    return scene_of(planar(mass, stiffness, damping), speed, imbalance, (race,), duration, *effects)
+
+
+def scene_of(
+    support: Support, speed: float, imbalance: float, races: tuple[Race, ...], duration: float, *effects: Effect
+) -> Scene:
+    """From rest at the middle, the imbalance at the zero mark."""
+    rest = (0.0,) * len(support.names)
+    return Scene("hard", support, speed, imbalance, 0.0, races, duration, rest, rest, effects=tuple(effects))
+
+
+def run(scene: Scene, times: Sequence[float] | np.ndarray, way: str = "scipy-dop853", tolerance: float = 1e-9) -> Trajectory:
+    """By one integrator."""
+    return integrate_with(way, assemble(scene), tolerance, np.asarray(times, dtype=float), MOST_EVALUATIONS)
+
+
+def apart(equations: Equations, one: np.ndarray, other: np.ndarray) -> float:
+    """The largest difference of two runs' states, in the scales of the states."""
+    return float((np.abs(one - other) / np.array(equations.scales)[:, None]).max())
+
+
+def second_way(equations: Equations) -> tuple[str, float]:
+    """An integrator of another kind than DOP853, tight: heyoka where it is installed, else Radau."""
+    return ("scipy-radau", 1e-9) if unfit(equations) else ("heyoka", 1e-12)
+
+
+def check_agreement(scene: Scene, within: float, samples: int = 41, way: str = "scipy-dop853") -> Trajectory:
+    """Two integrators of different kinds, and two tolerances, go the same way; returns the motion by the second kind."""
+    equations, times = assemble(scene), np.linspace(0, scene.duration, samples)
+    other, tight = second_way(equations)
+    reference = run(scene, times, other, tight)
+    for tolerance in (1e-9, 1e-11):
+        found = run(scene, times, way, tolerance)
+        assert apart(equations, found.y, reference.y) < within
+    return reference
+
+
+def check_claim(scene: Scene, accuracy: float = 0.01, most: int = MOST_EVALUATIONS) -> Simulation:
+    """A result is as near to an independent, tight run as it claims, but for a factor of three."""
+    simulation = simulate(scene, accuracy, integrator="scipy", most_evaluations=most)
+    parted, _ = with_parted_balls(scene)
+    equations = assemble(parted)
+    other, tight = second_way(equations)
+    exact = evaluate(parted, run(parted, needed_moments(parted), other, tight))
+    wrong = difference(parted, simulation.response, exact)
+    assert simulation.error_estimate <= accuracy
+    assert wrong <= CLAIM * max(simulation.error_estimate, ROUNDING)
+    return simulation
+
+
+def check_energy(scene: Scene, trajectory: Trajectory, within: float) -> None:
+    """What the energy changes by is the work done, the drive's included; impacts take some more.
+
+    By Simpson's rule over the samples, an odd number of them, equally spaced; relative to all work that is done.
+    """
+    equations, stored, rates = assemble(scene), [], []
+    for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
+        modes = at_break(equations, t, equations.parameters.modes)
+        state, modes = settled(equations, t, y, modes)
+        stored.append(float(energy(scene, t, state, modes)))
+        rates.append(power(scene, t, state, modes))
+    E, P, step = np.array(stored), np.array(rates), trajectory.t[1] - trajectory.t[0]
+    work = np.concatenate([[0.0], np.cumsum(step / 3 * (P[:-2:2] + 4 * P[1:-1:2] + P[2::2]))])
+    done = max(step * np.abs(P).sum(), np.ptp(E))
+    assert np.abs(E[::2] - E[0] - work).max() <= within * done
+
+
+def jacobi(scene: Scene, trajectory: Trajectory) -> np.ndarray:
+    """E − Ω L of all samples: constant where nothing is damped and the support is isotropic, seen from the rotor."""
+    bodies, found = Bodies(scene), []
+    for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
+        x, v = bodies.split(t, y)
+        momenta = bodies.mass(x) @ v
+        turning = momenta[-1] + x[0] * momenta[1] - x[1] * momenta[0]
+        found.append(float(energy(scene, t, y)) - scene.speed * turning)
+    return np.array(found)
+
+
+def resultant(scene: Scene, angles: np.ndarray) -> complex:
+    """Imbalance of rotor and balls [kg m]."""
+    own = scene.imbalance * np.exp(1j * scene.imbalance_angle)
+    return complex(own + np.array(scene.ball_moments) @ np.exp(1j * angles))
+
+
+def balls_at_end(scene: Scene, trajectory: Trajectory) -> np.ndarray:
+    """Angles of the balls at the last sample."""
+    first = 2 * len(scene.support.names)
+    return trajectory.y[first : first + len(scene.ball_masses), -1]
+
+
+def standing(scene: Scene) -> Scene:
+    """The scene started with its balls at rest in space while the rotor turns at full speed."""
+    races = tuple(replace(race, start_speeds=(-scene.speed,) * len(race.ball_masses)) for race in scene.races)
+    return replace(scene, races=races)
