@@ -79,7 +79,7 @@ def test_light_commands_load_no_numerics(arguments: tuple[str, ...]) -> None:
 def test_size_loads_only_what_it_needs() -> None:
     modules = _loaded_modules("size", "avtovaz-707-222", "--json")
     assert {"scipy", "numpy"} <= modules
-    assert not modules & {"matplotlib", "jsonschema", "tomlkit", "pandas", "heyoka"}
+    assert not modules & {"matplotlib", "jsonschema", "tomlkit", "pandas"}
 
 
 def _public(body: list[ast.stmt]) -> list[ast.FunctionDef | ast.ClassDef]:

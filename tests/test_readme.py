@@ -24,6 +24,15 @@ def test_the_example_is_real_output() -> None:
     assert numbers[0] == pytest.approx(numbers[1], rel=0.05) and len(numbers[0]) > 50
 
 
+def test_the_scene_is_simulated(tmp_path: Path) -> None:
+    shown = re.search(r"```toml\n(.*?)```", README, re.DOTALL)
+    assert shown is not None
+    file = tmp_path / "my-scene.toml"
+    file.write_text(shown[1], encoding="utf-8")
+    seen = abu("simulate", str(file), "--json")
+    assert seen.status == 0 and len(seen.document["result"]["effects"]) == 4
+
+
 def test_every_command_is_named() -> None:
     listed = re.findall(r"^  (\S+) ", abu("--help").out.split("Commands:")[1].split("\n\n")[0], re.MULTILINE)
     assert len(listed) >= 8

@@ -1,4 +1,4 @@
-"""What accuracy costs in time: every rung of the ladder, integrator and tolerance, against a reference that is verified."""
+"""What accuracy costs in time: every rung, integrator and tolerance, against a reference that is verified."""
 
 import math
 import statistics
@@ -32,6 +32,7 @@ MOST_EVALUATIONS: Final = 2_000_000
 REPEATS: Final = 3
 LONG: Final = 0.5
 """Seconds above which one repeat has to do."""
+
 
 @dataclass(frozen=True)
 class Point:
@@ -159,8 +160,10 @@ def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method
     def tell(trajectory: Trajectory) -> tuple[Told, int, int]:
         return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
 
-    return Method(rung, name, tolerance, lambda: choice.integrate_with(name, equations, tolerance, moments, MOST_EVALUATIONS),
-                  tell)  # fmt: skip
+    def run() -> Trajectory:
+        return choice.integrate_with(name, equations, tolerance, moments, MOST_EVALUATIONS)
+
+    return Method(rung, name, tolerance, run, tell)
 
 
 def _point(full: Scene, method: Method, reference: Reference, quantity: str, end: float) -> Point:
@@ -181,8 +184,18 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
         warm.append(time.perf_counter() - started)
     told, evaluations, steps = method.tell(run)
     error = QUANTITIES[quantity](full, told, reference.response)
-    return Point(method.rung, method.integrator, method.tolerance, error if math.isfinite(error) else None, evaluations,
-                 steps, statistics.median(warm) if warm else cold, cold, "" if math.isfinite(error) else "not settled alike")  # fmt: skip
+    known = math.isfinite(error)
+    return Point(
+        rung=method.rung,
+        integrator=method.integrator,
+        tolerance=method.tolerance,
+        error=error if known else None,
+        evaluations=evaluations,
+        steps=steps,
+        wall_s=statistics.median(warm) if warm else cold,
+        cold_s=cold,
+        note="" if known else "not settled alike",
+    )
 
 
 def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:

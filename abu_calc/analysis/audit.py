@@ -10,7 +10,7 @@ from abu_calc.dynamics.scene import Scene
 
 @dataclass(frozen=True)
 class Audit:
-    """The true difference, counted as accuracy counts errors, beside what the weights of the effects left out promised."""
+    """The true difference, counted as accuracy counts errors, beside what the weights of what was left out promised."""
 
     difference: float
     promise: float

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude
 from abu_calc.dynamics.parameters import rotor_of
+from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude
 from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
 from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.errors import NotTrustworthyError
 from abu_calc.units import level_from_velocity
 
 SAMPLES_PER_REVOLUTION = 64
@@ -33,8 +34,8 @@ class Window:
 class FinalState:
     """Where the run ended: axis [m, m/s], ball angles [rad] unwrapped, their mean speeds in the window.
 
-    `tilt` [rad]: θ_y, −θ_x on a support that tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s] of
-    the rotor.
+    `tilt` [rad]: θ_y, −θ_x on a support that tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s]
+    of the rotor.
     """
 
     t: float
@@ -94,8 +95,12 @@ def needed_moments(scene: Scene) -> Array:
 
 
 def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
-    """The results of a trajectory that was sampled at least at `needed_moments`."""
+    """The results of a trajectory that was sampled at least at `needed_moments`.
+
+    Raises NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
+    """
     window, moments = amplitude_window(scene), settling_moments(scene)
+    _check_arm(scene, trajectory)
     first = 2 * len(scene.support.names)
     balls = slice(first, first + len(scene.ball_masses))
     states, run = trajectory.at(window.times), trajectory.at(moments)
@@ -122,6 +127,17 @@ def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
         # The mean of a speed is the way made; exact, whatever the samples.
         final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
     )
+
+
+def _check_arm(scene: Scene, trajectory: Trajectory) -> None:
+    """No joint and no work goes on holding an arm by a spring that has turned it right round."""
+    if isinstance(scene.support, SwingArm):
+        beyond = trajectory.t[np.abs(trajectory.y[0]) > math.pi]
+        if len(beyond):
+            raise NotTrustworthyError(
+                f"the arm has turned right round at t = {beyond[0]:.6g} s: it does not stand, or resonates\n"
+                "  a stiffer or more damped joint, a contact angle nearer to 90°, or a shorter run"
+            )
 
 
 def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:
@@ -161,21 +177,19 @@ def axis_velocity(scene: Scene, states: Array) -> Array:
     """The velocity of the axis [m/s], likewise."""
     support, size = scene.support, len(scene.support.names)
     if isinstance(support, SwingArm):
-        return support.length * states[1] * np.array((-np.sin(states[0]), np.cos(states[0])))
+        return np.asarray(support.length * states[1] * np.array((-np.sin(states[0]), np.cos(states[0]))))
     return np.asarray(_at_plane(support, 0.0) @ states[size : 2 * size])
 
 
 def _at_plane(support: LinearSupport, plane: float) -> Array:
     P = np.array(support.race_map)
-    return P if len(P) == 2 else P[:2] + plane * P[2:]
+    return np.asarray(P[:2] + plane * P[2:] if len(P) > 2 else P, dtype=float)
 
 
 def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
     places = scene.support.bearings if isinstance(scene.support, LinearSupport) else ()
     return tuple(
-        _largest_radius(
-            axis_place(scene, states, z) - axis_place(scene, whole, z).mean(axis=1, keepdims=True)
-        )
+        _largest_radius(axis_place(scene, states, z) - axis_place(scene, whole, z).mean(axis=1, keepdims=True))
         for z in places
     )
 

@@ -13,7 +13,20 @@ from abu_calc.cli.start import INTERRUPTED
 from abu_calc.errors import AbuError, InputError, OutputError
 from abu_calc.version import __version__
 
-COMMANDS = ("size", "check-fit", "simulate", "stability", "effects", "accuracy", "verify", "validate", "init", "presets", "schema", "explain")
+COMMANDS = (
+    "size",
+    "check-fit",
+    "simulate",
+    "stability",
+    "effects",
+    "accuracy",
+    "verify",
+    "validate",
+    "init",
+    "presets",
+    "schema",
+    "explain",
+)
 """In the order of the help; each has its module."""
 
 

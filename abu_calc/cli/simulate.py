@@ -67,22 +67,22 @@ def simulate(
         ledger = chosen(full, accuracy, with_ or (), without or ())
     moments = trajectory_moments(full, samples or SAMPLES) if trajectory else ()
     run = integrate(ledger.scene, accuracy, moments, integrator=integrator)
-    result, checks = simulation_result(run, ledger), (_accuracy_check(run, accuracy),)
+    result, checks = simulation_result(run, ledger), [_accuracy_check(run, accuracy)]
     if audit:
         audited = run_again(full, ledger, run, accuracy, integrator)
         result["audit"] = audit_result(audited)
-        checks = (*checks, _audit_check(audited, accuracy))
+        checks.append(_audit_check(audited, accuracy))
     if trajectory:  # when nothing can fail or be interrupted for long any more
         write(trajectory, trajectory_csv(run.scene, run.trajectory, moments))
     warnings, defaults = (*subject.warnings, *run.warnings), subject.source.defaults_used
     blocks = simulate_blocks(subject.title, subject.start, result, run.scene, checks, warnings, defaults)
     model = scene_model(run.scene)
-    return Outcome("simulate", result, blocks, source_of(subject.source), checks, model, warnings, overall(checks))
+    return Outcome(
+        "simulate", result, blocks, source_of(subject.source), tuple(checks), model, warnings, overall(checks)
+    )
 
 
-def _check_options(
-    how: Delivery, integrator: str, trajectory: Path | None, samples: int | None
-) -> None:
+def _check_options(how: Delivery, integrator: str, trajectory: Path | None, samples: int | None) -> None:
     """Refuse what cannot be done before anything is computed."""
     from abu_calc.report.files import check_target
 

@@ -1,4 +1,4 @@
-"""What `abu simulate`, `stability` and `effects` work on: the scene of a scene file, or of a machine that is sized first."""
+"""What `abu simulate`, `stability`, `effects` work on: the scene of a scene file, or of a machine that is sized."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

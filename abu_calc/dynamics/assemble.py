@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.equations import rhs
-from abu_calc.dynamics.parameters import Array, Parameters, parameters_of, rotor_of
+from abu_calc.dynamics.parameters import Array, Parameters, parameters_of
 from abu_calc.dynamics.scene import Scene, SwingArm
 from abu_calc.dynamics.supports import linear, swing_arm, tilting
 
@@ -121,4 +121,3 @@ def _shares(scene: Scene, P: Array) -> list[float]:
         tilting_ones = np.hypot(*P[2:]) * max((race.pitch_radius for race in scene.races), default=0.0)
         moved.append(tilting_ones)
     return [float(value) for value in np.max(moved, axis=0)]
-

@@ -136,7 +136,8 @@ class Bodies:
     @property
     def rolling(self) -> Array:
         """(J − 1) m of each ball."""
-        return np.array(self.scene.ball_masses) * (_each(self.scene, "inertia_factor") - 1)
+        masses: Array = np.array(self.scene.ball_masses) * (_each(self.scene, "inertia_factor") - 1)
+        return masses
 
     @property
     def freedoms(self) -> int:

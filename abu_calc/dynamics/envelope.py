@@ -6,8 +6,8 @@ w_i is the forward part of the whirl of race i, seen from the rotor; U_j the imb
 plane j, U of a race Σ m R_p e^{iθ} and m Δ e^{iφ} of its offset; h⁺ = ½(h_xx + h_yy + i(h_yx − h_xy)) the forward
 receptance of the support with the balls' mass. It is as slow as the balls, so it costs a small share of the equations.
 
-Range: constant speed, linear supports or a swing arm idling, steady response of the support: the balls' own rate must be
-small against the distance of the speed from the natural frequencies, and no effect may switch. Source: Kladiev 1996,
+Range: constant speed, linear supports or a swing arm idling, steady response of the support: the balls' own rate must
+be small against the distance of the speed from the natural frequencies, and no effect may switch. Source: Kladiev 1996,
 (4)–(7), generalised; Blekhman 1988, ch. 2 (vibrational moments).
 """
 
@@ -29,7 +29,7 @@ AVERAGED: Final = frozenset({"gravity", "race_eccentricity"})
 """Effects the averages account for: gravity has none, an offset race is part of the whirl."""
 
 SLOW: Final = 0.3
-"""Largest rate of the balls, relative to the distance of the speed from the natural frequencies, that counts as slow."""
+"""Largest rate of the balls, relative to the distance of the speed from natural frequencies, that counts as slow."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,9 @@ def _forward(scene: Scene) -> Complex:
     """h⁺ [m/N] of the races by forces on the centre of mass, the couple, and each race."""
     h = receptance(loaded(scene), scene.speed)
     pairs = len(h) // 2
-    blocks = np.array([[_circular(h[2 * i : 2 * i + 2, 2 * j : 2 * j + 2]) for j in range(pairs)] for i in range(pairs)])
+    blocks = np.array(
+        [[_circular(h[2 * i : 2 * i + 2, 2 * j : 2 * j + 2]) for j in range(pairs)] for i in range(pairs)]
+    )
     places = np.array([(1.0, race.plane_offset)[:pairs] for race in scene.races])
     sources = np.concatenate([np.eye(2)[:, :pairs], places])
     return np.asarray(places @ blocks @ sources.T, dtype=complex)
@@ -142,8 +144,8 @@ def not_averaged(scene: Scene) -> str | None:
     rate, gap = ball_rate(scene), natural_gap(scene)
     if rate > SLOW * gap:
         return (
-            f"the balls' own rate, {rate:.3g} rad/s, is not small against the {gap:.3g} rad/s between the speed and the "
-            "nearest natural frequency"
+            f"the balls' own rate, {rate:.3g} rad/s, is not small against the {gap:.3g} rad/s between the speed and "
+            "the nearest natural frequency"
         )
     return None
 
@@ -153,7 +155,9 @@ def ball_rate(scene: Scene) -> float:
     model = averages(scene)
     races = model.forward.shape[0]
     sizes = [float((model.moments * (model.race == i) / model.radii / model.factors).sum()) for i in range(races)]
-    return scene.speed**2 * math.sqrt(max((abs(model.forward[i, 2 + i]) * size for i, size in enumerate(sizes)), default=0))
+    return scene.speed**2 * math.sqrt(
+        max((abs(model.forward[i, 2 + i]) * size for i, size in enumerate(sizes)), default=0)
+    )
 
 
 def natural_gap(scene: Scene) -> float:
@@ -165,7 +169,9 @@ def natural_gap(scene: Scene) -> float:
         N = len(support.names)
         damping = np.array(support.damping) + (scene.speed * np.array(support.gyroscopic) if support.gyroscopic else 0)
         M = np.array(support.mass)
-        A = np.block([[np.zeros((N, N)), np.eye(N)], [-np.linalg.solve(M, support.stiffness), -np.linalg.solve(M, damping)]])
+        A = np.block(
+            [[np.zeros((N, N)), np.eye(N)], [-np.linalg.solve(M, support.stiffness), -np.linalg.solve(M, damping)]]
+        )
         natural = np.abs(np.linalg.eigvals(A).imag)
     return float(np.abs(scene.speed - natural).min())
 

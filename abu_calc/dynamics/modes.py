@@ -1,4 +1,4 @@
-"""Modes: the discrete ways in which effects act (sticking or rolling, touching or apart), switched at located events."""
+"""Modes: the discrete ways in which effects act (sticking or rolling, touching or apart), switched at events."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -57,9 +57,7 @@ def at_break(equations: Equations, t: float, modes: Modes) -> Modes:
     return tuple(effect.mode_at(equations.scene, t, mode) for effect, mode in pairs)
 
 
-def settled(
-    equations: Equations, t: float, y: NDArray[np.float64], modes: Modes
-) -> tuple[NDArray[np.float64], Modes]:
+def settled(equations: Equations, t: float, y: NDArray[np.float64], modes: Modes) -> tuple[NDArray[np.float64], Modes]:
     """State and modes with which the motion can go on: each effect decides in turn, until all agree.
 
     Raises NotTrustworthyError when they never do.

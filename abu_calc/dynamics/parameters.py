@@ -83,7 +83,7 @@ class Parameters:
     """How each effect acts at the moment (sticking, touching …); None where there is one way only."""
 
     def in_mode(self, modes: tuple[Any, ...]) -> "Parameters":
-        """The same numbers in other modes: some thousand times in a run, so without `replace`, which asks every field."""
+        """The same numbers in other modes; some thousand times in a run, so without `replace`, which is slow."""
         changed = object.__new__(Parameters)
         changed.__dict__.update(self.__dict__, modes=modes)
         return changed

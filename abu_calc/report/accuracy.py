@@ -17,9 +17,9 @@ HEIGHT: Final = 16
 
 ABOUT: Final = (
     "Errors are against the reference, with every effect there is data for: amplitude relative to the larger of itself "
-    "and 1 % of that without balls, level likewise of the velocity (0.01 is 0.09 dB), settling time relative, angles in "
-    "rad. Times are those of the integration alone: warm, the median of repeats; cold, the first run with import and "
-    "compilation. They belong to this machine at this moment."
+    "and 1 % of that without balls, level likewise of the velocity (0.01 is 0.09 dB), settling time relative, angles "
+    "in rad. Times are those of the integration alone: warm, the median of repeats; cold, the first run with import "
+    "and compilation. They belong to this machine at this moment."
 )
 
 

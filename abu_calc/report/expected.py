@@ -11,6 +11,9 @@ from abu_calc.report.quantities import number
 DEFAULT_TOLERANCE: Final = 1e-3
 """Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""
 
+SIMULATED_TOLERANCE: Final = 0.02
+"""Of what is simulated: to the accuracy of 0.01 asked for by default, on either side, whatever the integrator."""
+
 WORTH_KEEPING: Final = (
     "status",
     "imbalance_g_mm",
@@ -55,7 +58,8 @@ def compare(
 def _difference(
     path: str, value: Any, tolerance: float | None, result: Mapping[str, Any], leaves: Mapping[str, Any]
 ) -> Difference:
-    allowed = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    usual = SIMULATED_TOLERANCE if path.startswith("simulation.") else DEFAULT_TOLERANCE
+    allowed = usual if tolerance is None else tolerance
     found = leaves[path] if path in leaves else _inner(result, path)
     if isinstance(value, list) and isinstance(found, (list, tuple)) and len(value) == len(found):
         pairs = [_deviation(a, b) for a, b in zip(value, found, strict=True)]

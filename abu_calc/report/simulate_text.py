@@ -17,6 +17,11 @@ CONVENTIONS = (
     "final value."
 )
 
+FINAL = (
+    *("x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad"),
+    "rotor_speed_rpm",
+)
+
 
 def simulate_blocks(
     title: str,
@@ -37,7 +42,7 @@ def simulate_blocks(
         Heading("Motion"),
         facts(result, *keys),
         *_final(result["final"]),
-        *([Heading("Effects"), ledger_grid(result["effects"])] if result["effects"] else []),
+        *_effects(result["effects"]),
         *_audit(result.get("audit")),
         *check_blocks(checks),
         *warning_blocks(warnings),
@@ -70,6 +75,10 @@ def _model(scene: Scene) -> str:
     return f"{support}, {where} with {balls} balls in all, viscous rolling drag{contact}."
 
 
+def _effects(entries: list[dict[str, Any]]) -> list[Block]:
+    return [Heading("Effects"), ledger_grid(entries)] if entries else []
+
+
 def _audit(audit: dict[str, Any] | None) -> list[Block]:
     if audit is None:
         return []
@@ -97,8 +106,7 @@ def _final(final: dict[str, Any]) -> list[Block]:
     )
     blocks: list[Block] = [
         Heading(f"At the end, {shown('t_s', final['t_s'])}"),
-        facts(final, "x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad",
-              "rotor_speed_rpm"),  # fmt: skip
+        facts(final, *FINAL),
     ]
     return [*blocks, Grid(("ball", "angle", "speed"), rows, frozenset({1, 2}))] if rows else blocks
 

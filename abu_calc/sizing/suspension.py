@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol
 
+from abu_calc.errors import InputError, Place
 from abu_calc.standards.hands import Hand
 
 
@@ -55,8 +56,19 @@ FASTEST = 6283.0
 
 
 def dynamic_stiffness(suspension: Suspension, axis: int, speed: float, mass: float) -> complex:
-    """D = reaction − mΩ² [N/m], the machine's mass m [kg] at the wheel included."""
-    return suspension.reaction(axis, speed) - mass * speed**2
+    """D = reaction − mΩ² [N/m], the machine's mass m [kg] at the wheel included.
+
+    Raises InputError at a resonance that nothing damps: there is no steady motion.
+    """
+    stiffness = suspension.reaction(axis, speed) - mass * speed**2
+    if stiffness == 0:
+        raise InputError(
+            "the speed is a natural frequency, which nothing damps: vibration grows without bound",
+            place=Place(key="suspension.damping_ratios"),
+            found=f"{speed:g} rad/s",
+            remedy="give the suspension some damping, or hold the machine more softly",
+        )
+    return stiffness
 
 
 def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float:

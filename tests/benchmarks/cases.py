@@ -8,13 +8,15 @@ from typing import cast
 
 import numpy as np
 
-from abu_calc import read_machine, size
 from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.from_design import scene_of_design
 from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
 from abu_calc.dynamics.scene import Scene, SwingArm, only
+from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
+from abu_calc.spec.machine import Machine
 from abu_calc.spec.presets import names
+from abu_calc.spec.read import read_machine
 from tests.benchmarks.equations import grinder
 from tests.benchmarks.measuring import Array, Run
 
@@ -78,12 +80,14 @@ def case(name: str, scene: Scene) -> Case:
 def design(preset: str) -> Design:
     """A preset, sized."""
     machine = read_machine(preset).machine
-    return size(machine)  # type: ignore[arg-type]
+    if not isinstance(machine, Machine):
+        raise TypeError(f"{preset} holds bearings alone")
+    return size(machine)
 
 
 def presets() -> list[str]:
     """The presets of whole machines that can be sized."""
-    return [name for name in names() if hasattr(read_machine(name).machine, "autobalancer")]
+    return [name for name in names() if isinstance(read_machine(name).machine, Machine)]
 
 
 def with_effects(scene: Scene, wanted: Collection[str]) -> Scene:

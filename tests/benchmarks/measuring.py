@@ -1,21 +1,25 @@
 """How benchmarks are run, compared and kept: interleaved repeats, medians, times at equal error, records."""
 
 import importlib.metadata
+import itertools
 import json
 import math
 import os
 import platform
 import random
+import re
 import statistics
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from abu_calc.errors import AbuError
 
 Array = NDArray[np.float64]
 
@@ -65,7 +69,12 @@ def measure(runs: Sequence[Run], reference: Array, scales: Array, seed: int, rou
     found = []
     for run in runs:
         started = time.perf_counter()
-        states, evaluations = run.go()
+        try:
+            states, evaluations = run.go()
+        except AbuError as failure:
+            print(f"  {run.candidate} {run.setting:g}: {str(failure).splitlines()[0]}")
+            found.append((math.inf, 0, math.inf, 1))
+            continue
         first = time.perf_counter() - started
         started = time.perf_counter()
         if first < LONGEST:
@@ -78,17 +87,19 @@ def measure(runs: Sequence[Run], reference: Array, scales: Array, seed: int, rou
     for _ in range(rounds):
         shuffler.shuffle(order)
         for k in order:
-            if found[k][2] < LONGEST or not times[k]:
+            if found[k][2] < LONGEST or (math.isfinite(found[k][0]) and not times[k]):
                 times[k].append(_timed(runs[k].go, found[k][3]))
     points = []
     for run, (error, evaluations, first, _), spent in zip(runs, found, times, strict=True):
+        if not spent:  # it failed: an infinite error says so
+            points.append(Point(run.candidate, run.setting, error, 0, math.inf, math.inf, math.inf, first, 0))
+            continue
         cpu, wall = ([pair[i] for pair in spent] for i in (0, 1))
         middle = statistics.median(cpu)
         low, high = np.quantile(cpu, (0.25, 0.75)).tolist()
         spread = (high - low) / middle
-        points.append(
-            Point(run.candidate, run.setting, error, evaluations, middle, statistics.median(wall), spread, first, len(cpu))
-        )  # fmt: skip
+        taken = middle, statistics.median(wall), spread
+        points.append(Point(run.candidate, run.setting, error, evaluations, *taken, first, len(cpu)))
     return points
 
 
@@ -116,7 +127,7 @@ def time_at(points: Iterable[Point], candidate: str, error: float) -> float | No
             math.log(a.cpu_s)
             + math.log(a.error / error) / math.log(a.error / b.error) * (math.log(b.cpu_s) - math.log(a.cpu_s))
         )
-        for a, b in zip(curve, curve[1:], strict=False)
+        for a, b in itertools.pairwise(curve)
         if a.error > error >= b.error > 0
     ]
     return min(reached + between, default=None)
@@ -179,7 +190,7 @@ def keep(name: str, what: str, command: str, where: dict[str, Any], seed: int, c
     record = {
         "what": what,
         "command": command,
-        "date": datetime.now(timezone.utc).strftime("%Y-%m-%d"),
+        "date": datetime.now(UTC).strftime("%Y-%m-%d"),
         "machine": where,
         "versions": versions(),
         "seed": seed,
@@ -187,7 +198,10 @@ def keep(name: str, what: str, command: str, where: dict[str, Any], seed: int, c
         "cases": cases,
     }
     path = RECORDS / f"{name}.json"
-    path.write_text(json.dumps(_rounded(record), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    text = json.dumps(_rounded(record), indent=1, ensure_ascii=False)
+    # What holds no more braces or brackets stands on one line, so that a point is a line.
+    text = re.sub(r"[{\[][^{}\[\]]*[}\]]", lambda found: " ".join(found[0].split()), text)
+    path.write_text(text + "\n", encoding="utf-8")
     return path
 
 

@@ -104,10 +104,44 @@ def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
     assert not document["result"]["frequency"]["balancing_possible"]
 
 
-def test_hands_are_sized_and_what_was_not_simulated_is_named() -> None:
+def test_a_machine_in_hands_is_simulated_with_them() -> None:
     seen = abu("size", "avtovaz-707-370", "--set", "suspension.model=hands", "--json")
-    assert seen.document["result"]["simulation"] == []
-    assert any("idle" in warning and "hands" in warning for warning in seen.document["warnings"])
+    idle, grinding = seen.document["result"]["simulation"]
+    assert seen.status == 0 and (idle["scene"], grinding["scene"]) == ("idle", "grinding")
+    # Palms, fingers and skin: more than the two coordinates of the axis.
+    states = seen.document["model"]["scenes"]["idle"]["states"]
+    assert states[:2] == ["x", "y"] and states.index("θ1") > 4
+    # At 97 Hz hands change the amplitude by a few per cent only, and the balls do as well in them as on springs.
+    springs = abu("size", "avtovaz-707-370", "--json").document["result"]["simulation"][0]
+    assert idle["axis_amplitude_mm"] == pytest.approx(springs["axis_amplitude_mm"], rel=0.1)
+
+
+def test_all_scenes_a_file_calls_for_are_simulated() -> None:
+    document = abu("size", "swing-arm-grinder", "--set", "grinding.press_force_N=45", "--json").document
+    scenes = [run["scene"] for run in document["result"]["simulation"]]
+    assert scenes == ["idle", "grinding", "swing-arm-idle", "swing-arm-cutting"] == list(document["model"]["scenes"])
+    for run in document["result"]["simulation"]:
+        left_out = {effect["name"] for effect in run["effects"] if not effect["included"]}
+        assert left_out <= {"dry_rolling_friction", "ball_contact"} and "dry_rolling_friction" in left_out
+        assert run["error_estimate"] <= 0.01
+    assert document["model"]["scenes"]["swing-arm-idle"]["states"][:2] == ["arm_angle", "arm_angle'"]
+
+
+def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
+    """An arm that does not stand at the work: the design stands, its other scenes too."""
+    seen = abu("size", "swing-arm-grinder", "--set", "swing_arm.contact_angle_deg=5", "--json")
+    document = seen.document
+    (check,) = [check for check in document["checks"] if check["code"] == "ABU703"]
+    assert seen.status == 1 and check["status"] == "not-done" and "swing-arm-cutting" in check["name"]
+    assert [run["scene"] for run in document["result"]["simulation"]] == ["idle", "swing-arm-idle"]
+
+
+def test_wheel_and_work_that_part_are_a_warning() -> None:
+    """c_n E (2MΩ² − …)/… of 90 µm at 0.49 MN/m is 49 N, more than the press of 45; a true wheel does not bounce."""
+    warnings = abu("size", "avtovaz-707-222", "--json").document["warnings"]
+    assert [warning for warning in warnings if warning.startswith("grinding: wheel and work part")]
+    warnings = abu("size", "avtovaz-707-222", "--set", "wheel.runout_mm=0.01", "--json").document["warnings"]
+    assert not [warning for warning in warnings if "wheel and work" in warning]
 
 
 def test_report_reads_like_a_calculation_note() -> None:

@@ -64,7 +64,7 @@ def test_the_transient_of_two_balls(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
 def test_where_two_balls_come_to_rest(tmp_path: Path, share: float) -> None:
-    """cos θ* = −m₀e/(2 m R_p), Rodrigues et al. 2008, (11), exact; what is left of the approach decides the tolerance."""
+    """cos θ* = −m₀e/(2 m R_p), Rodrigues et al. 2008; exact, so the tolerance is what is left of the approach."""
     imbalance = 10 * ONE * share
     result = told(tmp_path, rotor(imbalance_g_mm=imbalance))
     place = math.degrees(math.acos(-share))
@@ -100,9 +100,11 @@ def test_balls_that_cannot_balance_merge(
 
 @pytest.mark.parametrize("speed", [2.0, 3.0, 6.0])
 def test_race_eccentricity_is_what_the_axis_keeps(tmp_path: Path, speed: float) -> None:
-    """Rodrigues et al. 2008, section 2: the axis whirls with it, whatever the speed; to what is left of the approach."""
+    """The balls centre the race: the axis whirls with |t|, whatever the speed. Exact, but for an approach left."""
     text = rotor(
-        speed_rpm=speed * 30 / math.pi, duration_s=900.0, effects="race_eccentricity = { magnitude_mm = 5.0, angle_deg = 30.0 }"
+        speed_rpm=speed * 30 / math.pi,
+        duration_s=900.0,
+        effects="race_eccentricity = { magnitude_mm = 5.0, angle_deg = 30.0 }",
     )
     result = told(tmp_path, text, "--with", "race_eccentricity")
     assert result["axis_amplitude_mm"] == pytest.approx(5.0, rel=1e-3)
@@ -112,9 +114,10 @@ def test_race_eccentricity_is_what_the_axis_keeps(tmp_path: Path, speed: float) 
 @pytest.mark.parametrize("speed", [2.0, 4.0])
 @pytest.mark.parametrize("start", [[90.0, -90.0], [60.0, -100.0], [150.0, -120.0]])
 def test_the_band_of_dry_rolling_friction(tmp_path: Path, speed: float, start: list[float]) -> None:
-    """|w| ≤ f R_p/min(|sin θ|, |cos θ|), f = k_r/r, whatever the speed; derived, w R_p Ω² of (1 + |w|/R_p) being pressed.
+    """|w| ≤ f R_p/min(|sin θ|, |cos θ|), f = k_r/r, whatever the speed.
 
-    R_p is 1 m and f 1/400, so the band is some millimetres.
+    R_p is 1 m and f 1/400, so the band is some millimetres. It is derived for a normal force of m R_p Ω², which the
+    axis's own whirl changes by |w|/R_p: 1 % is left for that.
     """
     text = rotor(
         speed_rpm=speed * 30 / math.pi, start_angles_deg=start, imbalance_g_mm=4 * ONE,
@@ -200,9 +203,11 @@ runout_angle_deg = {math.degrees(at)}
     assert [angle % 360 for angle in result["final"]["ball_angles_deg"]] == pytest.approx(golden, abs=0.05)
     rows = rows_of(motion)[-100 * turns :]
     forward = [cmath.exp(-1j * (speed * row["t_s"] + at)) for row in rows]
-    X, Y = (2 / len(rows) * sum(row[key] * back for row, back in zip(rows, forward, strict=True))
-            for key in ("x_mm", "y_mm"))  # fmt: skip
-    assert X == pytest.approx(runout, rel=1e-3) and Y == pytest.approx(1j * runout, rel=1e-3)
+    along, across = (
+        2 / len(rows) * sum(row[key] * back for row, back in zip(rows, forward, strict=True))
+        for key in ("x_mm", "y_mm")
+    )
+    assert along == pytest.approx(runout, rel=1e-3) and across == pytest.approx(1j * runout, rel=1e-3)
 
 
 # other supports

@@ -1,7 +1,6 @@
 """Five hundred scenes at random: each is answered, or refused with its reason; two integrators agree on the answers."""
 
 import math
-from collections import Counter
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -18,8 +17,8 @@ ACCURACY = 0.01
 MOST_EVALUATIONS = 200_000
 """Of one simulation, all its runs together; tens of seconds."""
 
-CHEAP = (2, 3, 5, 7, 11, 12, 13, 14, 15, 17, 19, 23, 25, 27, 28, 31, 33, 36, 39, 42, 46, 58, 68, 92, 112)
-"""Seeds of scenes that take a fraction of a second."""
+CHEAP = (2, 3, 5, 7, 11, 12, 14, 15, 17, 19, 23, 28, 31, 33, 36, 39, 42, 46, 55, 58, 68, 92, 101, 108, 112)
+"""Seeds of scenes that are answered in a fraction of a second: chosen for that, so they say nothing of how many are."""
 
 
 @dataclass(frozen=True)
@@ -76,26 +75,50 @@ def test_cheap_scenes_are_answered(seed):
     check_answer(found.simulation)
 
 
-def agreement(one: Simulation, other: Simulation) -> bool:
-    """Whether two answers differ by no more than each is allowed to err."""
-    return difference(one.scene, one.response, other.response) <= 2 * ACCURACY
+@dataclass(frozen=True)
+class Study:
+    """Of five hundred scenes: what was refused; where both integrators answered, by how much they differ and may."""
+
+    refused: dict[int, str]
+    differences: dict[int, float]
+    claims: dict[int, float]
+
+    def beyond(self, allowed: dict[int, float]) -> dict[int, tuple[float, float]]:
+        """Scenes whose answers differ by more than allowed."""
+        return {seed: (d, allowed[seed]) for seed, d in self.differences.items() if not d <= allowed[seed]}
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    """The work of all hard tests."""
+    found = Study({}, {}, {})
+    for seed in range(500):
+        one = outcome(seed, "scipy")
+        if one.simulation is None:
+            check_reason(one.reason)
+            found.refused[seed] = one.reason.splitlines()[0]
+            continue
+        check_answer(one.simulation)
+        other = outcome(seed, "heyoka").simulation if unfit(assemble(one.simulation.scene)) is None else None
+        if other is not None:
+            check_answer(other)
+            found.differences[seed] = difference(one.simulation.scene, one.simulation.response, other.response)
+            found.claims[seed] = one.simulation.error_estimate + other.error_estimate
+    return found
 
 
 @pytest.mark.hard
-def test_every_scene_is_answered_or_refused_with_its_reason():
-    """At most 3 % are refused; where heyoka is there, it agrees with SciPy."""
-    refused: dict[int, str] = {}
-    apart: list[int] = []
-    for seed in range(500):
-        found = outcome(seed, "scipy")
-        if found.simulation is None:
-            check_reason(found.reason)
-            refused[seed] = found.reason.splitlines()[0]
-            continue
-        check_answer(found.simulation)
-        if unfit(assemble(found.simulation.scene)) is None:
-            other = outcome(seed, "heyoka").simulation
-            if other is not None and not agreement(found.simulation, other):
-                apart.append(seed)
-    assert not apart, f"integrators disagree on the scenes {apart}"
-    assert len(refused) <= 15, f"{len(refused)} of 500: {Counter(refused.values()).most_common(20)}"
+def test_few_scenes_are_refused_and_each_with_its_reason(study):
+    """At most 3 %."""
+    assert len(study.refused) <= 15, f"{len(study.refused)} of 500: {study.refused}"
+
+
+@pytest.mark.hard
+def test_integrators_agree_within_the_accuracy_asked_for(study):
+    assert study.beyond(dict.fromkeys(study.differences, 2 * ACCURACY)) == {}
+
+
+@pytest.mark.hard
+def test_integrators_agree_within_the_errors_they_claim(study):
+    """A claim that is broken is a wrong number in the report, though the answer may be as accurate as asked for."""
+    assert study.beyond(study.claims) == {}

@@ -83,16 +83,18 @@ class DryRollingFriction(Effect):
         loads.across.grip, loads.across.free = share * m.rolled, mode
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """Rolling on: σ θ', or the speed squared. Sticking: (f n)² − F². In the race: n."""
+        """Rolling on: σ θ'/Ω, or the speed squared. Sticking: (f n)² − F². In the race: n. Relative to f m R_p Ω²."""
         if mode is None:
             return []
         pull, aside, most = self._forces(loads, solved, p)
-        holds = (1 + HOLD) * most * most - pull * pull - aside * aside
-        rolls, goes_on = loads.free, mode * m.rate
+        flung = p.radii * p.speed**2
+        unit = self.coefficient * p.masses * flung
+        holds = ((1 + HOLD) * most * most - pull * pull - aside * aside) / (unit * unit)
+        rolls, goes_on = loads.free, mode * m.rate / p.speed
         if loads.across is not None:
-            slow, along = SLOW / 2 * p.radii * p.speed, m.radii * m.rate
-            goes_on = along * along + m.rolled * m.rolled - slow * slow
-        pressed = solved.normal + LEAVES * p.radii * p.speed**2
+            whole, along, rolled = p.radii * p.speed, m.radii * m.rate / (p.radii * p.speed), m.rolled
+            goes_on = along * along + (rolled / whole) * (rolled / whole) - (SLOW / 2) ** 2
+        pressed = solved.normal / flung + LEAVES
         return [*(rolls * goes_on + (1 - rolls)), *((1 - rolls) * holds + rolls), *pressed]
 
     def _forces(self, loads: Loads, solved: Solved, p: Parameters) -> tuple[Any, Any, Any]:

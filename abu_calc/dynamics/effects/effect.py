@@ -1,6 +1,5 @@
 """What an effect is: one thing that acts in a scene beside its support, its races and the imbalance."""
 
-from abc import ABC
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -23,7 +22,7 @@ class Weight:
 
 
 @dataclass(frozen=True)
-class Effect(ABC):
+class Effect:
     """One effect. Its fields are its numbers in SI; subclasses are final and say what they add.
 
     It reads the shared kinematics and its own numbers, never what another effect added. `act` and `rates` use plain
@@ -84,7 +83,10 @@ class Effect(ABC):
         return moment.y, moment.mode
 
     def watch(self, m: "Motion", mode: Any, own: Any, loads: "Loads", solved: "Solved", p: "Parameters") -> list[Any]:
-        """Numbers that stay at or above zero as long as its mode holds; an event is one of them falling below."""
+        """Numbers that stay at or above zero as long as its mode holds; an event is one of them falling below.
+
+        Without units: they are usually near 1.
+        """
         return []
 
     def energy(self, m: "Motion", own: Any, p: "Parameters") -> Any:

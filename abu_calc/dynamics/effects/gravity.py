@@ -6,17 +6,21 @@ The support's own weight and that of the balls in the middle are held by its spr
 equilibrium. Source: Kladiev 1996, (1), the term −(g/R) cos γ.
 """
 
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.parameters import Parameters, rotor_of
+from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.errors import InputError
 from abu_calc.units import GRAVITY
 
+if TYPE_CHECKING:
+    from abu_calc.dynamics.trajectory import Trajectory
 
 SHAKES = 0.1
 """Share of what dry friction holds from which gravity is taken to help balls loose: they are pulled otherwise, too."""
@@ -52,20 +56,54 @@ class Gravity(Effect):
             height = height + p.masses.sum() * m.offset[1]
         return self.acceleration * height
 
+    def remarks(self, scene: Scene, trajectory: "Trajectory") -> tuple[str, ...]:
+        """Told when a ball would fall off its race: R_p γ'² < g sin γ. The equations hold it there."""
+        first, balls = 2 * len(scene.support.names), len(scene.ball_masses)
+        places, rates = trajectory.y[first : first + balls], trajectory.y[first + balls : first + 2 * balls]
+        steady = rotor_of(scene) == "steady"
+        turn, speed = (scene.speed * trajectory.t, scene.speed) if steady else trajectory.y[-2:]
+        if isinstance(scene.support, SwingArm):
+            turn, speed = turn + trajectory.y[0], speed + trajectory.y[1]
+        radii = np.array([[race.pitch_radius] for race in scene.races for _ in race.ball_masses])
+        falls = radii * (rates + speed) ** 2 < self.acceleration * np.sin(places + turn) if balls else np.zeros((0, 1))
+        if not falls.any():
+            return ()
+        moment = int(falls.any(axis=0).argmax())
+        ball = 1 + int(falls[:, moment].argmax())
+        return (
+            f"gravity: ball {ball} would fall off its race at t = {trajectory.t[moment]:.4g} s, where it is pulled "
+            "harder than it is pressed; here it is held",
+        )
+
     def _shakes(self, scene: Scene, friction: float) -> bool:
         held = [friction * race.pitch_radius * scene.speed**2 for race in scene.races]
         return any(self.acceleration > SHAKES * hold for hold in held)
 
     def weight(self, scene: Scene) -> Weight:
-        """g/(J R_p Ω²) [rad]: it swings the balls so far, once per turn.
+        """Balls swing by a = g/(J R_p Ω²) [rad] once per turn, and the axis with them, driven by Σ m R_p a/2 at 2Ω.
 
-        Where it pulls harder than dry friction holds, f R_p Ω², it shakes out all that friction does.
+        m R_p e^{i(γ + a cos γ)} has the part i (a/2) m R_p e^{2iγ}, which adds up where balls are in one line. A ball
+        that starts at rest is also pushed off at up to a Ω, and drag stops it after a Ω J/h₀; where nothing brings it
+        back, among more than two balls, it stays there. Where gravity pulls harder than dry friction holds, f R_p Ω²,
+        it shakes out all that friction does.
         """
+        if not scene.ball_masses:
+            return Weight(0.0, "no balls")
         friction = scene.effect("dry_rolling_friction")
         if friction is not None and self._shakes(scene, getattr(friction, "coefficient", 0.0)):
             return Weight(friction.weight(scene).value, "shakes balls that stick by dry friction loose in every turn")
-        slowest = max((1 / (race.inertia_factor * race.pitch_radius) for race in scene.races), default=0.0)
-        why = "swings the balls once per turn"
+        why = "swings the balls once per turn, and the axis twice"
         if isinstance(scene.support, SwingArm):
             return Weight(None, f"{why}; on a swing arm not estimated")
-        return Weight(self.acceleration * slowest / scene.speed**2, why)
+        moment, pushed = 0.0, 0.0
+        for race in scene.races:
+            swing = self.acceleration / (race.inertia_factor * race.pitch_radius * scene.speed**2)
+            moment += swing / 2 * sum(race.ball_masses) * race.pitch_radius
+            if not race.drag:
+                return Weight(None, f"{why}; without drag they drift")
+            pushed = max(pushed, swing, swing * scene.speed * race.inertia_factor / race.drag)
+        try:
+            driven = unbalanced_amplitude(replace(scene, speed=2 * scene.speed), moment)
+        except InputError:
+            return Weight(None, f"{why}, which meets a resonance that nothing damps")
+        return Weight(max(pushed, driven / weighing_amplitude(scene)), why)

@@ -47,6 +47,10 @@ NEAR = 1e-9
 """Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
 
 
+LEAST_DEPTH = 1e-9
+"""A depth [m] that counts as something where there is neither press nor runout."""
+
+
 @dataclass(frozen=True)
 class GrindingContact(Effect):
     """`press_force` N₀ [N], `cutting_coefficient` f, `contact_stiffness` c_n [N/m] where compliant, `rotation_sense` s.
@@ -160,10 +164,11 @@ class GrindingContact(Effect):
         return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, p))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """How deep the wheel is in the work while touching, the gap while apart [m]."""
+        """How deep the wheel is in the work while touching, the gap while apart, relative to what is usual."""
         if not self.switches:
             return []
-        return [(2 * mode - 1) * (self.press_force / self.contact_stiffness - self._surface(m, p)[0])]
+        unloaded = self.press_force / self.contact_stiffness
+        return [(2 * mode - 1) * (unloaded - self._surface(m, p)[0]) / (unloaded + self.runout + LEAST_DEPTH)]
 
     def settle(self, moment: "Moment") -> tuple[Any, Any]:
         """Touching where the wheel is in the work; at its very surface, where it is about to be."""

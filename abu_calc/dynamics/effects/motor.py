@@ -3,8 +3,8 @@
     M = M_stall (1 − Ω/Ω₀),    J_r Ω' = M − (what balls and imbalance take)
 
 With too little torque the speed sticks at a resonance (Sommerfeld 1902): the power goes into the vibration. Source:
-Blekhman 1988, Synchronization in Science and Technology, ch. 6. The rotor starts at the scene's speed, or from rest in a
-run-up.
+Blekhman 1988, Synchronization in Science and Technology, ch. 6. The rotor starts at the scene's speed, or from rest in
+a run-up.
 """
 
 from dataclasses import dataclass

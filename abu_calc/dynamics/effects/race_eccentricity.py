@@ -8,8 +8,6 @@ The balls centre the race, so the axis keeps a whirl of radius Δ, whatever the 
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters

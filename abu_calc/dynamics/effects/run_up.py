@@ -3,8 +3,8 @@
     Ω' = Ω/T_up for t < T_up,   0,   −Ω/T_down for t > duration − T_down
 
 A rolling ball is turned by the race that accelerates: (J − 1) r Ω'/R_p on θ''. Source: derived from the rolling energy
-½ (J − 1) m (r·turn' − R_p θ')². With a motor the rotor starts from rest, its torque sets the pace, and in the run-down it
-is switched off.
+½ (J − 1) m (r·turn' − R_p θ')². With a motor the rotor starts from rest, its torque sets the pace, and in the run-down
+it is switched off.
 """
 
 from dataclasses import dataclass

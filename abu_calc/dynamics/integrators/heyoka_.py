@@ -31,8 +31,8 @@ FAINT = 1e-30
 """Factor on watched numbers: heyoka counts them among the states whose error it bounds, and they have no scale."""
 
 ABOVE = 1e-18
-"""Added to watched numbers, since heyoka finds no root at all of one that starts at exactly zero. It means nothing: in
-m, 1/s, m/s² or N² it is far below what rounding does to them."""
+"""Added to watched numbers, since heyoka finds no root at all of one that starts at exactly zero. It means nothing:
+these numbers are near 1, so it is far below what rounding does to them."""
 
 AT_ONCE = 10_000
 """Revolutions between two returns from heyoka, within which no interrupt is heard: some tenths of a second."""

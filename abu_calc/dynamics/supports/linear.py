@@ -1,6 +1,7 @@
 """Linear supports M q'' + C q' + K q = Pᵀ F."""
 
 import sys
+
 import numpy as np
 
 from abu_calc.dynamics.motion import Levers, Motion

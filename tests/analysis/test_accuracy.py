@@ -1,0 +1,87 @@
+"""The price list of a scene: what is measured, chosen, skipped and refused."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.analysis import accuracy as module
+from abu_calc.analysis.accuracy import Point, Reference, cheapest, study
+from abu_calc.analysis.ledger import Ledger
+from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.report.accuracy import picture, study_blocks, study_result
+from tests.dynamics.scenes import dimensionless
+
+
+def quiet(_: str) -> None:
+    """No progress."""
+
+
+@pytest.fixture(scope="module")
+def measured():
+    scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 20.0)
+    return study(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
+
+
+def test_every_rung_and_integrator_is_measured(measured):
+    assert not measured.skipped
+    kinds = {(point.rung, point.integrator) for point in measured.points}
+    assert {("closed-form", None), ("envelope", "scipy-dop853")} <= kinds
+    assert {("equations", f"scipy-{name}") for name in ("dop853", "rk45", "lsoda", "radau", "bdf")} <= kinds
+
+
+def test_errors_fall_with_the_tolerance(measured):
+    """From 1e-3 to 1e-8 of every integrator by three orders or more, or to where the reference ends."""
+    for name in {point.integrator for point in measured.points if point.rung == "equations"}:
+        errors = {point.tolerance: point.error for point in measured.points
+                  if point.integrator == name and point.rung == "equations"}  # fmt: skip
+        assert errors[1e-8] <= max(1e-3 * errors[1e-3], 3 * measured.reference.disagreement, 1e-9), name
+
+
+def test_the_choice_is_the_quickest_that_suffices(measured):
+    chosen = measured.chosen
+    assert chosen.error + measured.reference.disagreement <= 0.01
+    for point in measured.points:
+        assert point.error is None or point.error > 0.009 or point.wall_s >= chosen.wall_s
+
+
+def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
+    vague = replace(measured.reference, disagreement=0.02)
+    assert cheapest(list(measured.points), 0.01, vague) is None
+
+
+def test_the_result_is_json_and_the_report_has_every_point(measured):
+    result = json.loads(json.dumps(study_result(measured), allow_nan=False))
+    assert len(result["points"]) == len(measured.points)
+    assert set(result["points"][0]) >= {"rung", "integrator", "tolerance", "error", "evaluations", "wall_s", "cold_s"}
+    assert study_blocks("a scene", "scene", measured)
+
+
+def test_the_picture_stays_within_eighty_columns(measured):
+    lines = picture(measured.points)
+    assert max(map(len, lines)) <= 80
+    assert any("D" in line for line in lines)
+
+
+def test_a_picture_of_nothing():
+    assert picture((Point("closed-form", None, None, None, 0, 0, None, None),)) == ["nothing to draw"]
+
+
+def test_no_time_is_told_beforehand():
+    scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
+    with pytest.raises(NotTrustworthyError, match="the reference alone takes"):
+        study(scene, Ledger(scene, ()), "amplitude", 0.01, 1e-6, quiet)
+
+
+def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
+    scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
+    monkeypatch.setitem(module.QUANTITIES, "amplitude", lambda *_: math.inf)
+    with pytest.raises(NotTrustworthyError, match="no reference"):
+        study(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
+
+
+def test_unknown_quantities_are_refused(measured):
+    with pytest.raises(InputError, match="known quantities"):
+        study(measured.reference.response, Ledger(None, ()), "beauty", 0.01, 1.0, quiet)
+    assert isinstance(measured.reference, Reference)
