@@ -13,6 +13,7 @@ from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.scene import Scene, SwingArm
 from abu_calc.dynamics.stability import stability
 from abu_calc.errors import InputError
+from tests.cli.runner import abu
 from tests.hard.scenes import (
     balls_at_end,
     check_agreement,
@@ -60,6 +61,16 @@ def test_growth_at_an_undamped_resonance() -> None:
     with pytest.raises(InputError, match="which nothing damps"):
         simulate(arm)
     assert simulate(machine(80.0, (), 2.0, damping_ratio=1e-6), integrator="scipy").error_estimate <= 0.01
+
+
+def test_a_machine_at_an_undamped_resonance_is_refused() -> None:
+    """5800 rpm is 96.67 Hz: sizing divides by what is left of stiffness and inertia, so it names the key instead."""
+    frequency = 5800 / 60
+    entry = f"suspension.natural_frequencies_hz=[{frequency!r}, {frequency!r}]"
+    seen = abu("size", "avtovaz-707-222", "--set", entry, "--set", "suspension.damping_ratios=0")
+    assert seen.status == 2
+    assert "suspension.damping_ratios: the speed is a natural frequency, which nothing damps" in seen.err
+    assert abu("size", "avtovaz-707-222", "--set", entry, "--set", "suspension.damping_ratios=0.01").status == 1
 
 
 ZONES = [(200.0, False), (460.0, True), (620.0, False), (1000.0, True)]

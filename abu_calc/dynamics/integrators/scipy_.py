@@ -93,7 +93,7 @@ class _Run(Run):
         watcher = _Watcher(self.equations, modes, t, state) if watches(self.equations) else None
         spent = self.evaluations
         while solver.status == "running":
-            self.evaluations = spent + solver.nfev
+            self.evaluations = spent + solver.nfev + (watcher.evaluations if watcher else 0)
             if self.evaluations > self.most_evaluations:
                 raise lost(solver.t, f"more work than allowed, {self.evaluations} evaluations")
             message = solver.step()
