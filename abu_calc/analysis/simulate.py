@@ -18,7 +18,7 @@ from abu_calc.validity import Range
 
 ACCURACY = Range("accuracy", 1e-8, 0.5, key="--accuracy")
 
-SAFETY = 2.0
+SAFETY = 3.0
 """On the difference of two runs: where the longest step rules, errors fall by less than the tenth of the tolerance, and
 the finer run may be further off than the two are apart."""
 
@@ -41,7 +41,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Simulation:
-    """A response, the trajectory it was read from, what it cost, and twice what a tenfold looser run differed by."""
+    """A response, the trajectory it was read from, what it cost, and thrice what a tenfold looser run differed by."""
 
     scene: Scene
     response: Response
@@ -58,7 +58,7 @@ def simulate(
     most_evaluations: int = 50_000_000,
     integrator: str = "auto",
 ) -> Simulation:
-    """The finer of two runs, a decade of tolerance apart, whose results differ by no more than half of `accuracy`.
+    """The finer of two runs, a decade of tolerance apart, whose results differ by no more than a third of `accuracy`.
 
     `sample_times` [s] are further moments to hold in the trajectory; `most_evaluations` bounds the work of all runs;
     `integrator` is auto, scipy or heyoka. Raises NotTrustworthyError when the work does not suffice, or when no
