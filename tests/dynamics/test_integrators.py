@@ -77,7 +77,7 @@ def run_away(power: int) -> Equations:
     return Equations(
         scene=scene,
         states=("y",),
-        rhs=lambda xp, t, y, p: y**power,
+        rhs=lambda xp, t, y, p: y * y if power == 2 else 1.0 * y,
         parameters=assemble(scene).parameters,
         initial=(1.0,),
         scales=(1.0,),
@@ -93,7 +93,7 @@ def test_motion_without_bound_is_told_with_its_moment():
 
 
 def test_numbers_that_are_none_are_told():
-    equations = replace(run_away(1), rhs=lambda xp, t, y, p: np.where(t > 0.5, np.nan, -y))
+    equations = replace(run_away(1), rhs=lambda xp, t, y, p: -y * xp.sqrt(0.5 - t))
     with pytest.raises(NotTrustworthyError, match=r"lost at t = 0\.[45]"):
         scipy_.integrate(equations, 1e-6, [2.0])
 

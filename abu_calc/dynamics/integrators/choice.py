@@ -19,8 +19,9 @@ EVALUATIONS, ORDER = 35.0, 8
 """Of DOP853 per revolution at a tolerance of 1e-6, and the order by which they grow: four balls on a soft planar
 support took 18, 33, 78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12."""
 
-EVALUATION, EFFECT = 20e-6, 15e-6
-"""Time of an evaluation [s] with its share of the step, and of each effect in it (20 to 23 µs for 2 to 64 balls)."""
+EVALUATION, BALL, SWITCHING = 6e-6, 0.6e-6, 15e-6
+"""Time of an evaluation [s] with its share of the step, of each ball in it, and what events of each effect that has
+modes come to: 8 µs for 2 to 4 balls, 15 for 16, 30 for 64."""
 
 RUNS = 2
 """A result is trusted when two tolerances agree."""
@@ -70,7 +71,8 @@ def scipy_seconds(equations: Equations, tolerance: float) -> float:
     """About how long SciPy takes for one run [s], by counting: nothing is timed, so that a scene has one answer."""
     scene = equations.scene
     per_revolution = EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER)
-    return float(scene.duration / scene.revolution * per_revolution * (EVALUATION + EFFECT * len(scene.effects)))
+    each = EVALUATION + BALL * len(scene.ball_masses) + SWITCHING * sum(effect.switches for effect in scene.effects)
+    return float(scene.duration / scene.revolution * per_revolution * each)
 
 
 def unfit(equations: Equations) -> tuple[str, str] | None:

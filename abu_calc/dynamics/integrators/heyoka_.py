@@ -6,26 +6,31 @@ it serves all scenes of one structure (number of balls, kind of support, effects
 on disk for later processes.
 
 heyoka bounds the error of a step by (its tolerance) × (the largest state, or 1 where all are below 1), and compiles its
-tolerance in, as the order. So the states are counted in units of scale × tolerance / COMPILED: they stay below 1, and
-one compiled order serves every tolerance.
+tolerance in, as the order. So the states are counted in units of scale × tolerance / (compiled tolerance): they stay
+below 1, and one compiled order serves many tolerances.
 """
 
 import importlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, Array, Run, lost
-from abu_calc.dynamics.integrators.symbols import Functions, Tape
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
+from abu_calc.dynamics.integrators.traced import Numbers, kept, trace
 from abu_calc.dynamics.modes import Modes, watched, watches
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.trajectory import Trajectory
 
-COMPILED = 1e-15
-"""heyoka's own tolerance: order 19."""
+COMPILED = 1e-12, 1e-15
+"""heyoka's own tolerances: orders 15 and 19. The first as long as it leaves even angles of balls that stand still in
+space, which grow with every turn, below 1."""
+
+MOST_UNROLLED = 100
+"""Products in a smooth scene's equations up to which its code is unrolled: it runs in half the time, but takes a second
+(four balls) to three to be compiled for the first time, and ever longer. Where there are events, they take the time."""
 
 FAINT = 1e-30
 """Factor on watched numbers: heyoka counts them among the states whose error it bounds, and they have no scale."""
@@ -36,9 +41,6 @@ these numbers are near 1, so it is far below what rounding does to them."""
 
 AT_ONCE = 10_000
 """Revolutions between two returns from heyoka, within which no interrupt is heard: some tenths of a second."""
-
-MOST_KEPT = 32
-"""Compiled systems kept in this process."""
 
 
 def load() -> None:
@@ -68,7 +70,10 @@ class _Run(Run):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.units = np.array(self.equations.scales) * (self.tolerance / COMPILED)
+        self.numbers = Numbers(self.equations)
+        turned = max(1.0, self.equations.scene.speed * float(self.samples[-1]))
+        self.compiled = COMPILED[0] if self.tolerance >= COMPILED[0] * turned else COMPILED[1]
+        self.units = np.array(self.equations.scales) * (self.tolerance / self.compiled)
 
     @property
     def name(self) -> str:
@@ -78,10 +83,10 @@ class _Run(Run):
     def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
         """Through all samples; heyoka stops at an event."""
         parameters = self.equations.in_mode(modes)
-        structure, numbers = _taken_apart(self.equations, parameters)
-        system = _compiled(self.equations, parameters, structure)
+        structure, numbers = self.numbers.of(modes)
+        system = kept(_kept, (self.compiled, *structure), lambda: _compile(self.equations, parameters, self.compiled))
         integrator = system.integrator
-        integrator.pars[:] = system.tape.values([*self.units.tolist(), *numbers])
+        integrator.pars[:] = system.values([*self.units.tolist(), *numbers])
         self._put(integrator, t, state)
         if self._falls_at_once(integrator, t, state, parameters):
             return t, state, True
@@ -115,7 +120,7 @@ class _Run(Run):
         if outcome == heyoka.taylor_outcome.step_limit:
             raise lost(integrator.time, f"more work than allowed, {self.evaluations} evaluations")
         if outcome == heyoka.taylor_outcome.err_nf_state or not np.isfinite(rows).all():
-            raise lost(integrator.time, "a state is no longer finite")
+            raise lost(integrator.time, NOT_FINITE)
         return rows, _fallen(outcome) is not None
 
     def _falls_at_once(self, integrator: Any, t: float, state: Array, parameters: Parameters) -> bool:
@@ -146,89 +151,30 @@ class _Compiled:
     """Code for all scenes of one structure, and how its parameters are made of theirs."""
 
     integrator: Any
-    tape: Tape
+    values: Callable[[Sequence[float]], list[float]]
 
 
 _kept: dict[Any, _Compiled] = {}
 
 
-def _compiled(equations: Equations, parameters: Parameters, structure: tuple[Any, ...]) -> _Compiled:
-    """The code for the equations, compiled unless this process has it already."""
-    if structure not in _kept:
-        if len(_kept) >= MOST_KEPT:
-            _kept.pop(next(iter(_kept)))
-        _kept[structure] = _compile(equations, parameters)
-    return _kept[structure]
-
-
-def _compile(equations: Equations, parameters: Parameters) -> _Compiled:
+def _compile(equations: Equations, parameters: Parameters, tolerance: float) -> _Compiled:
     import heyoka
 
     # It would warn on the standard output, of roots at the very start of a step, which are looked for here.
     heyoka.set_logger_level_error()
-    tape, count = Tape(heyoka), len(equations.states)
-    units = [tape.parameter() for _ in range(count)]
-    symbolic = _mapped(parameters, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
-    states = [heyoka.expression(f"z{k}") for k in range(count)]
-    t: Any = tape.variable(heyoka.time)
-    y = np.array([unit * tape.variable(z) for unit, z in zip(units, states, strict=True)])
-    rates = equations.rhs(Functions, t, y, symbolic)
-    events = watched(equations, t, y, symbolic, Functions) if watches(equations) else []
-    nothing = 0.0 * t
+    states = [heyoka.expression(f"z{k}") for k in range(len(equations.states))]
+    traced = trace(equations, parameters, heyoka, states, scaled=True)
+    nothing = 0.0 * traced.t
+    parts = zip(states, traced.rates, traced.units, strict=True)
+    rates = [(z, ((rate + nothing) / unit).expression()) for z, rate, unit in parts]
     integrator = heyoka.taylor_adaptive(
-        [(z, ((rate + nothing) / unit).expression()) for z, rate, unit in zip(states, rates, units, strict=True)],
-        [0.0] * count,
-        tol=COMPILED,
-        compact_mode=True,  # compiles several times as fast and runs half as fast
+        rates,
+        [0.0] * len(states),
+        tol=tolerance,
+        compact_mode=bool(traced.watched) or traced.tape.products > MOST_UNROLLED,
         t_events=[
             heyoka.t_event((FAINT * (value + ABOVE) + nothing).expression(), direction=heyoka.event_direction.negative)
-            for value in events
+            for value in traced.watched
         ],
     )
-    return _Compiled(integrator, tape)
-
-
-def _taken_apart(equations: Equations, parameters: Parameters) -> tuple[tuple[Any, ...], list[float]]:
-    """What decides how the code looks, and the numbers it is run with."""
-    structure: list[Any] = [equations.rhs, len(equations.states), watches(equations)]
-    numbers: list[float] = []
-    _mapped(parameters, lambda value, _: numbers.append(value), structure.append)
-    return tuple(structure), numbers
-
-
-ZEROS = {"effects": 0, "modes": None}
-"""Zeros of how many dimensions are structure: plain numbers of effects, which decide by them whether they act at all;
-elsewhere those of matrices, which tell how the support is built."""
-
-
-def _mapped(
-    value: Any, number: Callable[[float, bool], Any], fixed: Callable[[Any], None], zeros: int | None = 2
-) -> Any:
-    """The same with each number replaced by what `number` makes of it, and whether it is known not to be zero.
-
-    `fixed` is told all else in it, in order.
-    """
-    if isinstance(value, float):
-        if value == 0 and zeros == 0:
-            fixed(0.0)
-            return value
-        fixed(float)
-        return number(value, zeros == 0)
-    if isinstance(value, np.ndarray):
-        kept = value == 0 if value.ndim == zeros else np.full(value.shape, value.dtype.kind != "f")
-        fixed((value.shape, kept.tobytes(), value[kept].tobytes()))
-        found = value.astype(object)
-        found[~kept] = [number(one, False) for one in value[~kept].tolist()]
-        return value if kept.all() else found
-    if is_dataclass(value) and not isinstance(value, type):
-        fixed(type(value))
-        copy = object.__new__(type(value))
-        for part in fields(value):  # past checks of values, which symbols would not stand
-            of = ZEROS.get(part.name, zeros) if isinstance(value, Parameters) else zeros
-            object.__setattr__(copy, part.name, _mapped(getattr(value, part.name), number, fixed, of))
-        return copy
-    if isinstance(value, tuple):
-        fixed(len(value))
-        return tuple(_mapped(one, number, fixed, zeros) for one in value)
-    fixed(value)
-    return value
+    return _Compiled(integrator, traced.tape.values())

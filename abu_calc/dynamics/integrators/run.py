@@ -23,6 +23,8 @@ MOST_EVALUATIONS = 12_000_000
 
 MOST_EVENTS = 1_000_000
 
+NOT_FINITE = "a state is no longer finite"
+
 STALLED, MOST_STALLED = 1e-9, 200
 """Revolutions within which so many events in a row mean that the motion does not go on."""
 

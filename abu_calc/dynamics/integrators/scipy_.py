@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, Array, Run, lost
+from abu_calc.dynamics.integrators.plain import Function, functions
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
+from abu_calc.dynamics.integrators.traced import Numbers
 from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.modes import Modes, starting, watched, watches
+from abu_calc.dynamics.modes import Modes, starting, watches
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 
@@ -81,6 +83,7 @@ class _Run(Run):
         super().__post_init__()
         self.longest = self.equations.longest_step * min(1.0, (self.tolerance / LOOSE) ** (1 / ORDER))
         self.step = self.longest / 100
+        self.numbers = Numbers(self.equations)
 
     @property
     def name(self) -> str:
@@ -89,16 +92,20 @@ class _Run(Run):
 
     def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
         """Step by step; events are looked for within each."""
-        solver = self._solver(t, state, modes, bound)
-        watcher = _Watcher(self.equations, modes, t, state) if watches(self.equations) else None
+        rates, watched = functions(self.equations, self.numbers, modes)
+        solver = self._solver(rates, t, state, modes, bound)
+        watcher = _Watcher(watched, t, state) if watches(self.equations) else None
         spent = self.evaluations
         while solver.status == "running":
             self.evaluations = spent + solver.nfev + (watcher.evaluations if watcher else 0)
             if self.evaluations > self.most_evaluations:
                 raise lost(solver.t, f"more work than allowed, {self.evaluations} evaluations")
-            message = solver.step()
+            try:
+                message = solver.step()
+            except ValueError:  # implicit methods meet a number that is none in their matrices
+                raise lost(solver.t, NOT_FINITE) from None
             if message is not None or not np.isfinite(solver.y).all():
-                raise lost(solver.t, message or "a state is no longer finite")
+                raise lost(solver.t, message or NOT_FINITE)
             self.steps, self.step = self.steps + 1, solver.step_size or self.step
             # Interpolation costs a quarter of a step, so only where it is asked for.
             asked = watcher is not None or self.samples[self.done] <= solver.t
@@ -115,10 +122,10 @@ class _Run(Run):
                 return event, dense(event), True  # type: ignore[misc]
         return bound, solver.y, False
 
-    def _solver(self, t: float, state: Array, modes: Modes, bound: float) -> "OdeSolver":
+    def _solver(self, rates: Function, t: float, state: Array, modes: Modes, bound: float) -> "OdeSolver":
         import scipy.integrate
 
-        equations, parameters = self.equations, self.equations.in_mode(modes)
+        equations = self.equations
         # SciPy accepts nothing below 100 units of rounding. It takes an array, though its type stubs know numbers only.
         relative: Any = np.where(equations.relative, self.tolerance, 100 * np.finfo(float).eps)
         absolute: Any = self.tolerance * np.array(equations.scales)
@@ -129,7 +136,7 @@ class _Run(Run):
             relative = max(self.tolerance, 1e-12)
         kind = getattr(scipy.integrate, KINDS[self.method])
         solver: OdeSolver = kind(
-            lambda t, y: equations.rhs(np, t, y, parameters),
+            rates,
             t,
             state,
             bound,
@@ -147,21 +154,19 @@ class _Run(Run):
 class _Watcher:
     """Looks for the first moment at which one of the watched numbers falls below zero."""
 
-    equations: Equations
-    modes: Modes
+    watched: Function
     t: float
     state: Array
     evaluations: int = 0
 
     def __post_init__(self) -> None:
-        self.parameters = self.equations.in_mode(self.modes)
         # A number that starts at zero has just been switched: it counts once it has risen.
         self.before = self._values(self.t, self.state)
         self.since = self.t
 
     def _values(self, t: float, y: Array) -> Array:
         self.evaluations += 1
-        return np.array(watched(self.equations, t, y, self.parameters), dtype=float)
+        return np.array(self.watched(t, y), dtype=float)
 
     def event(self, dense: Any, start: float, end: float) -> float | None:
         """The first event between two moments, None when there is none."""

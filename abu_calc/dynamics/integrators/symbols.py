@@ -5,13 +5,17 @@ So what is made of parameters alone is computed once per run and not in every st
 collect in the coefficients. A composed right-hand side then costs nearly what one written by hand does.
 """
 
+import math
 import operator
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from abu_calc.dynamics.parameters import Array
+
+SIGNS = {operator.add: "+", operator.mul: "*", operator.truediv: "/"}
+"""Operations on numbers, as Python writes them."""
 
 
 class Tape:
@@ -59,17 +63,33 @@ class Tape:
         key = (operation, a, b) if operation is operator.truediv else (operation, *sorted((a, b)))
         return self._known[key] if key in self._known else self._known.setdefault(key, self._enter(key))
 
-    def values(self, parameters: Sequence[float]) -> list[float]:
-        """What heyoka's par[i] are for these values of the parameters, in the order in which these were made."""
-        values: list[float] = []
-        given = iter(parameters)
-        for entry in self.entries:
+    def values(self) -> "Callable[[Sequence[float]], list[float]]":
+        """The function from parameters, in the order in which these were made, to heyoka's par[i].
+
+        As plain Python, for it runs whenever a mode changes. To be asked for when all expressions are made.
+        """
+        named = [f"n{k}" for k, entry in enumerate(self.entries) if entry is None]
+        texts, lines = {}, []
+        for place, entry in enumerate(self.entries):
+            texts[place] = f"n{place}" if entry is None else f"v{place}" if isinstance(entry, tuple) else repr(entry)
             if isinstance(entry, tuple):
                 operation, a, b = entry
-                values.append(operation(values[a], values[b]))
-            else:
-                values.append(next(given) if entry is None else entry)
-        return [values[place] for place in self._slots]
+                lines.append(f" {texts[place]} = {texts[a]} {SIGNS[operation]} {texts[b]}")
+        results = ", ".join(texts[place] for place in self._slots)
+        text = ["def values(numbers):", f" [{', '.join(named)}] = numbers", *lines, f" return [{results}]"]
+        scope: dict[str, Any] = {"inf": math.inf}
+        exec(compile("\n".join(text), "<parameters>", "exec"), scope)
+        return cast("Callable[[Sequence[float]], list[float]]", scope["values"])
+
+    @property
+    def used(self) -> int:
+        """How many of them there are, as far as expressions have asked for them."""
+        return len(self._slots)
+
+    @property
+    def products(self) -> int:
+        """How many products of expressions there are: how much work the equations are."""
+        return len(self._products)
 
     def product(self, a: Any, b: Any) -> Any:
         """a · b, the same expression whichever comes first."""

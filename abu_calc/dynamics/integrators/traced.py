@@ -1,0 +1,117 @@
+"""The equations of a scene told in another language: one trace serves all scenes of one structure and all their modes.
+
+Structure is what decides how the code looks: number of balls, kind of support, effects, which matrix elements are zero.
+All other numbers are parameters of the code.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+
+from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.integrators.symbols import Functions, Symbol, Tape
+from abu_calc.dynamics.modes import Modes, watched, watches
+from abu_calc.dynamics.parameters import Parameters
+
+MOST_KEPT = 32
+"""Structures whose code is kept in this process."""
+
+ZEROS: dict[str, int | None] = {"effects": 0, "modes": None}
+"""Zeros of how many dimensions are structure: plain numbers of effects, which decide by them whether they act at all;
+elsewhere those of matrices, which tell how the support is built."""
+
+
+@dataclass(frozen=True)
+class Traced:
+    """Rates of the states and watched numbers as symbols, and the tape that makes parameters of a scene's numbers."""
+
+    tape: Tape
+    t: Any
+    units: tuple[Any, ...]
+    rates: tuple[Any, ...]
+    watched: tuple[Any, ...]
+
+
+def trace(equations: Equations, parameters: Parameters, library: Any, states: Sequence[Any], scaled: bool) -> Traced:
+    """The equations in these modes, in a library's expressions; where `scaled`, states come in units of their own.
+
+    The tape's parameters are the units, then the numbers that `Numbers` finds.
+    """
+    tape = Tape(library)
+    units = tuple(tape.parameter() for _ in states) if scaled else ()
+    symbolic = _mapped(parameters, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
+    y = [tape.variable(state) for state in states]
+    if scaled:
+        y = [unit * one for unit, one in zip(units, y, strict=True)]
+    t: Any = tape.variable(library.time)
+    rates = equations.rhs(Functions, t, np.array(y), symbolic)
+    numbers = watched(equations, t, np.array(y), symbolic, Functions) if watches(equations) else ()
+    return Traced(tape, t, units, tuple(rates), tuple(_symbol(tape, value) for value in numbers))
+
+
+def _symbol(tape: Tape, value: Any) -> Symbol:
+    """A watched number may be a constant."""
+    symbol: Symbol = value + Symbol(tape, [])
+    return symbol
+
+
+class Numbers:
+    """What decides how the code of a scene looks, and the numbers that it is run with, as modes change."""
+
+    def __init__(self, equations: Equations) -> None:
+        self._structure: list[Any] = [equations.rhs, len(equations.states), watches(equations)]
+        self._numbers: list[float] = []
+        _mapped(equations.in_mode(()), lambda value, _: self._numbers.append(value), self._structure.append)
+
+    def of(self, modes: Modes) -> tuple[tuple[Any, ...], list[float]]:
+        """Structure and numbers in these modes, which come last among the parameters."""
+        structure, numbers = self._structure.copy(), self._numbers.copy()
+        _mapped(modes, lambda value, _: numbers.append(value), structure.append, ZEROS["modes"])
+        return tuple(structure), numbers
+
+
+Code = TypeVar("Code")
+
+
+def kept(cache: dict[Any, Code], structure: Any, make: Callable[[], Code]) -> Code:
+    """The code for a structure, made unless the cache has it already."""
+    if structure not in cache:
+        if len(cache) >= MOST_KEPT:
+            cache.pop(next(iter(cache)))
+        cache[structure] = make()
+    return cache[structure]
+
+
+def _mapped(
+    value: Any, number: Callable[[float, bool], Any], fixed: Callable[[Any], None], zeros: int | None = 2
+) -> Any:
+    """The same with each number replaced by what `number` makes of it, and whether it is known not to be zero.
+
+    `fixed` is told all else in it, in order.
+    """
+    if isinstance(value, float):
+        if value == 0 and zeros == 0:
+            fixed(0.0)
+            return value
+        fixed(float)
+        return number(value, zeros == 0)
+    if isinstance(value, np.ndarray):
+        kept = value == 0 if value.ndim == zeros else np.full(value.shape, value.dtype.kind != "f")
+        fixed((value.shape, kept.tobytes(), value[kept].tobytes()))
+        found = value.astype(object)
+        found[~kept] = [number(one, False) for one in value[~kept].tolist()]
+        return value if kept.all() else found
+    if is_dataclass(value) and not isinstance(value, type):
+        fixed(type(value))
+        copy = object.__new__(type(value))
+        for part in fields(value):  # past checks of values, which symbols would not stand
+            of = ZEROS.get(part.name, zeros) if isinstance(value, Parameters) else zeros
+            object.__setattr__(copy, part.name, _mapped(getattr(value, part.name), number, fixed, of))
+        return copy
+    if isinstance(value, tuple):
+        fixed(len(value))
+        return tuple(_mapped(one, number, fixed, zeros) for one in value)
+    fixed(value)
+    return value
