@@ -11,7 +11,7 @@ import math
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -20,11 +20,15 @@ import numpy as np
 
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.integrators import heyoka_, scipy_
+from abu_calc.dynamics.integrators.plain import functions
+from abu_calc.dynamics.integrators.traced import Numbers
 from abu_calc.dynamics.scene import Scene
+from tests.benchmarks.by_hand import planar, with_floats
 from tests.dynamics.scenes import straight_grinder
 
 BALLS = (2, 4, 8, 16, 32, 64)
 ROUNDS, CALLS = 100, 100
+TOLERANCE = 1e-6
 LINEAR = 1.0
 """Cost may grow with the balls by no higher power than this."""
 
@@ -108,65 +112,71 @@ def seconds(work: Callable[[], Any]) -> float:
     return time.perf_counter() - started
 
 
-def pair(mine: Callable[[], Any], other: Callable[[], Any], rounds: int = ROUNDS) -> tuple[float, float, float]:
-    """Least times of both [s], which other work on the machine disturbs least, and their ratio."""
-    mine(), other()
-    pairs = [(seconds(mine), seconds(other)) for _ in range(rounds)]
-    one, two = (min(column) for column in zip(*pairs, strict=True))
-    return one, two, one / two
+def least(works: Sequence[Callable[[], Any]], rounds: int = ROUNDS) -> list[float]:
+    """Least times of all [s], taken in turns: other work on the machine disturbs these least."""
+    for work in works:
+        work()
+    return [min(column) for column in zip(*([seconds(work) for work in works] for _ in range(rounds)), strict=True)]
 
 
-def compare_numpy() -> None:
-    """One evaluation, composed against fused, and how it grows."""
-    print("NumPy, one evaluation [µs]\nballs  composed    fused    ratio")
+def compare_scipy() -> None:
+    """One evaluation as SciPy gets it, against the same by hand, with arrays and ball by ball; and how it grows."""
+    print("one evaluation under SciPy [µs]\nballs  composed   by hand: arrays   floats    ratio to the quicker")
     costs, ratios = [], []
     for balls in BALLS:
         scene = grinder(balls)
-        equations, rhs = assemble(scene), fused(scene)
+        equations = assemble(scene)
+        composed, _ = functions(equations, Numbers(equations), equations.parameters.modes)
+        hands = fused(scene), with_floats(planar(scene))
         y = np.array(equations.initial) + 0.01
-        np.testing.assert_allclose(equations.rhs(np, 0.1, y, equations.parameters), rhs(0.1, y), rtol=1e-10, atol=1e-8)
-
-        def composed(equations: Any = equations, y: np.ndarray = y) -> None:
-            for _ in range(CALLS):
-                equations.rhs(np, 0.1, y, equations.parameters)
-
-        def written(rhs: Any = rhs, y: np.ndarray = y) -> None:
-            for _ in range(CALLS):
-                rhs(0.1, y)
-
-        mine, other, ratio = pair(composed, written)
+        for rhs in hands:
+            np.testing.assert_allclose(composed(0.1, y), rhs(0.1, y), rtol=1e-10, atol=1e-8)
+        mine, *others = least([partial(repeat, rhs, y) for rhs in (composed, *hands)])
         costs.append(mine)
-        ratios.append(ratio)
-        print(f"{balls:5d} {1e6 * mine / CALLS:9.1f} {1e6 * other / CALLS:8.1f} {ratio:8.2f}")
+        ratios.append(mine / min(others))
+        one, arrays, floats = (1e6 * value / CALLS for value in (mine, *others))
+        print(f"{balls:5d} {one:9.1f} {arrays:17.1f} {floats:8.1f} {ratios[-1]:12.2f}")
     power = np.polyfit(np.log(BALLS), np.log(costs), 1)[0]
     print(f"worst ratio {max(ratios):.2f} (bound 1.5); cost grows as balls^{power:.2f} (bound {LINEAR:g})\n")
 
 
+def repeat(rhs: Callable[[float, np.ndarray], Any], y: np.ndarray) -> None:
+    """Many evaluations."""
+    for _ in range(CALLS):
+        rhs(0.1, y)
+
+
 def compare_heyoka() -> None:
-    """Run time at the same order and the same error, and what it takes to be ready."""
+    """Whole runs against the same system written for heyoka by hand, and what a step takes, both unrolled."""
     hy = importlib.import_module("heyoka")
     hy.set_logger_level_error()
-    scene = straight_grinder()
-    equations, end = assemble(scene), scene.duration
-    scales, start = np.array(equations.scales), np.array(equations.initial)
-    exact = heyoka_.integrate(equations, 1e-13, [end]).y[:, -1]
-    written = hy.taylor_adaptive(by_hand(hy, scene), start, tol=heyoka_.COMPILED, compact_mode=True)
-    done: dict[str, Any] = {}
+    print("heyoka at the same order, 217 revolutions\nballs        composed [ms]         by hand [ms]    run   step")
+    for balls in (2, 4, 8):
+        scene = grinder(balls)
+        equations, end = assemble(scene), scene.duration
+        scales, start = np.array(equations.scales), np.array(equations.initial)
+        exact = heyoka_.integrate(equations, 1e-13, [end]).y[:, -1]
+        written = hy.taylor_adaptive(by_hand(hy, scene), start, tol=heyoka_.COMPILED[0], compact_mode=False)
+        done: dict[str, Any] = {}
 
-    def composed() -> None:
-        done["mine"] = heyoka_.integrate(equations, 1e-9, [end])
+        def composed(equations: Any = equations, end: float = end, done: dict[str, Any] = done) -> None:
+            done["mine"] = heyoka_.integrate(equations, TOLERANCE, [end])
 
-    def other() -> None:
-        written.time, written.state[:] = 0.0, start
-        done["steps"] = written.propagate_until(end, max_delta_t=equations.longest_step)[3]
+        def bare(end: float = end, scales: Any = scales, start: Any = start, done: dict[str, Any] = done) -> None:
+            compiled = next(reversed(heyoka_._kept.values())).integrator
+            compiled.time, compiled.state[:] = 0.0, start / scales * (heyoka_.COMPILED[0] / TOLERANCE)
+            done["bare"] = compiled.propagate_until(end)[3]
 
-    mine, hand, ratio = pair(composed, other, 100)
-    per_step = ratio / done["mine"].steps * done["steps"]
-    errors = [np.abs((y - exact) / scales).max() for y in (done["mine"].y[:, -1], written.state)]
-    print(f"heyoka, {end / scene.revolution:.0f} revolutions, order {written.order}: composed at 1e-9 against by hand")
-    print(f"composed {1e3 * mine:6.2f} ms, {done['mine'].steps} steps, error {errors[0]:.1e}")
-    print(f"by hand  {1e3 * hand:6.2f} ms, {done['steps']} steps, error {errors[1]:.1e}")
-    print(f"ratio {ratio:.2f} for the run (bound 1.3), {per_step:.2f} for a step\n")
+        def other(end: float = end, start: Any = start, written: Any = written, done: dict[str, Any] = done) -> None:
+            written.time, written.state[:] = 0.0, start
+            done["steps"] = written.propagate_until(end)[3]
+
+        mine, stepping, hand = least([composed, bare, other])
+        errors = [np.abs((y - exact) / scales).max() for y in (done["mine"].y[:, -1], written.state)]
+        cells = [f"{1e3 * spent:7.2f} (error {error:.0e})" for spent, error in zip((mine, hand), errors, strict=True)]
+        per_step = stepping / done["bare"] / (hand / done["steps"])
+        print(f"{balls:5d} {cells[0]:>22} {cells[1]:>20} {mine / hand:6.2f} {per_step:6.2f}")
+    print("bounds: 1.3 for a run, 1.2 for a step\n")
 
 
 READY = """
@@ -218,7 +228,7 @@ def compare_integrators() -> None:
 
 if __name__ == "__main__":
     scipy_.load()
-    compare_numpy()
+    compare_scipy()
     if importlib.util.find_spec("heyoka"):
         compare_heyoka()
         readiness()

@@ -19,9 +19,12 @@ EVALUATIONS, ORDER = 35.0, 8
 """Of DOP853 per revolution at a tolerance of 1e-6, and the order by which they grow: four balls on a soft planar
 support took 18, 33, 78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12."""
 
-EVALUATION, BALL, SWITCHING = 6e-6, 0.6e-6, 15e-6
-"""Time of an evaluation [s] with its share of the step, of each ball in it, and what events of each effect that has
-modes come to: 8 µs for 2 to 4 balls, 15 for 16, 30 for 64."""
+EVALUATION, BALL = 6e-6, 0.6e-6
+"""Time of an evaluation [s] with its share of the step, and of each ball in it: 8 µs for 2 to 4 balls, 15 for 16."""
+
+SWITCHING = 1e-3
+"""Time [s] that events take in a revolution, for each effect that has modes; balls that gravity shakes loose stick and
+slip several times in each."""
 
 RUNS = 2
 """A result is trusted when two tolerances agree."""
@@ -71,8 +74,9 @@ def scipy_seconds(equations: Equations, tolerance: float) -> float:
     """About how long SciPy takes for one run [s], by counting: nothing is timed, so that a scene has one answer."""
     scene = equations.scene
     per_revolution = EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER)
-    each = EVALUATION + BALL * len(scene.ball_masses) + SWITCHING * sum(effect.switches for effect in scene.effects)
-    return float(scene.duration / scene.revolution * per_revolution * each)
+    smooth = per_revolution * (EVALUATION + BALL * len(scene.ball_masses))
+    events = SWITCHING * sum(effect.switches for effect in scene.effects)
+    return float(scene.duration / scene.revolution * (smooth + events))
 
 
 def unfit(equations: Equations) -> tuple[str, str] | None:

@@ -15,7 +15,7 @@ from abu_calc.dynamics.integrators.traced import Numbers, kept, trace
 from abu_calc.dynamics.modes import Modes, watched
 from abu_calc.dynamics.parameters import Array, Parameters
 
-MOST_BALLS = 20
+MOST_BALLS = 32
 """Beyond, arrays are about as fast, and take no time to be written."""
 
 LONGEST = 200

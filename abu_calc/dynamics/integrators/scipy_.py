@@ -39,8 +39,8 @@ tolerance alike, they would agree without being right."""
 STIFF = 100.0
 """Decay per radian of the fastest oscillation beyond which an explicit method spends its steps on what has died out."""
 
-CHECKS = (0.25, 0.5, 0.75, 1.0)
-"""Places in a step at which events are looked for."""
+CHECKS = (0.25, 0.5, 0.75)
+"""Places in a step at which events are looked for, beside its end."""
 
 
 def load() -> None:
@@ -171,9 +171,9 @@ class _Watcher:
     def event(self, dense: Any, start: float, end: float) -> float | None:
         """The first event between two moments, None when there is none."""
         times, rows = [self.since], [self.before]
-        for part in CHECKS:
-            t = start + part * (end - start) if part < 1 else end
-            values = self._values(t, dense(t))
+        moments = [*(start + part * (end - start) for part in CHECKS), end]
+        for t, y in zip(moments, dense(np.array(moments)).T, strict=True):
+            values = self._values(t, y)
             times.append(t)
             rows.append(values)
             found = self._dips(dense, times[-3:], rows[-3:])

@@ -1,0 +1,93 @@
+"""The equations as plain Python against the same in arrays: every support and effect, in the modes of random states."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from abu_calc.dynamics.assemble import Equations, assemble
+from abu_calc.dynamics.integrators import plain
+from abu_calc.dynamics.integrators.traced import Numbers
+from abu_calc.dynamics.modes import Modes, settled, watched, watches
+from abu_calc.dynamics.scene import Scene
+from abu_calc.errors import NotTrustworthyError
+from tests.dynamics.random_scenes import random_scene
+from tests.dynamics.scenes import ROTORS, SUPPORTS, scene_on, straight_grinder
+from tests.dynamics.test_contract import EXAMPLES, taken
+
+ROUNDING = 1e-11
+"""Relative to the largest part of the answer: sums are taken in another order."""
+
+
+def both(equations: Equations, modes: Modes, t: float, y: np.ndarray) -> None:
+    """Rates and watched numbers, plain and by arrays."""
+    parameters = equations.in_mode(modes)
+    rates, numbers = plain.functions(equations, Numbers(equations), modes)
+    expected = equations.rhs(np, t, y, parameters) / equations.scales
+    np.testing.assert_allclose(rates(t, y) / np.array(equations.scales), expected, 1e-9, ROUNDING * np.ptp(expected))
+    if watches(equations):
+        values = np.array(watched(equations, t, y, parameters))
+        np.testing.assert_allclose(numbers(t, y), values, 1e-9, ROUNDING * np.abs(values).max())
+
+
+def everywhere(scene: Scene, count: int = 5) -> None:
+    """At random states about the start, where the effects can settle on modes."""
+    equations, rng = assemble(scene), np.random.default_rng(3)
+    for _ in range(count):
+        t = float(rng.uniform(0, scene.revolution))
+        y = np.array(equations.initial) + 0.1 * rng.normal(size=len(equations.states)) * np.array(equations.scales)
+        try:
+            y, modes = settled(equations, t, y, equations.parameters.modes)
+        except NotTrustworthyError:  # balls anywhere may overlap
+            modes = equations.parameters.modes
+        both(equations, modes, t, y)
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+@pytest.mark.parametrize("way", ROTORS)
+def test_every_support_and_rotor(support, way):
+    everywhere(scene_on(support, *ROTORS[way]))
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_every_effect(support, name):
+    scene = taken(support, name)
+    if scene is None:
+        pytest.skip("such a support has no such effect")
+    everywhere(scene)
+
+
+@pytest.mark.parametrize("seed", range(0, 60, 3))
+def test_random_scenes(seed):
+    everywhere(random_scene(seed), 2)
+
+
+def test_written_once_for_all_designs_of_a_structure(monkeypatch):
+    plain._kept.clear()
+    written = []
+    write = plain._write
+    monkeypatch.setattr(plain, "_write", lambda *parts: written.append(1) or write(*parts))
+    scene = straight_grinder()
+    for speed in (400.0, 500.0):
+        everywhere(replace(scene, speed=speed), 2)
+    assert len(written) == 1
+
+
+def test_what_is_no_number_is_told_as_one():
+    """Plain Python would raise where arrays go on with NaN."""
+    equations = assemble(straight_grinder())
+    rates, _ = plain.functions(equations, Numbers(equations), equations.parameters.modes)
+    y = np.array(equations.initial)
+    y[4] = math.inf
+    assert all(math.isnan(value) for value in rates(0.0, y))
+
+
+def test_equal_expressions_are_computed_once():
+    source = plain.Source()
+    x, y = source.name("x"), source.name("y")
+    assert x * y is y * x
+    lines, results = source.lines([source.sin(x * y) + source.cos(x * y), -(x / y)])
+    assert lines == [f"v{(x * y).place} = (x * y)"]
+    assert results == [f"(sin(v{(x * y).place}) + cos(v{(x * y).place}))", "(-(x / y))"]
