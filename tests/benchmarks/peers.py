@@ -66,8 +66,9 @@ def installed(name: str) -> bool:
 
 
 def own_runs(case: Case) -> list[Run]:
-    """The library, with both integrators."""
+    """The library, by its explicit methods of SciPy and by heyoka."""
     found = [case.run("scipy-dop853", tolerance) for tolerance in TOLERANCES[:-2]]
+    found += [case.run(name, tolerance) for name in ("scipy-rk45", "scipy-lsoda") for tolerance in TOLERANCES[:7]]
     if choice.unfit(case.equations):
         return found
     # The reference is heyoka's at 1e-13: to hold that against itself would tell nothing.

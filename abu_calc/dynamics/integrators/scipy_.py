@@ -36,7 +36,7 @@ LOOSE, ORDER = 1e-3, 8
 """Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
 tolerance alike, they would agree without being right."""
 
-STIFF = 100.0
+STIFF = 50.0
 """Decay per radian of the fastest oscillation beyond which an explicit method spends its steps on what has died out."""
 
 CHECKS = (0.25, 0.5, 0.75)
