@@ -8,8 +8,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene import LinearSupport, Scene, Support, SwingArm
-from abu_calc.errors import InputError
+from abu_calc.dynamics.frame import add_rotor, arm_frame, ball_mass, linear_frame, spin_inertia, tilt_map
+from abu_calc.dynamics.scene import Scene, SwingArm
 
 Array = NDArray[Any]
 
@@ -114,11 +114,11 @@ def parameters_of(
 
     masses, radii, factors = np.array(scene.ball_masses, dtype=float), each("pitch_radius"), each("inertia_factor")
     places, spins = each("plane_offset"), (factors - 1) * each("ball_radius")
-    frame = _arm_frame(arm) if arm else _linear_frame(scene.support)  # type: ignore[arg-type]
-    frame["ball_mass"] = _ball_mass(len(frame["frame_mass"]), masses, places)
+    frame = arm_frame(arm) if arm else linear_frame(scene.support)  # type: ignore[arg-type]
+    frame["ball_mass"] = ball_mass(len(frame["frame_mass"]), masses, places)
     rotor, axes = rotor_of(scene), 0 if arm else len(frame["frame_mass"])
     if rotor == "driven":
-        _add_rotor(frame, scene)
+        add_rotor(frame, scene)
     frame["whole_mass"] = frame["frame_mass"] + frame["ball_mass"]
     return Parameters(
         size=len(scene.support.names),
@@ -136,7 +136,7 @@ def parameters_of(
         mobilities=1 / factors,
         reduced_masses=masses / factors,
         spins=spins,
-        spin_inertia=_spin_inertia(frame, arm, rotor, float((masses * spins * each("ball_radius")).sum())),
+        spin_inertia=spin_inertia(frame, arm, rotor == "driven", float((masses * spins * each("ball_radius")).sum())),
         places=places,
         imbalance=scene.imbalance,
         imbalance_angle=scene.imbalance_angle,
@@ -144,90 +144,8 @@ def parameters_of(
         turning_places=np.array((scene.imbalance_angle,) * 2 + (scene.couple_angle,) * 2)[:axes] - QUARTERS[:axes],
         arm_length=arm.length if arm else None,
         race_map=None if arm else np.array(scene.support.race_map),  # type: ignore[union-attr]
-        tilt_map=_tilt_map(scene.support),
+        tilt_map=tilt_map(scene.support),
         effects=scene.effects,
         modes=tuple(effect.first_mode(scene) for effect in scene.effects),
         **frame,
     )
-
-
-def _tilt_map(support: Support) -> Array | None:
-    if isinstance(support, SwingArm) or not support.axial_inertia:
-        return None
-    return np.kron(np.eye(2), np.array(support.race_map)[2:])
-
-
-def _spin_inertia(frame: dict[str, Any], arm: SwingArm | None, rotor: Rotor, inertia: float) -> Array | None:
-    """Which of the frame's accelerations turn the balls: that of the arm and that of a driven rotor."""
-    turning = np.zeros(len(frame["frame_mass"]))
-    if arm:
-        turning[0] = 1.0
-    if rotor == "driven":
-        turning[-1] = 1.0
-    return inertia * np.outer(turning, turning) if turning.any() else None
-
-
-def _arm_frame(arm: SwingArm) -> dict[str, Any]:
-    square = arm.length**2
-    return {
-        "frame_mass": np.array([[arm.inertia]]),
-        "held": np.array([[-arm.stiffness * square, -arm.damping * square]]),
-        "held_spinning": None,
-        "rest": None,
-        "carry": None,
-        "rest_spinning": None,
-        "steady_force": np.array([arm.moment]) if arm.moment else None,
-    }
-
-
-def _linear_frame(support: LinearSupport) -> dict[str, Any]:
-    M, P = np.array(support.mass), np.array(support.race_map)
-    if not (np.allclose(M, M.T, rtol=1e-9, atol=0) and np.all(np.linalg.eigvalsh(M) > 0)):
-        raise InputError("the support's mass matrix must be symmetric and positive definite", found=str(support.mass))
-    forces = -np.hstack([support.stiffness, support.damping])
-    spinning = np.hstack([np.zeros_like(M), -np.array(support.gyroscopic)]) if support.gyroscopic else None
-    if np.array_equal(P, np.eye(*P.shape)) and len(P) == len(M):
-        return {
-            "frame_mass": M, "held": forces, "held_spinning": spinning, "rest": None, "carry": None,
-            "rest_spinning": None, "steady_force": None,
-        }  # fmt: skip
-    push = np.linalg.solve(M, P.T)
-    frame_mass = np.linalg.inv(P @ push)
-    carry = push @ frame_mass
-
-    def behind(pull: Array) -> tuple[Array, Array]:
-        """Force on the frame, and what accelerates the support beside the frame."""
-        free = np.linalg.solve(M, pull)
-        return carry.T @ pull, free - carry @ (P @ free)
-
-    held, rest = behind(forces)
-    held_spinning, rest_spinning = behind(spinning) if spinning is not None else (None, None)
-    return {
-        "frame_mass": frame_mass, "held": held, "held_spinning": held_spinning, "rest": rest, "carry": carry,
-        "rest_spinning": rest_spinning, "steady_force": None,
-    }  # fmt: skip
-
-
-def _ball_mass(rows: int, masses: Array, places: Array) -> Array:
-    """Σ m [[I, z I], [z I, z² I]]: balls held in their races, as the frame feels them."""
-    m, mz, mzz = masses.sum(), (masses * places).sum(), (masses * places**2).sum()
-    return np.kron(np.array([[m, mz], [mz, mzz]]), np.eye(2))[:rows, :rows]
-
-
-def _add_rotor(frame: dict[str, Any], scene: Scene) -> None:
-    """One more row: the rotor's own turning, which on an arm is counted from the arm."""
-    inertia = sum(effect.rotor_inertia for effect in scene.effects)
-    mass = frame["frame_mass"]
-    shared = inertia if isinstance(scene.support, SwingArm) else 0.0
-    border = np.full((len(mass), 1), shared)
-    frame["frame_mass"] = np.block([[mass, border], [border.T, np.array([[inertia]])]])
-    if np.any(np.linalg.eigvalsh(frame["frame_mass"]) <= 0):
-        raise InputError("the rotor has more inertia than the arm that carries it", found=f"{inertia:g} kg m²")
-    frame["ball_mass"] = np.pad(frame["ball_mass"], ((0, 1), (0, 1)))
-    for name in ("held", "held_spinning"):
-        if frame[name] is not None:
-            frame[name] = np.vstack([frame[name], np.zeros(frame[name].shape[1])])
-    if frame["carry"] is not None:
-        frame["carry"] = np.hstack([frame["carry"], np.zeros((len(frame["carry"]), 1))])
-    if frame["steady_force"] is not None:
-        frame["steady_force"] = np.append(frame["steady_force"], 0.0)

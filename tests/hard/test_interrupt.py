@@ -16,6 +16,10 @@ from tests.spec.scenes import SCENE
 pytestmark = pytest.mark.hard
 
 
+def _heed_interrupts() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows knows no SIGINT for one process")
 @pytest.mark.parametrize("integrator", ["scipy", "heyoka"])
 def test_a_long_simulation_is_interrupted(integrator: str, tmp_path: Path) -> None:
@@ -29,11 +33,17 @@ def test_a_long_simulation_is_interrupted(integrator: str, tmp_path: Path) -> No
     scene.write_text(SCENE.replace("duration_s = 700.0", "duration_s = 1000000.0"), encoding="utf-8")
     files = "--output", str(tmp_path / "out.json"), "--trajectory", str(tmp_path / "motion.csv")
     command = sys.executable, "-m", "abu_calc", "simulate", str(scene), "--accuracy", "1e-6", "--integrator", integrator
-    with subprocess.Popen((*command, *files), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    # Whoever runs these tests in the background may have turned the signal off.
+    with subprocess.Popen(
+        (*command, *files), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=_heed_interrupts
+    ) as process:
         time.sleep(3)
         assert process.poll() is None
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        try:
+            out, err = process.communicate(timeout=60)
+        finally:
+            process.kill()
     assert process.returncode in (app.INTERRUPTED, -signal.SIGINT)
     assert (out, err) == ("", "Interrupted; nothing was written.\n")
     assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]

@@ -3,7 +3,7 @@ Radau IIA of order 5 where the equations are stiff (Hairer & Wanner 1996, the se
 """
 
 import importlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,7 +17,6 @@ from abu_calc.dynamics.integrators.traced import Numbers
 from abu_calc.dynamics.jacobian import jacobian
 from abu_calc.dynamics.modes import Modes, starting, watches
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import NotTrustworthyError
 
 if TYPE_CHECKING:
     from scipy.integrate import OdeSolver
@@ -218,40 +217,3 @@ class _Watcher:
 
         xtol = 1e-15 * max(abs(below), 1e-300)
         return float(brentq(lambda s: self._values(s, dense(s))[index], above, below, xtol=xtol, rtol=1e-14))
-
-
-def transition(matrix: Callable[[float], Array], end: float) -> Array:
-    """The map z(0) → z(end) of z' = A(t) z, errors below 1e-9 of what has grown; A(t) a small real matrix.
-
-    DOP853, or Radau where A would force more than some hundred steps on it. Raises NotTrustworthyError when the
-    integration fails.
-    """
-    from scipy.integrate import solve_ivp
-
-    start = matrix(0.0)
-    unit = np.eye(len(start))
-    stiff = float(np.abs(np.linalg.eigvals(start)).max()) * end > 3 * STIFF
-    # Of the columns of the map side by side, the Jacobian is A for each.
-    implicit: Any = {"method": "Radau", "jac": lambda t, z: np.kron(matrix(t), unit)} if stiff else {"method": "DOP853"}
-    try:
-        with np.errstate(all="ignore"):
-            done = solve_ivp(
-                lambda t, z: (matrix(t) @ z.reshape(unit.shape)).ravel(),
-                (0.0, end),
-                unit.ravel(),
-                rtol=1e-9,
-                atol=1e-12,
-                **implicit,
-            )
-    except ValueError as error:  # an implicit step meets a number that is none
-        raise _not_integrated(str(error)) from None
-    if not done.success or not np.isfinite(done.y[:, -1]).all():
-        raise _not_integrated(done.message)
-    return np.asarray(done.y[:, -1].reshape(unit.shape), dtype=float)
-
-
-def _not_integrated(reason: str) -> NotTrustworthyError:
-    return NotTrustworthyError(
-        f"the linear motion cannot be integrated: {reason}\n"
-        "  ask for a speed nearer to the natural frequencies, or for less drag"
-    )
