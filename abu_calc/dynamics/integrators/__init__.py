@@ -1,6 +1,7 @@
 """One file per solver library, each with `integrate(equations, tolerance, sample_times) -> Trajectory`.
 
-run.py      what they share: from event to event        choice.py   which one, and why
-scipy_.py   always there, on plain Python by plain.py   heyoka_.py  fast, optional, on compiled code
-traced.py   the one right-hand side told to either      symbols.py  what stands for its numbers meanwhile
+run.py      what they share: from event to event      choice.py   which one, and why
+scipy_.py   always there                              heyoka_.py  fast, optional
+plain.py    equations as plain Python, for SciPy      events.py   where SciPy's runs switch
+traced.py   the one right-hand side told to either    symbols.py  what stands for its numbers meanwhile
 """
