@@ -1,139 +1,138 @@
 """The averaged slow motion of the balls: what is left of the equations when everything that goes round is averaged out.
 
-    J θ_k'' + h₀ θ_k' = (Ω²/R_p) Im(w_i e^{−iθ_k}),    w_i = Ω² Σ_j h⁺_ij U_j + Δ e^{iφ}
+    J θ_k'' + h₀ θ_k' = (1/R_p) Im((Σ_j K_ij U_j − i K'_ij U_j' + Ω² Δ e^{iφ}) e^{−iθ_k}),    K_ij = ν⁴ h⁺_ij at ν = Ω
 
-w_i is the forward part of the whirl of race i, seen from the rotor; U_j the imbalance of rotor, couple and balls in the
-plane j, U of a race Σ m R_p e^{iθ} and m Δ e^{iφ} of its offset; h⁺ = ½(h_xx + h_yy + i(h_yx − h_xy)) the forward
-receptance of the support with the balls' mass. It is as slow as the balls, so it costs a small share of the equations.
+i is the race of ball k; U_j the imbalance of rotor, couple and balls in the plane j, U of a race Σ m R_p e^{iθ} and
+m Δ e^{iφ} of its offset; h⁺ = ½(h_xx + h_yy + i(h_yx − h_xy)) the forward receptance of the support with the balls'
+mass, K' = dK/dν. The second term is what slowly moving balls change; it is of the order of their rate over the distance
+of the speed from the natural frequencies, as is the change of their speed by the support's free motion at the start.
+`order` 1 leaves out both. It is as slow as the balls, so it costs a small share of the equations.
 
-Range: constant speed, linear supports or a swing arm idling, steady response of the support: the balls' own rate must
-be small against the distance of the speed from the natural frequencies, and no effect may switch. Source: Kladiev 1996,
-(4)–(7), generalised; Blekhman 1988, ch. 2 (vibrational moments).
+Range: constant speed, linear supports or a swing arm idling, and no effect may switch: see `averages`.
 """
 
+import cmath
 import math
-from dataclasses import dataclass, replace
-from typing import Final
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.receptance import receptance
-from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
+from abu_calc.dynamics.averages import AVERAGED, SLOW, TURNED, Averages, averages, dying, loaded
+from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.errors import NotTrustworthyError
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]
 
-AVERAGED: Final = frozenset({"gravity", "race_eccentricity"})
-"""Effects the averages account for: gravity has none, an offset race is part of the whirl."""
+RESONANT = 1e-9
+"""Distance from a natural frequency, as a share of the speed, that is none."""
 
-SLOW: Final = 0.3
-"""Largest rate of the balls, relative to the distance of the speed from natural frequencies, that counts as slow."""
+MOST_STEPS = 100_000
+"""Between two moments."""
 
 
 @dataclass(frozen=True)
 class Envelope:
-    """The slow motion: `theta` [ball, moment] at `t` [s], amplitudes of the axis' whirl at the end, and the work."""
+    """The slow motion: `theta` and `rate` [ball, moment] at `t` [s], and the work."""
 
     t: Array
     theta: Array
-    amplitude: float
+    rate: Array
     evaluations: int
     steps: int
 
 
-@dataclass(frozen=True)
-class Averages:
-    """What the averaged equations need of a scene."""
+def envelope(scene: Scene, tolerance: float, sample_times: Array, order: int = 2) -> Envelope:
+    """The slow motion from the scene's start through `sample_times` [s], the first of which is 0, by LSODA.
 
-    masses: Array
-    moments: Array
-    radii: Array
-    drags: Array
-    factors: Array
-    race: NDArray[np.intp]
-    forward: Complex
-    """races × sources: whirl of a race by a force that turns with the rotor, sources rotor, couple, races."""
-    own: Complex
-    """m₀e e^{iφ}, the couple likewise."""
-    offset: complex
-    speed: float
+    Balls that do not turn with the rotor at first are beyond it only in their first turns. Raises NotTrustworthyError
+    when the integration fails.
+    """
+    import scipy.integrate
 
-    def whirl(self, theta: Array) -> Complex:
-        """w_i of each race [m] for ball angles [ball, …]."""
-        turned = np.exp(1j * theta)
-        races = self.forward.shape[0]
-        balls = np.array([self.moments[self.race == i] @ turned[self.race == i] for i in range(races)])
-        held = np.array([self.masses[self.race == i].sum() for i in range(races)]) * self.offset
-        shape = (-1,) + (1,) * (theta.ndim - 1)
-        own = np.broadcast_to(self.own.reshape(shape), (len(self.own), *theta.shape[1:]))
-        sources = np.concatenate([own, balls + held.reshape(shape)])
-        return np.asarray(self.speed**2 * np.tensordot(self.forward, sources, axes=1), dtype=complex)
-
-    def rhs(self, state: Array) -> Array:
-        """(θ', θ'')."""
-        theta, rate = np.split(state, 2)
-        felt = (self.whirl(theta) + self.offset)[self.race]
-        pull = self.speed**2 / self.radii * (felt * np.exp(-1j * theta)).imag
-        return np.concatenate([rate, (pull - self.drags * rate) / self.factors])
+    solve: Any = scipy.integrate.odeint  # it takes a tolerance for each state, though its type stubs know one only
+    model, balls = averages(scene), len(scene.ball_masses)
+    speeds = np.array([speed for race in scene.races for speed in race.start_speeds])
+    start = np.concatenate([scene.start_angles, speeds + model.kick if order > 1 else speeds])
+    scales = tolerance * np.repeat((1.0, ball_rate(scene)), balls)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what went wrong is asked for
+        y, told = solve(slow_motion(model, order), start, sample_times, rtol=tolerance, atol=scales, tfirst=True,
+                        full_output=True, mxstep=MOST_STEPS)  # fmt: skip
+    if "successful" not in told["message"] or not np.isfinite(y).all():
+        raise NotTrustworthyError("the averaged motion is lost: it needs too many steps\n  take the equations instead")
+    theta, rate = y.T[:balls], y.T[balls:]
+    return Envelope(sample_times, theta, rate, int(told["nfe"][-1]), int(told["nst"][-1]))
 
 
-def averages(scene: Scene) -> Averages:
-    """The averaged equations of a scene; its effects other than an offset of the races are taken to average out."""
-    sizes = [len(race.ball_masses) for race in scene.races]
-    race = np.repeat(np.arange(len(sizes)), sizes)
-    eccentricity = scene.effect("race_eccentricity")
-    offset = 0j
-    if isinstance(eccentricity, RaceEccentricity):
-        offset = complex(eccentricity.magnitude * np.exp(1j * eccentricity.angle))
+def slow_motion(model: Averages, order: int = 2) -> Callable[[float, Array], list[float]]:
+    """(t, (θ, θ')) → (θ', θ''), in plain numbers: for a few balls that takes a fifth of the time of arrays."""
+    W, of_race = model.speed, 2 + model.race
+    held, slope = W**4 * model.forward, 4 * W**3 * model.forward + W**4 * model.slope
+    still = (held @ model.own + W**2 * model.offset).tolist()
+    # What each ball does to each race, by its place and by its speed.
+    places = (held[:, of_race] * model.moments).T
+    speeds = (slope[:, of_race] * model.moments).T if order > 1 else 0.0 * places
+    pulls = [
+        list(zip(range(len(still)), *both, strict=True)) for both in zip(places.tolist(), speeds.tolist(), strict=True)
+    ]
+    rest = list(zip(model.race.tolist(), (1 / (model.radii * model.factors)).tolist(),
+                    (model.drags / model.factors).tolist(), strict=True))  # fmt: skip
+    count = len(rest)
 
-    def each(name: str) -> Array:
-        return np.repeat(np.array([getattr(one, name) for one in scene.races], dtype=float), sizes)
+    def rates(_: float, state: Array) -> list[float]:
+        values: list[float] = state.tolist()
+        rate, felt, turned = values[count:], still.copy(), []
+        for pull, angle, speed in zip(pulls, values, rate, strict=False):
+            e = cmath.rect(1.0, angle)
+            turned.append(e)
+            for race, by_place, by_speed in pull:
+                felt[race] += e * (by_place + by_speed * speed)
+        rate += [
+            (felt[race].imag * e.real - felt[race].real * e.imag) * share - drag * speed
+            for (race, share, drag), e, speed in zip(rest, turned, rate, strict=True)
+        ]
+        return rate
 
-    couple = scene.couple * np.exp(1j * scene.couple_angle)
-    return Averages(
-        masses=np.array(scene.ball_masses, dtype=float),
-        moments=np.array(scene.ball_moments, dtype=float),
-        radii=each("pitch_radius"),
-        drags=each("drag"),
-        factors=each("inertia_factor"),
-        race=race,
-        forward=_forward(scene),
-        own=np.array((scene.imbalance * np.exp(1j * scene.imbalance_angle), couple)),
-        offset=offset,
-        speed=scene.speed,
-    )
-
-
-def _forward(scene: Scene) -> Complex:
-    """h⁺ [m/N] of the races by forces on the centre of mass, the couple, and each race."""
-    h = receptance(loaded(scene), scene.speed)
-    pairs = len(h) // 2
-    blocks = np.array(
-        [[_circular(h[2 * i : 2 * i + 2, 2 * j : 2 * j + 2]) for j in range(pairs)] for i in range(pairs)]
-    )
-    places = np.array([(1.0, race.plane_offset)[:pairs] for race in scene.races])
-    sources = np.concatenate([np.eye(2)[:, :pairs], places])
-    return np.asarray(places @ blocks @ sources.T, dtype=complex)
+    return rates
 
 
-def _circular(h: Complex) -> complex:
-    return complex(h[0, 0] + h[1, 1] + 1j * (h[1, 0] - h[0, 1])) / 2
+def whirl(scene: Scene, theta: Array, rate: Array) -> tuple[Complex, Complex]:
+    """Q, Q' [coordinate, moment]: the support moves as Re(Q e^{iΩt}), with the balls at θ and moving."""
+    model, support, W = averages(scene), loaded(scene), scene.speed
+    planes = np.array([(1.0, race.plane_offset) for race in scene.races]).T
+    turned = model.moments[:, None] * np.exp(1j * theta)
+    still = model.own[:2] + planes @ model.own[2:]
+    sums, changes = still[:, None] + planes[:, model.race] @ turned, planes[:, model.race] @ (1j * rate * turned)
+    answer, slope = support.answer(W)
+
+    def by(moments: Complex, answers: Complex) -> Complex:
+        forces = (moments[:, None] * TURNED[:, None]).reshape(4, -1)[: answers.shape[1]]
+        return np.asarray(answers @ forces, dtype=complex)
+
+    rates = by(changes, W**2 * answer)
+    return by(sums, W**2 * answer) - 1j * by(changes, 2 * W * answer + W**2 * slope), rates
 
 
-def loaded(scene: Scene) -> LinearSupport | SwingArm:
-    """The support with the balls' mass on it."""
-    support, masses = scene.support, np.array(scene.ball_masses, dtype=float)
-    if isinstance(support, SwingArm):
-        return replace(support, inertia=support.inertia + float(masses.sum()) * support.length**2)
-    P = np.array(support.race_map)
-    sizes = [len(race.ball_masses) for race in scene.races]
-    z = np.repeat(np.array([race.plane_offset for race in scene.races]), sizes)
-    m, mz, mzz = masses.sum(), (masses * z).sum(), (masses * z**2).sum()
-    balls = np.kron(np.array(((m, mz), (mz, mzz))), np.eye(2))[: len(P), : len(P)]
-    whole = np.array(support.mass) + P.T @ balls @ P
-    return replace(support, mass=tuple(tuple(row) for row in whole.tolist()))
+def motion(scene: Scene, slow: Envelope) -> Array:
+    """The states of the equations that it stands for: whirl and free motion of the support, the balls."""
+    model, support = averages(scene), loaded(scene)
+    Q, rates = whirl(scene, slow.theta, slow.rate)
+    turn = np.exp(1j * scene.speed * slow.t)
+    V, dying_out = dying(support, model.free, slow.t)
+    held = np.concatenate([Q * turn, (rates + 1j * scene.speed * Q) * turn]) + V @ dying_out
+    return np.concatenate([held.real, slow.theta, slow.rate])
+
+
+def free_amplitude(scene: Scene, t: float) -> float:
+    """The most the free motion of the support still moves the axis at the moment t [m]."""
+    support = loaded(scene)
+    V, dying_out = dying(support, averages(scene).free, np.array([t]))
+    return float(np.abs((support.frame[:2] @ V[: len(support.mass)]) * dying_out[:, 0]).sum())
 
 
 def not_averaged(scene: Scene) -> str | None:
@@ -141,7 +140,13 @@ def not_averaged(scene: Scene) -> str | None:
     others = [effect.name for effect in scene.effects if effect.name not in AVERAGED]
     if others:
         return f"{', '.join(others)} cannot be averaged"
-    rate, gap = ball_rate(scene), natural_gap(scene)
+    if isinstance(scene.support, SwingArm) and any(
+        (scene.support.moment, *scene.start_position, *scene.start_velocity)
+    ):
+        return "the arm does not start at rest in its middle position"
+    gap = natural_gap(scene)
+    # At a resonance that nothing damps there is no whirl to average.
+    rate = ball_rate(scene) if gap > RESONANT * scene.speed else math.inf
     if rate > SLOW * gap:
         return (
             f"the balls' own rate, {rate:.3g} rad/s, is not small against the {gap:.3g} rad/s between the speed and "
@@ -162,44 +167,4 @@ def ball_rate(scene: Scene) -> float:
 
 def natural_gap(scene: Scene) -> float:
     """Distance of the speed from the nearest natural frequency of the support with the balls' mass [rad/s]."""
-    support = loaded(scene)
-    if isinstance(support, SwingArm):
-        natural = np.array([math.sqrt(max(support.stiffness, 0.0) * support.length**2 / support.inertia)])
-    else:
-        N = len(support.names)
-        damping = np.array(support.damping) + (scene.speed * np.array(support.gyroscopic) if support.gyroscopic else 0)
-        M = np.array(support.mass)
-        A = np.block(
-            [[np.zeros((N, N)), np.eye(N)], [-np.linalg.solve(M, support.stiffness), -np.linalg.solve(M, damping)]]
-        )
-        natural = np.abs(np.linalg.eigvals(A).imag)
-    return float(np.abs(scene.speed - natural).min())
-
-
-def envelope(scene: Scene, tolerance: float, sample_times: Array) -> Envelope:
-    """The slow motion from the scene's start to the last of `sample_times` [s], by SciPy's DOP853.
-
-    Balls that do not turn with the rotor at first are beyond it only in their first turns. `amplitude` is the larger
-    semi-axis of the axis' whirl at the end.
-    """
-    from scipy.integrate import solve_ivp
-
-    model = averages(scene)
-    start = np.concatenate([scene.start_angles, [speed for race in scene.races for speed in race.start_speeds]])
-    done = solve_ivp(
-        lambda _, state: model.rhs(state), (0.0, float(sample_times[-1])), start, method="DOP853",
-        t_eval=sample_times, rtol=tolerance, atol=tolerance,
-    )  # fmt: skip
-    theta = done.y[: len(model.masses)]
-    return Envelope(sample_times, theta, _whirl_amplitude(scene, model, theta[:, -1]), done.nfev, len(done.t))
-
-
-def _whirl_amplitude(scene: Scene, model: Averages, theta: Array) -> float:
-    """(|X + iY| + |X − iY|)/2 of the axis at the centre of mass by all imbalances."""
-    h = receptance(loaded(scene), scene.speed)
-    turned = model.moments * np.exp(1j * theta) + model.masses * model.offset
-    z = np.repeat([race.plane_offset for race in scene.races], [len(race.ball_masses) for race in scene.races])
-    total = [model.own[0] + turned.sum(), model.own[1] + (turned * z).sum()]
-    force = np.concatenate([value * np.array((1, -1j)) for value in total])[: len(h)]
-    X, Y, *_ = (h @ force * scene.speed**2).tolist()
-    return float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
+    return float(np.abs(scene.speed - np.abs(np.linalg.eigvals(loaded(scene).motion).imag)).min())

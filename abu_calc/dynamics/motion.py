@@ -97,7 +97,8 @@ class Loads:
 
     `pull`, `press` (n): forces on the balls per ball mass, along e_t and e_r; `frame` (d): forces on the frame; `grip`
     (n): dry friction along −e_t per normal force, signed; `free` (n): 1, or 0 for a ball that sticks; `mates` (n × n):
-    1 for balls that move together; `hold` (n): largest friction that holds balls in place, per normal force.
+    1 for balls that move together; `leads` (n): 1 for the first of each of these; `hold` (n): largest friction that
+    holds balls in place, per normal force, negative like it on the inner side of a race.
     """
 
     pull: Any = None
@@ -106,6 +107,7 @@ class Loads:
     grip: Any = None
     free: Any = None
     mates: Any = None
+    leads: Any = None
     hold: Any = None
     across: Across | None = None
     bound: Bound | None = None

@@ -1,7 +1,7 @@
 """Balls that touch: what impacts do to all speeds, and which touching pairs press.
 
-Accelerations are linear in forces on the balls, so unit forces tell all that is needed of the mass matrix, whatever the
-support and the other effects.
+Accelerations are linear in torques on the balls, so unit torques tell all that is needed of the mass matrix, whatever
+the support and the other effects. Balls that touch pass on torques about the race's centre: their angles are bound.
 """
 
 from dataclasses import dataclass, replace
@@ -29,20 +29,20 @@ SURPLUS = 1e-7 / 4
 
 @dataclass(frozen=True, eq=False)
 class Responses:
-    """Of a moment with all balls free: R_p θ'', normal forces per ball mass, and what forces do to them.
+    """Of a moment with all balls free: θ'', normal forces per ball mass, and what torques do to them.
 
-    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_force`, `normal_by_force` (n × n),
-    `state_by_force` (states × n): per unit force along the race [N] on each ball. `friction` (n): m f, zero without dry
-    friction.
+    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_torque`, `normal_by_torque` (n × n),
+    `state_by_torque` (states × n): per unit torque about the race's centre [N m] on each ball. `friction` (n): ±m R f,
+    negative where the inner side of the race presses; zero without dry friction.
     """
 
     t: float
     pairs: Array
     accelerations: Array
-    by_force: Array
+    by_torque: Array
     normal: Array
-    normal_by_force: Array
-    state_by_force: Array
+    normal_by_torque: Array
+    state_by_torque: Array
     friction: Array
 
     def among(self, chosen: Array) -> "Responses":
@@ -51,12 +51,12 @@ class Responses:
 
 
 def responses(moment: "Moment", behind: list[int], ahead: list[int]) -> Responses:
-    """What unit forces on each ball do at a moment, for pairs of balls."""
+    """What unit torques on each ball do at a moment, for pairs of balls."""
     p = moment.parameters
     m, levers, loads = loaded(np, moment.t, moment.y, p)
     hold = np.zeros(p.balls) if loads.hold is None else loads.hold
     # What friction does to balls that it cannot hold is known.
-    grip = np.zeros(p.balls) if loads.grip is None else np.where(hold > 0, 0.0, loads.grip)
+    grip = np.zeros(p.balls) if loads.grip is None else np.where(hold != 0, 0.0, loads.grip)
     loads.mates, loads.free, loads.grip = None, None, grip
     pull = np.zeros(p.balls) if loads.pull is None else loads.pull
     base = solve_loaded(m, levers, loads, p)
@@ -67,25 +67,28 @@ def responses(moment: "Moment", behind: list[int], ahead: list[int]) -> Response
     for ball in range(p.balls):
         loads.pull = pull.copy()
         loads.pull[ball] += unit[ball]
-        more, force = solve_loaded(m, levers, loads, p), p.masses[ball] * unit[ball]
-        changed = (more.balls - base.balls, more.normal - base.normal, derivative(m, more, moment.y, p) - state)
-        columns.append([column / force for column in changed])
-    by_force, normal_by_force, state_by_force = (np.array(rows).T for rows in zip(*columns, strict=True))
+        more, torque = solve_loaded(m, levers, loads, p), p.masses[ball] * unit[ball] * m.radii[ball]
+        changed = ((more.balls - base.balls) / m.radii, more.normal - base.normal)
+        columns.append([one / torque for one in (*changed, derivative(m, more, moment.y, p) - state)])
+    by_torque, normal_by_torque, state_by_torque = (np.array(rows).T for rows in zip(*columns, strict=True))
     unity = np.eye(p.balls)
     return Responses(
-        moment.t, unity[ahead] - unity[behind], base.balls, by_force, base.normal, normal_by_force, state_by_force,
-        hold * p.masses,
+        moment.t, unity[ahead] - unity[behind], base.balls / m.radii, by_torque, base.normal, normal_by_torque,
+        state_by_torque, hold * p.masses * m.radii,
     )  # fmt: skip
 
 
-def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow: Array) -> Array:
+def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow: Array, rest: float) -> Array:
     """The state after all pairs that approach have met, v⁺ = v⁻ + M⁻¹ Dᵀ Λ; the same object where none does.
 
     One after the other, the fastest approach first: each leaves −e times its speed of approach, so energy never grows.
-    Pairs that then part or approach more slowly than `slow` (P) [rad/s] get equal speeds, momentum kept.
+    Pairs that then part or approach more slowly than `slow` (P) [rad/s] get equal speeds to within `rest` [rad/s],
+    momentum kept. Where none approaches by more than that, nothing is done: pairs part as slowly as they do.
     """
-    D, kicks = answer.pairs, answer.state_by_force.dot(answer.pairs.T)
+    D, kicks = answer.pairs, answer.state_by_torque.dot(answer.pairs.T)
     matrix, relative, total = D.dot(kicks[rates]), D.dot(y[rates]), np.zeros(len(D))
+    if not np.any(relative < -rest):
+        return y
     for count in range(MOST_IMPACTS):
         worst = int((relative + slow).argmin())
         near = np.abs(relative) <= slow if count < MOST_IMPACTS - 1 else relative <= slow
@@ -93,7 +96,7 @@ def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow:
             impulse = -(1 + restitution) * relative[worst] / matrix[worst, worst]
             total[worst] += impulse
             relative = relative + matrix[:, worst] * impulse
-        elif np.any(np.abs(relative) > 1e-6 * slow, where=near):
+        elif np.any(np.abs(relative) > rest, where=near):
             impulses = -np.linalg.solve(matrix[np.ix_(near, near)], relative[near])
             total[near] += impulses
             relative = relative + matrix[:, near].dot(impulses)
@@ -103,22 +106,29 @@ def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow:
     return y + kicks.dot(total) if total.any() else y
 
 
-def pressing(answer: Responses, directions: Array, joined: Array, margin: float) -> Array:
-    """1 for each touching pair with equal speeds that presses, 0 for one that parts.
+def approaches(answer: Responses, torques: Array) -> Array:
+    """Relative accelerations [rad/s²] at which pairs would meet again that torques [N m] press together."""
+    own = np.einsum("ij,jk,ik->i", answer.pairs, answer.by_torque, answer.pairs)
+    found: Array = own * np.maximum(torques, 0.0)
+    return found
+
+
+def pressing(answer: Responses, directions: Array, joined: Array, margin: float) -> tuple[Array, Array]:
+    """1 for each touching pair with equal speeds that presses, 0 for one that parts; by what torques they press.
 
     Relative acceleration ≥ 0 ⟂ λ ≥ 0 of pairs, and Coulomb's law of the balls at rest (direction 0) on their races, as
     one complementarity problem. Block principal pivoting from the pairs that were joined, after some rounds by the
     first index alone: it ends, because the matrix is symmetric and positive definite but for a small f (Júdice & Pires
-    1994). `margin` [N]: what counts as no force. Raises NotTrustworthyError when a large f leaves no solution.
+    1994). `margin` [N m]: what counts as no torque. Raises NotTrustworthyError when a large f leaves no solution.
     """
     problem = _Problem(answer, margin)
-    rests = (directions == 0) & (answer.friction > 0)
+    rests = (directions == 0) & (answer.friction != 0)
     status, fixed = np.concatenate([joined, np.where(rests, 0.0, directions)]), np.concatenate([joined < 0, ~rests])
     for attempt in range(20 + 10 * len(status)):
-        wrong, better = problem.failing(status)
+        wrong, better, torques = problem.failing(status)
         wrong &= ~fixed
         if not wrong.any():
-            return status[: len(joined)]
+            return status[: len(joined)], torques[: len(joined)]
         if attempt > 10 + len(status):
             wrong &= np.cumsum(wrong) <= 1
         status = np.where(wrong, better, status)
@@ -129,29 +139,32 @@ def pressing(answer: Responses, directions: Array, joined: Array, margin: float)
 
 
 class _Problem:
-    """Forces z = (λ of pairs, friction on balls) and what they do: w = W z + q, relative and own accelerations."""
+    """Torques z = (λ of pairs, friction on balls) and what they do: w = W z + q, relative and own accelerations."""
 
     def __init__(self, answer: Responses, margin: float) -> None:
         self.pairs, balls = answer.pairs.shape
         E = np.vstack([answer.pairs, np.eye(balls)])
-        self.W, self.q = E.dot(answer.by_force).dot(E.T), E.dot(answer.accelerations)
+        self.W, self.q = E.dot(answer.by_torque).dot(E.T), E.dot(answer.accelerations)
         rows = np.zeros((self.pairs, len(E)))
         self.most = np.concatenate([np.zeros(self.pairs), answer.friction * answer.normal])
-        self.most_by_force = np.vstack([rows, answer.friction[:, None] * answer.normal_by_force.dot(E.T)])
+        self.most_by_torque = np.vstack([rows, answer.friction[:, None] * answer.normal_by_torque.dot(E.T)])
         self.margin = margin
 
-    def failing(self, status: Array) -> tuple[Array, Array]:
-        """Which assumptions fail, and what is better: pairs 1 joined or 0; balls 0 sticking or ±1."""
+    def failing(self, status: Array) -> tuple[Array, Array, Array]:
+        """Which assumptions fail, what is better (pairs 1 joined or 0; balls 0 sticking or ±1), and all torques."""
         pair = np.arange(len(status)) < self.pairs
         held = np.where(pair, status > 0, status == 0)
         unit, own = np.eye(len(status)), np.diag(self.W)
         # A force that is not free to hold is 0 in a pair, and −σ f n on a ball.
         signs = np.where(pair, 0.0, status)
-        matrix = np.where(held[:, None], self.W + SOFT * np.diag(own), unit + signs[:, None] * self.most_by_force)
-        z = np.linalg.solve(matrix, np.where(held, -self.q, -signs * self.most))
-        w, most = self.W.dot(z) + self.q, np.maximum(self.most + self.most_by_force.dot(z), 0.0)
+        matrix = np.where(held[:, None], self.W + SOFT * np.diag(own), unit + signs[:, None] * self.most_by_torque)
+        right = np.where(held, -self.q, -signs * self.most)
+        z = np.linalg.solve(matrix, right)
+        # Softness is taken back where it was not needed.
+        z += np.linalg.solve(matrix, np.where(held, right - self.W.dot(z), 0.0))
+        w, most = self.W.dot(z) + self.q, np.maximum(self.most + self.most_by_torque.dot(z), 0.0)
         parts, meets = z < -self.margin, w < -self.margin * own
         slips, stops = np.abs(z) > (1 + SURPLUS) * most, status * w < -self.margin * own
         wrong = np.where(pair, np.where(held, parts, meets), np.where(held, slips, stops))
         better = np.where(pair, 1.0 - status, np.where(held, -np.sign(z), 0.0))
-        return wrong, better
+        return wrong, better, z

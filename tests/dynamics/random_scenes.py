@@ -198,16 +198,9 @@ def _effects(scene: Scene, rotor: Rotor, dice: Dice) -> tuple[Effect, ...]:
         found.append(_contact(scene, rotor, whirl, dice))
     if dice.often(0.3):
         found.append(BallContact(radius, dice.even(0, 1)))
-    # Left out: balls that gravity drops off their race at full speed. Friction means nothing there, and is refused.
-    pressed = race.pitch_radius * rotor.speed**2 > 2 * GRAVITY or not _has(found, "gravity")
-    if dice.often(0.3) and pressed:
+    if dice.often(0.3):
         found.append(DryRollingFriction(radius * dice.log(1e-6, 1e-2), radius))
     return tuple(found)
-
-
-def _has(effects: list[Effect], name: str) -> bool:
-    """Whether one of the effects has this name."""
-    return any(effect.name == name for effect in effects)
 
 
 def _contact(scene: Scene, rotor: Rotor, whirl: float, dice: Dice) -> Effect:

@@ -17,7 +17,7 @@ from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitud
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import InputError
+from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import hand_support, scene_on
 
 W = 5800 * math.pi / 30
@@ -306,6 +306,18 @@ def test_a_start_is_placed_on_the_constraint_by_the_shortest_way(support):
     assert row @ contact.placed(resting).start_velocity == pytest.approx(0)
     soft = replace(contact, contact="compliant", contact_stiffness=1.0)
     assert soft.placed(scene) is scene
+
+
+def test_balls_that_run_away_are_told():
+    """A rigid contact feeds heavy balls without drag until their speed is infinite; one that can part does not."""
+    rigid = GrindingContact(1.0, 0.5, "rigid", rotation_sense=1)
+    scene = grinder(rigid, (0.3, 1.2, 2.5), drag=0.0, inertia_factor=1.0)
+    race = replace(scene.races[0], ball_masses=(1.0,) * 3, start_speeds=(30 * W, -20 * W, 10 * W))
+    with pytest.raises(NotTrustworthyError, match=r"ball 2 runs away at t = 0\.\d+ s: a rigid contact cannot part"):
+        scipy_.integrate(assemble(replace(scene, races=(race,))), 1e-4, [scene.duration])
+    compliant = replace(rigid, contact="compliant", contact_stiffness=M * W**2)
+    end = scipy_.integrate(assemble(replace(scene, races=(race,), effects=(compliant,))), 1e-4, [scene.duration / 50])
+    assert np.abs(end.y[-3:]).max() < 200 * W
 
 
 def test_constraint_holds_behind_hands():

@@ -21,6 +21,13 @@ CHEAP = (2, 3, 5, 7, 11, 12, 14, 15, 17, 19, 23, 28, 31, 33, 36, 39, 42, 46, 55,
 """Seeds of scenes that are answered in a fraction of a second: chosen for that, so they say nothing of how many are."""
 
 
+BOUNCING = (20, 65, 182, 221, 340, 354, 408)
+"""Seeds of scenes whose balls meet and part by next to nothing, change sides, or are pressed together by others."""
+
+RUNAWAYS = {81: "runs away", 130: "climbs out of its groove", 210: "runs away", 263: "has turned right round"}
+"""Seeds of scenes that nothing can answer, and why."""
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What became of a scene: an answer or a reason."""
@@ -73,6 +80,24 @@ def test_cheap_scenes_are_answered(seed):
     found = outcome(seed, "scipy")
     assert found.simulation is not None, found.reason
     check_answer(found.simulation)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", BOUNCING)
+def test_bouncing_balls_come_to_an_end(seed):
+    """Thousands of events at most, and an answer."""
+    found = outcome(seed, "scipy")
+    assert found.simulation is not None, found.reason
+    check_answer(found.simulation)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", RUNAWAYS)
+def test_what_runs_away_is_refused_for_that(seed):
+    """Not because steps become too small."""
+    found = outcome(seed, "scipy")
+    assert RUNAWAYS[seed] in found.reason
+    check_reason(found.reason)
 
 
 @dataclass(frozen=True)

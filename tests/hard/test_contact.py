@@ -164,12 +164,12 @@ def test_balls_bounce_to_rest(restitution: float) -> None:
     """Below resonance two balls meet on the heavy side: infinitely many bounces in a finite time, e + e² + … (Zeno).
 
     A finite number of events is counted, fewer without restitution; then they touch for good, 2β apart, at places two
-    tolerances and two integrators agree on.
+    tolerances and two integrators agree on. Where a pair parts within what events are located by, it may dip by 1e-6.
     """
     scene = machine(50.0, (2.5, -2.0), 3.0, BallContact(0.008, restitution), damping_ratio=0.2, drag=5.0)
     motion = check_agreement(scene, 1e-3, 301)
     gap = 2 * math.pi - (motion.y[4] - motion.y[5]) - 2 * math.asin(0.008 / 0.024)
-    assert (gap > -1e-9).all()
+    assert (gap > -1e-6).all()
     assert motion.events < 60
     if restitution < 0.9:
         assert gap[-100:].max() < 1e-11

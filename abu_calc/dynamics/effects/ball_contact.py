@@ -19,7 +19,7 @@ from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.touching import Responses, impacts, pressing, responses
+from abu_calc.dynamics.touching import Responses, approaches, impacts, pressing, responses
 from abu_calc.errors import InputError
 from abu_calc.validity import Range
 
@@ -33,8 +33,12 @@ GRAZING, LIFT = 1e-6, 1e-6
 """A rebound slower than the first, relative to the slow motion of the balls, or that would part the two by less than
 the second [rad] before they are pressed together again, is none: else they would bounce without end."""
 
-MARGIN = 1e-11
+MARGIN = 1e-9
 """A pair parts when it would have to be pulled together by this much of m R_p Ω², so that it parts with certainty."""
+
+DIP, DEEPEST = 10.0, 1e-6
+"""An interpolated motion may bring balls together again that are parting: such a gap counts as closed only when it is
+deeper [rad] by the first factor each time, up to the second."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +46,8 @@ class Neighbours:
     """Gaps between neighbours, race by race, and which of them are closed for good.
 
     Gap i: θ[ahead] − θ[behind] + turns; it may not fall below `least`. `joined`: 1 where the two move together.
-    `rear`, `front` (gaps × balls): 1 for the balls of a joined gap's chain behind and ahead of it. `mates`: see Loads.
+    `rear`, `front` (gaps × balls): 1 for the balls of a joined gap's chain behind and ahead of it. `mates`, `leads`:
+    see Loads.
     """
 
     behind: tuple[int, ...]
@@ -54,6 +59,7 @@ class Neighbours:
     rear: Array
     front: Array
     mates: Array | None
+    leads: Array
 
     def gaps(self, theta: Array) -> Array:
         """All gaps [rad]."""
@@ -70,8 +76,20 @@ class Neighbours:
             rear[i, _chain(self.behind[i], before)] = front[i, _chain(self.ahead[i], after)] = 1.0
             members = np.flatnonzero(rear[i] + front[i])
             mates[np.ix_(members, members)] = 1.0
-        least = np.minimum(self.touching, self.gaps(theta) - _rounding(theta))
-        return replace(self, joined=joined, least=least, rear=rear, front=front, mates=mates if joined.any() else None)
+        gaps, rounding = self.gaps(theta), _rounding(theta)
+        # One that has come to its bound again though it parts may dip deeper.
+        dips = (joined == 0) & (self.joined == 0) & (gaps < self.least + rounding / 2) & (self.least < self.touching)
+        deeper = np.where(dips, np.minimum(DIP * (self.touching - self.least), DEEPEST), 0.0)
+        least = np.minimum(self.touching - deeper, gaps - rounding)
+        return replace(
+            self,
+            joined=joined,
+            least=least,
+            rear=rear,
+            front=front,
+            mates=mates if joined.any() else None,
+            leads=1.0 * (mates.argmax(axis=1) == np.arange(balls)),
+        )
 
 
 def _rounding(theta: Array) -> float:
@@ -123,7 +141,7 @@ class BallContact(Effect):
         least, theta = np.array(spans), np.array(scene.start_angles)
         none = np.zeros(len(least))
         rows = np.zeros((len(least), first))
-        found = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, rows, rows, None)
+        found = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, rows, rows, None, none)
         _check_apart(found, theta)
         return found.joining(none, theta)
 
@@ -143,7 +161,7 @@ class BallContact(Effect):
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """Joined balls move together."""
         if mode is not None and mode.mates is not None:
-            loads.mates = mode.mates
+            loads.mates, loads.leads = mode.mates, mode.leads
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """Gaps that are open: gap − 2β. Joined: what the chain behind pushes with, and what the chain ahead resists.
@@ -156,11 +174,14 @@ class BallContact(Effect):
         gaps, joined = mode.gaps(m.theta) - mode.least, mode.joined
         if mode.mates is None:
             return [*gaps]
-        left = p.masses * solved.left
-        held = 0.0 * left if loads.hold is None else loads.hold * p.masses * solved.normal * (1 - loads.free)
-        unit = MARGIN * p.moments.mean() * p.speed**2
+        left, unit = m.moments * solved.left, self._margin(p)
+        held = 0.0 * left if loads.hold is None else loads.hold * m.moments * solved.normal * (1 - loads.free)
         push, resist = mode.rear.dot(left + held) / unit + 1, mode.front.dot(held - left) / unit + 1
         return [*(joined * push + (1 - joined) * gaps), *(joined * resist + (1 - joined))]
+
+    def _margin(self, p: Parameters) -> Any:
+        """What counts as no torque between two balls [N m]."""
+        return MARGIN * (p.moments * p.radii).mean() * p.speed**2
 
     def settle(self, moment: "Moment") -> tuple[Any, Any]:
         """Impacts of what meets; then which of the touching pairs press and stay together."""
@@ -174,22 +195,31 @@ class BallContact(Effect):
         if len(touching):
             answer = responses(moment, [mode.behind[i] for i in touching], [mode.ahead[i] for i in touching])
             slow = moment.equations.scales[rates.start]
-            lifts = np.sqrt(2 * LIFT * np.maximum(-answer.pairs.dot(answer.accelerations / p.radii), 0.0))
-            moment = replace(moment, y=impacts(answer, moment.y, rates, self.restitution, GRAZING * slow + lifts))
-            joined[touching] = self._pressing(answer, moment.y[rates], AT_REST * slow, p, mode.joined[touching])
+            y = self._after_impacts(answer, moment.y, rates, slow, self._margin(p) / 2)
+            moment = replace(moment, y=y)
+            joined[touching] = self._pressing(answer, y[rates], slow, self._margin(p) / 2, mode.joined[touching])
         # A gap that has just been found to open must be clearly above its bound, or rounding would close it at once.
         least = mode.least + _rounding(theta) / 2
         if np.array_equal(joined, mode.joined) and np.all((mode.gaps(theta) >= least) | (joined > 0)):
             return moment.y, mode
         return moment.y, mode.joining(joined, theta)
 
-    def _pressing(self, answer: Responses, rates: Array, rest: float, p: Parameters, joined: Array) -> Array:
+    def _after_impacts(self, answer: Responses, y: Array, rates: slice, slow: float, margin: float) -> Array:
+        """The state after all impacts; the very same where there are none."""
+        rest = AT_REST * slow / 10
+        if not np.any(answer.pairs.dot(y[rates]) < -rest):
+            return y
+        _, torques = pressing(answer, np.sign(y[rates]), np.ones(len(answer.pairs)), margin)
+        lifts = np.sqrt(2 * LIFT * approaches(answer, torques))
+        return impacts(answer, y, rates, self.restitution, GRAZING * slow + lifts, rest)
+
+    def _pressing(self, answer: Responses, rates: Array, slow: float, margin: float, joined: Array) -> Array:
         """1 for each touching pair that stays together."""
+        rest = AT_REST * slow
         together = np.abs(answer.pairs.dot(rates)) <= rest
-        unit = MARGIN * float(p.moments.mean()) * p.speed**2
         found = np.zeros(len(together))
         directions = np.where(np.abs(rates) <= rest, 0.0, np.sign(rates))
-        found[together] = pressing(answer.among(together), directions, joined[together], unit / 2)
+        found[together], _ = pressing(answer.among(together), directions, joined[together], margin)
         return found
 
     def weight(self, scene: Scene) -> Weight:

@@ -13,7 +13,8 @@ on the centre of the wheel's surface, ε e^{i(turn + φ₀)} off the axis, R_w a
     ε (N cos − T sin)(turn + φ₀) + T R_w,    face: s f N₀ R_w
 
 Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and `separates`
-tells where that cannot be. Compliance, one-sided contact and torque are derived.
+tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power
+with its cube, so that it is infinite after a finite time. Compliance, one-sided contact and torque are derived.
 """
 
 import math
@@ -29,7 +30,7 @@ from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.receptance import receptance, reference_moment, weighing_amplitude
 from abu_calc.dynamics.scene import LinearSupport, Scene
-from abu_calc.errors import InputError
+from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
@@ -46,6 +47,9 @@ TOUCHING, APART = 1.0, 0.0
 NEAR = 1e-9
 """Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
 
+
+RUNAWAY = 1e3
+"""Balls this many times as fast as the rotor run away: they go on to infinite speed, in a moment."""
 
 LEAST_DEPTH = 1e-9
 """A depth [m] that counts as something where there is neither press nor runout."""
@@ -84,8 +88,8 @@ class GrindingContact(Effect):
 
     @property
     def switches(self) -> bool:  # type: ignore[override]
-        """Wheel and work part where the contact is compliant."""
-        return self.contact == "compliant"
+        """Wheel and work part where the contact is compliant; where it is rigid, balls may run away."""
+        return self.contact != "face"
 
     @property
     def drag(self) -> float:
@@ -95,7 +99,7 @@ class GrindingContact(Effect):
     def first_mode(self, scene: Scene) -> Any:
         """Touching; raises InputError on supports that have no such contact."""
         self._row(scene)
-        return TOUCHING if self.switches else None
+        return TOUCHING if self.contact == "compliant" else None
 
     def _row(self, scene: Scene) -> Array:
         """y_w per unit of each coordinate of the support."""
@@ -164,15 +168,25 @@ class GrindingContact(Effect):
         return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, p))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """How deep the wheel is in the work while touching, the gap while apart, relative to what is usual."""
-        if not self.switches:
+        """How deep the wheel is in the work while touching, the gap while apart, relative to what is usual.
+
+        Rigid: what the balls' squared speeds lack of a runaway.
+        """
+        if self.contact == "face":
             return []
+        if self.contact == "rigid":
+            return [1 - m.rate.dot(m.rate) / (RUNAWAY * p.speed * RUNAWAY * p.speed)] if p.balls else []
         unloaded = self.press_force / self.contact_stiffness
         return [(2 * mode - 1) * (unloaded - self._surface(m, p)[0]) / (unloaded + self.runout + LEAST_DEPTH)]
 
     def settle(self, moment: "Moment") -> tuple[Any, Any]:
-        """Touching where the wheel is in the work; at its very surface, where it is about to be."""
-        if not self.switches:
+        """Touching where the wheel is in the work; at its very surface, where it is about to be.
+
+        Raises NotTrustworthyError when a rigid contact drives the balls to ever higher speeds.
+        """
+        if self.contact == "rigid":
+            _check_speeds(moment)
+        if self.contact != "compliant":
             return moment.y, moment.mode
         m, _, solved = moment.solved(APART)
         p = moment.parameters
@@ -260,6 +274,18 @@ def _inside(depth: float, deeper: float, ever: float, near: float) -> bool:
     if deeper * ever < 0:
         return (depth - deeper**2 / (2 * ever) > near) if deeper > 0 else (depth - deeper**2 / (2 * ever) > -near)
     return (deeper or ever) >= 0
+
+
+def _check_speeds(moment: "Moment") -> None:
+    """Refuse balls that run away."""
+    p, first = moment.parameters, 2 * moment.parameters.size + moment.parameters.balls
+    fast = np.abs(moment.y[first : first + p.balls]) / p.speed
+    if np.linalg.norm(fast) > 0.999 * RUNAWAY:
+        raise NotTrustworthyError(
+            f"ball {int(fast.argmax()) + 1} runs away at t = {moment.t:.6g} s: a rigid contact cannot part, and its "
+            "cutting force T = f N feeds the balls\n"
+            "  give the race more drag or the contact a stiffness, or lower the cutting coefficient"
+        )
 
 
 def normal_forces(equations: "Equations", trajectory: "Trajectory") -> Array:

@@ -15,8 +15,8 @@ from abu_calc.dynamics.integrators.traced import Numbers, kept, trace
 from abu_calc.dynamics.modes import Modes, watched
 from abu_calc.dynamics.parameters import Array, Parameters
 
-MOST_BALLS = 32
-"""Beyond, arrays are about as fast, and take no time to be written."""
+MOST_BALLS, MOST_NUMBERS = 32, 1000
+"""Beyond so many balls, or parameters (sixteen balls that touch), arrays are about as fast, and need not be written."""
 
 LONGEST = 200
 """Characters of an expression before it gets a name: nested too deep, no parser would take it."""
@@ -154,13 +154,12 @@ _kept: dict[Any, Maker] = {}
 
 def functions(equations: Equations, numbers: Numbers, modes: Modes) -> tuple[Function, Function]:
     """y'(t, y) and the watched numbers in these modes, plain where that is faster."""
-    parameters = equations.in_mode(modes)
-    if not 0 < parameters.balls <= MOST_BALLS:
+    parameters, (structure, values) = equations.in_mode(modes), numbers.of(modes)
+    if not 0 < parameters.balls <= MOST_BALLS or len(values) > MOST_NUMBERS:
         return (
             lambda t, y: equations.rhs(np, t, y, parameters),
             lambda t, y: watched(equations, t, y, parameters),
         )
-    structure, values = numbers.of(modes)
     return kept(_kept, structure, lambda: _write(equations, parameters))(values)
 
 
