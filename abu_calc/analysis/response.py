@@ -196,9 +196,10 @@ def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[floa
 
 def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
     """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, moment]."""
-    moments = np.array(scene.ball_moments, dtype=float)
-    own = scene.imbalance * np.exp(1j * scene.imbalance_angle)
-    return np.asarray(own + moments @ np.exp(1j * angles), dtype=complex)
+    total = np.full(angles.shape[1:], scene.imbalance * np.exp(1j * scene.imbalance_angle))
+    for moment, angle in zip(scene.ball_moments, angles, strict=True):
+        total += moment * np.exp(1j * angle)
+    return total
 
 
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:

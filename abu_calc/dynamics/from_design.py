@@ -65,11 +65,11 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
 
     `idle`: at full speed, the axis at rest at its place, the balls as `STARTS` tells, the mass that which is felt in
     the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
-    contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one;
-    without dry friction, since balls do not press on a race that stands. `swing-arm-…`: on the arm, at rest where it
-    stands. Always with ball contact, dry rolling friction and the race's eccentricity, the latter at its worst; on a
-    horizontal spindle with gravity. Left out: transverse motion, which no key of a machine drives, and the motor at
-    full speed, where it would change the speed. It lasts seven decay times of what dies out last, within bounds.
+    contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one.
+    `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the race's
+    eccentricity, the latter at its worst; on a horizontal spindle with gravity. Left out: transverse motion, which no
+    key of a machine drives, and the motor at full speed, where it would change the speed. It lasts seven decay times
+    of what dies out last, within bounds.
     Raises InputError for a table that is missing, NotTrustworthyError for an arm that does not stand at the work.
     """
     _refuse_what_is_missing(design, which)
@@ -200,8 +200,7 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
     if contact:
         yield contact
     yield BallContact(radius, RESTITUTION)
-    if which != "run-up":
-        yield DryRollingFriction(case.friction_arm, radius)
+    yield DryRollingFriction(case.friction_arm, radius)
 
 
 def _contact(design: Design) -> GrindingContact | None:

@@ -49,7 +49,7 @@ def simulate_blocks(
         *default_blocks(defaults),
         Heading("Model"),
         Paragraph(f"{_model(scene)} Start: {start}."),
-        Paragraph(_cost(result["cost"])),
+        Paragraph(f"{_rung(result)} {_cost(result['cost'])}"),
         Heading("Conventions"),
         Paragraph(CONVENTIONS),
     )
@@ -109,6 +109,13 @@ def _final(final: dict[str, Any]) -> list[Block]:
         facts(final, *FINAL),
     ]
     return [*blocks, Grid(("ball", "angle", "speed"), rows, frozenset({1, 2}))] if rows else blocks
+
+
+def _rung(result: dict[str, Any]) -> str:
+    """Which rung of the ladder was taken, and why not the one below."""
+    if result["rung"] == "envelope":
+        return "Averaged slow motion, for its error is small enough."
+    return f"Equations of motion; averaged slow motion: {result['envelope']['why']}."
 
 
 def _cost(cost: dict[str, Any]) -> str:

@@ -9,6 +9,7 @@ from abu_calc.analysis.simulate import Cost, Simulation
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
 from abu_calc.report.effects import ledger_result
+from abu_calc.report.outcome import finite
 from abu_calc.units import from_si, wrapped_deg
 
 
@@ -29,6 +30,8 @@ def simulation_result(simulation: Simulation, ledger: Ledger) -> dict[str, Any]:
         "effects": ledger_result(ledger.entries),
         "cost": _cost(simulation.cost),
         "error_estimate": simulation.error_estimate,
+        "rung": simulation.rung,
+        "envelope": {"error_estimate": finite(simulation.offered.error), "why": simulation.offered.why},
     }
     if response.bearing_amplitudes:
         amplitudes = [from_si(value, "mm") for value in response.bearing_amplitudes]

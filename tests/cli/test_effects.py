@@ -99,7 +99,7 @@ def _without_effects(folder: Path) -> str:
         ("avtovaz-707-222", ("--scene", "grinding"), {
             "race_eccentricity", "gravity", "grinding_contact", "ball_contact", "dry_rolling_friction"}),
         ("avtovaz-707-222", ("--scene", "run-up", "--set", "run_up.time_s=1.0"), {
-            "run_up", "race_eccentricity", "gravity", "ball_contact"}),
+            "run_up", "race_eccentricity", "gravity", "ball_contact", "dry_rolling_friction"}),
         ("swing-arm-grinder", ("--scene", "swing-arm-cutting"), {
             "race_eccentricity", "gravity", "ball_contact", "dry_rolling_friction"}),
     ],

@@ -14,7 +14,7 @@ from tests.spec.test_scene import CASES, TILTING_CASES
 
 KEYS = {
     "scene", "duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "velocity_rms_mm_per_s",
-    "level_db", "final", "effects", "cost", "error_estimate",
+    "level_db", "final", "effects", "cost", "error_estimate", "rung", "envelope",
 }  # fmt: skip
 
 
@@ -83,7 +83,7 @@ def test_a_trajectory_is_equally_spaced_and_changes_nothing(scene: str, tmp_path
     assert [row["t_s"] for row in rows] == [0, 10, 20, 30, 40, 50, 60]
     assert list(rows[0]) == ["t_s", "x_mm", "y_mm", "ball1_deg", "ball2_deg"]
     for result in (alone, beside):
-        del result["cost"]
+        del result["cost"], result["envelope"]
     assert alone == beside
     assert rows[-1]["x_mm"] == pytest.approx(beside["final"]["x_mm"], rel=1e-9)
     final = [math.remainder(rows[-1][f"ball{k}_deg"], 360) for k in (1, 2)]
@@ -204,6 +204,25 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
     assert seen.status == 0 and "Every effect was in already" in seen.out
     seen = abu("simulate", file, "--without", "gravity", "--duration", "60", "--audit", "--json")
     assert seen.status == 1 and seen.document["checks"][1]["remedy"]  # at 19 rpm gravity is all there is
+
+
+def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
+    """Light balls are slow: their averages do for two per cent, and the equations are taken for less."""
+    heavy = " ".join(abu("simulate", scene, "--duration", "50").out.split())
+    assert "averaged slow motion: the balls' own rate" in heavy
+    light = written(tmp_path, SCENE.replace("[50.0, 50.0]", "[0.2, 0.2]").replace("10000.0", "100.0"))
+    options = ("--set", "scene.damping_N_s_per_m=[0.6, 0.6]", "--set", "scene.race[0].rolling_drag_per_s=0.04",
+               "--duration", "600", "--json")  # fmt: skip
+    slow = abu("simulate", light, *options, "--accuracy", "0.05").document
+    full = abu("simulate", light, *options, "--accuracy", "0.001").document
+    assert slow["result"]["rung"] == "envelope" and full["result"]["rung"] == "equations"
+    assert slow["checks"][0]["status"] == "pass" and "averages" in slow["checks"][0]["message"]
+    assert slow["result"]["envelope"]["error_estimate"] == slow["result"]["error_estimate"] <= 0.05
+    assert full["result"]["envelope"]["error_estimate"] > 0.001 and full["result"]["envelope"]["why"]
+    one, other = (document["result"]["final"]["ball_angles_deg"] for document in (slow, full))
+    assert one == pytest.approx(other, abs=math.degrees(0.05))
+    text = abu("simulate", light, *options[:-1], "--accuracy", "0.05")
+    assert text.status == 0 and "Averaged slow motion" in text.out
 
 
 def test_integrators_agree(scene: str) -> None:

@@ -1,0 +1,62 @@
+"""Why no tolerance reached an accuracy: a motion that amplifies errors, or a settling that hangs on them."""
+
+import math
+from dataclasses import replace
+from typing import Final
+
+from abu_calc.analysis.differences import QUANTITIES
+from abu_calc.analysis.response import Response, evaluate, needed_moments
+from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.integrators.choice import Choice
+from abu_calc.dynamics.scene import Scene
+from abu_calc.errors import NotTrustworthyError
+
+MOVED: Final = 1e-9
+"""By which the balls are moved at the start [rad], each the other way than its neighbour."""
+
+SENSITIVE: Final = 1e5
+"""Growth of an error beyond which a motion is called chaotic: what decides a run is less than anyone can measure."""
+
+COMPARED: Final = {"amplitude": "amplitude", "settling": "settling time", "angles": "ball angles"}
+
+
+def unreached(
+    scene: Scene,
+    accuracy: float,
+    apart: float,
+    runs: tuple[Response, Response],
+    choice: Choice,
+    tolerance: float,
+    most: int,
+) -> NotTrustworthyError:
+    """The error that says so, from the two finest runs, so far apart; another tells whether the motion is chaotic."""
+    worst, key = max((QUANTITIES[key](scene, *runs), key) for key in COMPARED)
+    by = "in whether they settle" if math.isinf(worst) else "in the turns of the balls"
+    by = f"by {apart:.2g}, most in the {COMPARED[key]}" if math.isfinite(apart) else by
+    first = f"{scene.name}: the accuracy {accuracy:g} is not reached, the two finest runs differ {by}"
+    growth = _growth(scene, runs[1], choice, tolerance, most)
+    if growth > SENSITIVE:
+        return NotTrustworthyError(
+            f"{first}: the motion is chaotic, {MOVED:g} rad at its start grow {growth:.0e} times\n"
+            "  shorten the run, start the balls at other places, or give them more drag"
+        )
+    if math.isinf(worst):
+        return NotTrustworthyError(f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration)")
+    return NotTrustworthyError(
+        f"{first}: rounding decides\n  ask for less accuracy, shorten the run, or start the balls at other places"
+    )
+
+
+def _growth(scene: Scene, response: Response, choice: Choice, tolerance: float, most: int) -> float:
+    """By how much an error at the start has grown in amplitude and angles; 0 where that run cannot be finished."""
+    races = tuple(
+        replace(race, start_angles=tuple(angle + MOVED * (-1) ** k for k, angle in enumerate(race.start_angles)))
+        for race in scene.races
+    )
+    moved = replace(scene, races=races)
+    try:
+        trajectory = choice.integrate(assemble(moved), tolerance, needed_moments(moved), most)
+        apart = [QUANTITIES[key](scene, evaluate(moved, trajectory), response) for key in ("amplitude", "angles")]
+    except NotTrustworthyError:
+        return 0.0
+    return max(apart) / MOVED

@@ -1,0 +1,56 @@
+"""Why an accuracy is out of reach: chaos, a settling that hangs on the end of the run, or rounding."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.simulate import simulate
+from abu_calc.analysis.unreached import unreached
+from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.errors import NotTrustworthyError
+from tests.dynamics.scenes import dimensionless
+
+CALM = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 40.0)
+TUMBLING = replace(
+    dimensionless(3.0, 0.1, 0.05, 0.1, 0.0, (1.5, -1.7, 0.3), 160.0), effects=(Gravity(4.0),), name="tumbling"
+)
+"""Balls without drag; at the top of their race their weight is half of what presses them to it."""
+TOLERANCE, MOST = 1e-11, 10**6
+
+
+def reason(scene, accuracy, apart, changes=({}, {})):
+    """What is said of a run and one that differs from it in these results."""
+    equations = assemble(scene)
+    choice = choose(equations, "scipy", TOLERANCE)
+    response = evaluate(scene, choice.integrate(equations, TOLERANCE, needed_moments(scene), MOST))
+    runs = tuple(replace(response, **change) for change in changes)
+    return str(unreached(scene, accuracy, apart, runs, choice, TOLERANCE, MOST))
+
+
+def test_chaos_is_called_so():
+    told = reason(TUMBLING, 0.01, 0.4)
+    assert "differ by 0.4" in told and "the motion is chaotic, 1e-09 rad at its start grow" in told
+    assert len(told.splitlines()) == 2
+
+
+def test_a_chaotic_scene_is_refused_with_that_reason():
+    """By the way from end to end, in fewer revolutions than would cost much."""
+    with pytest.raises(NotTrustworthyError, match="chaotic"):
+        simulate(TUMBLING, 1e-3, integrator="scipy")
+
+
+def test_a_calm_motion_is_not():
+    assert "rounding decides" in reason(CALM, 1e-8, 2e-8)
+
+
+def test_settling_that_hangs_on_the_end_is_told():
+    told = reason(CALM, 0.01, math.inf, ({"settling_time": None}, {"settling_time": 37.9}))
+    assert "differ in whether they settle" in told and "--duration" in told
+
+
+def test_other_turns_are_told():
+    assert "in the turns of the balls" in reason(CALM, 0.01, math.inf)

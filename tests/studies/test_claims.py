@@ -1,0 +1,44 @@
+"""The errors `simulate` claims hold, for the equations and for the envelope."""
+
+import pytest
+
+from tests.studies.claims import ACCURACIES, averaged_and_judged, judged, study
+
+QUICK = (3, 7, 12, 14, 17, 19, 23, 37, 38, 39, 43, 49, 53)
+"""Seeds of short scenes without many switches."""
+
+AVERAGED = (14, 45, 53, 62, 107)
+"""Seeds whose smooth part the envelope may take."""
+
+
+def test_claims_hold_on_a_few_scenes():
+    verdicts, unmeasured = study(QUICK, judged)
+    assert len(verdicts) == len(QUICK) * len(ACCURACIES) and not unmeasured
+    assert [one for one in verdicts if one.refused or one.broken > 1 or one.claim > one.accuracy] == []
+
+
+def test_claims_of_the_envelope_hold_on_a_few_scenes():
+    verdicts, _ = study(AVERAGED, averaged_and_judged)
+    assert len(verdicts) >= 5
+    assert [one for one in verdicts if one.broken > 1] == []
+
+
+@pytest.mark.hard
+def test_claims_hold():
+    """In 99 %, none by more than ten times; 3 % refused at the most."""
+    verdicts, unmeasured = study(range(300), judged)
+    found = [one for one in verdicts if not one.refused]
+    broken = [one for one in found if one.broken > 1]
+    assert len(broken) <= 0.01 * len(found), broken
+    assert [one for one in broken if one.broken > 10] == []
+    refused = [one.refused for one in verdicts if one.refused]
+    assert len(refused) <= 0.03 * len(verdicts), refused
+    assert all("\n" in reason for reason in refused)
+    assert len(unmeasured) <= 30, unmeasured
+
+
+@pytest.mark.hard
+def test_claims_of_the_envelope_hold():
+    verdicts, _ = study(range(300), averaged_and_judged)
+    assert len(verdicts) >= 20
+    assert [one for one in verdicts if one.broken > 1] == []
