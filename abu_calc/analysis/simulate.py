@@ -14,9 +14,10 @@ from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose, unfit
+from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import InputError
+from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
 Array = NDArray[np.float64]
@@ -102,9 +103,17 @@ def _integrated(
     choice = choose(equations, integrator, tolerances(accuracy)[0])
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
-    apart = math.nan
+    apart, spared = math.nan, 0
     for tolerance in tolerances(accuracy):
-        trajectory = choice.integrate(equations, tolerance, moments, most - evaluations)
+        try:
+            trajectory = choice.integrate(equations, tolerance, moments, most)
+        except NotTrustworthyError as failure:
+            if len(runs) < 2:
+                raise
+            raise unreached(
+                scene, accuracy, apart, (runs[0], runs[1]), choice, 10 * tolerance, spared, failure
+            ) from None
+        most, spared = most - work(trajectory), 2 * work(trajectory)
         runs = [*runs[-1:], evaluate(scene, trajectory)]
         evaluations, steps = evaluations + trajectory.evaluations, steps + trajectory.steps
         if len(runs) < 2:
@@ -116,10 +125,10 @@ def _integrated(
             said = (*warnings, *_told(scene, trajectory))
             return Simulation(scene, runs[1], trajectory, cost, error, said, "equations", offered)
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
-        other = _integrated(scene, accuracy, moments, most - evaluations, "heyoka", warnings, offered)
+        other = _integrated(scene, accuracy, moments, most, "heyoka", warnings, offered)
         both = replace(other.cost, evaluations=other.cost.evaluations + evaluations, steps=other.cost.steps + steps)
         return replace(other, cost=both)
-    raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, most - evaluations)
+    raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)
 
 
 def _cost(run: Trajectory, evaluations: int, steps: int, spent: float, why: str) -> Cost:

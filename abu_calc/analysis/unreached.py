@@ -28,8 +28,12 @@ def unreached(
     choice: Choice,
     tolerance: float,
     most: int,
+    otherwise: NotTrustworthyError | None = None,
 ) -> NotTrustworthyError:
-    """The error that says so, from the two finest runs, so far apart; another tells whether the motion is chaotic."""
+    """The error that says so, from the two finest runs, so far apart; another tells whether the motion is chaotic.
+
+    `otherwise`: what stopped the runs before rounding did.
+    """
     worst, key = max((QUANTITIES[key](scene, *runs), key) for key in COMPARED)
     by = "in whether they settle" if math.isinf(worst) else "in the turns of the balls"
     by = f"by {apart:.2g}, most in the {COMPARED[key]}" if math.isfinite(apart) else by
@@ -40,6 +44,8 @@ def unreached(
             f"{first}: the motion is chaotic, {MOVED:g} rad at its start grow {growth:.0e} times\n"
             "  shorten the run, start the balls at other places, or give them more drag"
         )
+    if otherwise:
+        return otherwise
     if math.isinf(worst):
         return NotTrustworthyError(f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration)")
     return NotTrustworthyError(

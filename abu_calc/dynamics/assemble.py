@@ -15,7 +15,7 @@ from abu_calc.dynamics.supports import linear, swing_arm, tilting
 Rhs = Callable[[Any, Any, Any, Parameters], Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Equations:
     """A system to integrate: `rhs(xp, t, y, parameters)` in the order of `states`.
 

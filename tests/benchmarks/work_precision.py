@@ -106,7 +106,7 @@ def _events(case: Case) -> int:
 
 
 def envelope_study(scene: Scene, name: str) -> dict[str, Any]:
-    """For each quantity the loosest envelope and the loosest equations that reach 1 %, both by SciPy's DOP853.
+    """For each quantity the loosest envelope (by LSODA) and the loosest equations (by DOP853) that reach 1 %.
 
     Times include evaluation, alike for both; where no envelope gets there, its loosest one of nearly its best error
     is told instead.

@@ -14,7 +14,7 @@ from abu_calc.errors import NotTrustworthyError
 from tests.dynamics.random_scenes import random_scene
 
 ACCURACY = 0.01
-MOST_EVALUATIONS = 200_000
+MOST_EVALUATIONS = 300_000
 """Of one simulation, all its runs together; tens of seconds."""
 
 CHEAP = (2, 3, 5, 7, 11, 12, 14, 15, 17, 19, 23, 28, 31, 33, 36, 39, 42, 46, 55, 58, 68, 92, 101, 108, 112)

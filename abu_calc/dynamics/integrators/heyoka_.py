@@ -19,7 +19,7 @@ import numpy as np
 
 from abu_calc.dynamics.assemble import Equations
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
-from abu_calc.dynamics.integrators.traced import Numbers, kept, trace
+from abu_calc.dynamics.integrators.traced import kept, numbers_of, trace
 from abu_calc.dynamics.modes import Modes, watched, watches
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.trajectory import Trajectory
@@ -70,7 +70,7 @@ class _Run(Run):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.numbers = Numbers(self.equations)
+        self.numbers = numbers_of(self.equations)
         turned = max(1.0, self.equations.scene.speed * float(self.samples[-1]))
         self.compiled = COMPILED[0] if self.tolerance >= COMPILED[0] * turned else COMPILED[1]
         self.units = np.array(self.equations.scales) * (self.tolerance / self.compiled)

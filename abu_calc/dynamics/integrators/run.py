@@ -21,7 +21,8 @@ TOLERANCE = Range("tolerance", 1e-13, 0.1)
 MOST_EVALUATIONS = 12_000_000
 """Some minutes of SciPy's work; a scene that needs more is stiff or too long for this method."""
 
-MOST_EVENTS = 1_000_000
+EVENT = 50
+"""Evaluations that the work of an event is worth: it is located, modes are settled, and the integrator starts anew."""
 
 NOT_FINITE = "a state is no longer finite"
 
@@ -97,12 +98,19 @@ class Run(ABC):
             if happened:
                 self.events += 1
                 stalled = stalled + 1 if t - before < STALLED * equations.scene.revolution else 0
-                if self.events > MOST_EVENTS or stalled > MOST_STALLED:
+                if stalled > MOST_STALLED:
                     raise lost(t, "the motion stalls in ever more events")
+                if self.evaluations + EVENT * self.events > self.most_evaluations:
+                    raise lost(t, f"more work than allowed, {self.evaluations} evaluations and {self.events} events")
             if t == bound:
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)
+
+
+def work(run: Trajectory) -> int:
+    """What a run took, counted in evaluations."""
+    return run.evaluations + EVENT * run.events
 
 
 def lost(t: float, reason: str) -> NotTrustworthyError:

@@ -13,7 +13,7 @@ from abu_calc.dynamics.assemble import Equations
 from abu_calc.dynamics.integrators.events import Watcher
 from abu_calc.dynamics.integrators.plain import Function, functions
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
-from abu_calc.dynamics.integrators.traced import Numbers
+from abu_calc.dynamics.integrators.traced import numbers_of
 from abu_calc.dynamics.jacobian import jacobian
 from abu_calc.dynamics.modes import Modes, starting, watches
 from abu_calc.dynamics.trajectory import Trajectory
@@ -79,7 +79,7 @@ class _Run(Run):
         super().__post_init__()
         self.longest = self.equations.longest_step * min(1.0, (self.tolerance / LOOSE) ** (1 / ORDER))
         self.step = self.longest / 100
-        self.numbers = Numbers(self.equations)
+        self.numbers = numbers_of(self.equations)
 
     @property
     def name(self) -> str:

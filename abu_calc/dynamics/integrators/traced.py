@@ -6,6 +6,7 @@ All other numbers are parameters of the code.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -70,6 +71,12 @@ class Numbers:
         structure, numbers = self._structure.copy(), self._numbers.copy()
         _mapped(modes, lambda value, _: numbers.append(value), structure.append, ZEROS["modes"])
         return tuple(structure), numbers
+
+
+@lru_cache(maxsize=8)
+def numbers_of(equations: Equations) -> Numbers:
+    """Those of some equations, which are integrated several times at different tolerances."""
+    return Numbers(equations)
 
 
 Code = TypeVar("Code")
