@@ -115,7 +115,7 @@ def _rung(result: dict[str, Any]) -> str:
     """Which rung of the ladder was taken, and why not the one below."""
     if result["rung"] == "envelope":
         return "Averaged slow motion, for its error is small enough."
-    return f"Equations of motion; averaged slow motion: {result['envelope']['why']}."
+    return f"Equations of motion; the averaged ones will not do: {result['envelope']['why']}."
 
 
 def _cost(cost: dict[str, Any]) -> str:

@@ -209,7 +209,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
 def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     """Light balls are slow: their averages do for two per cent, and the equations are taken for less."""
     heavy = " ".join(abu("simulate", scene, "--duration", "50").out.split())
-    assert "averaged slow motion: the balls' own rate" in heavy
+    assert "the averaged ones will not do: the balls' own rate" in heavy
     light = written(tmp_path, SCENE.replace("[50.0, 50.0]", "[0.2, 0.2]").replace("10000.0", "100.0"))
     options = ("--set", "scene.damping_N_s_per_m=[0.6, 0.6]", "--set", "scene.race[0].rolling_drag_per_s=0.04",
                "--duration", "600", "--json")  # fmt: skip

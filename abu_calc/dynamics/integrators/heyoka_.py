@@ -28,9 +28,9 @@ COMPILED = 1e-12, 1e-15
 """heyoka's own tolerances: orders 15 and 19. The first as long as it leaves even angles of balls that stand still in
 space, which grow with every turn, below 1."""
 
-MOST_UNROLLED = 100
-"""Products in a smooth scene's equations up to which its code is unrolled: it runs in half the time, but takes a second
-(four balls) to three to be compiled for the first time, and ever longer. Where there are events, they take the time."""
+MOST_UNROLLED = 120
+"""Products in a smooth scene's equations up to which its code is unrolled: it runs in half the time, but takes two
+seconds (four balls) to four (seven) to be compiled for the first time. Where there are events, they take the time."""
 
 FAINT = 1e-30
 """Factor on watched numbers: heyoka counts them among the states whose error it bounds, and they have no scale."""
