@@ -11,7 +11,8 @@ from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators import run, scipy_
+from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError
@@ -183,6 +184,27 @@ def test_motion_without_bound_is_told_with_its_moment():
 def test_endless_work_is_given_up():
     with pytest.raises(NotTrustworthyError, match="more work than allowed"):
         heyoka_.integrate(assemble(coupled_scene()), 1e-6, [20.0], most_evaluations=100)
+
+
+@pytest.mark.parametrize("library", [scipy_, heyoka_])
+def test_events_are_work(library, monkeypatch):
+    """Evaluations that would suffice for the motion do not for the events in it."""
+    equations = assemble(rubbing())
+    free = library.integrate(equations, 1e-6, [100.0])
+    assert work(free) == free.evaluations + 50 * free.events
+    monkeypatch.setattr(run, "EVENT", free.evaluations)
+    with pytest.raises(NotTrustworthyError, match=f"and {free.events - 1} events"):
+        library.integrate(equations, 1e-6, [100.0], most_evaluations=free.evaluations * (free.events - 1))
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-11])
+def test_both_orders_keep_the_tolerance(tolerance):
+    """Order 15 for a loose one, 19 for a tight one: errors of hundreds of steps stay near it."""
+    scene = straight_grinder()
+    equations, end = assemble(scene), [scene.duration / 4]
+    exact = heyoka_.integrate(equations, 1e-13, end).y[:, -1]
+    off = np.abs((heyoka_.integrate(equations, tolerance, end).y[:, -1] - exact) / equations.scales).max()
+    assert off < 100 * tolerance
 
 
 @pytest.mark.parametrize("times", [[], [0.0], [-1.0, 1.0], [1.0, 1.0], [2.0, 1.0], [np.nan], [np.inf]])
