@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.parameters import rotor_of
 from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude
-from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.units import level_from_velocity

@@ -9,8 +9,9 @@ import numpy as np
 
 from abu_calc.dynamics.equations import rhs
 from abu_calc.dynamics.parameters import Array, Parameters, parameters_of
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports import linear, swing_arm, tilting
+from abu_calc.dynamics.supports.kinds import SwingArm
 
 Rhs = Callable[[Any, Any, Any, Parameters], Array]
 

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from abu_calc.dynamics.scene import Support, SwingArm
+from abu_calc.dynamics.supports.kinds import Support, SwingArm
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.slow_motion import ball_stiffness, decay_rate
 

@@ -26,7 +26,8 @@ from abu_calc.dynamics.equations import accelerations, owned
 from abu_calc.dynamics.jacobian import STEP
 from abu_calc.dynamics.motion import motion_of
 from abu_calc.dynamics.parameters import Array, Parameters
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 
 Modes = tuple[Any, ...]
 

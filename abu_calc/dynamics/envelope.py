@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.averages import AVERAGED, SLOW, TURNED, Averages, averages, dying, loaded
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import NotTrustworthyError
 
 Complex = NDArray[np.complex128]

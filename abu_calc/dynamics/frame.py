@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene import LinearSupport, Scene, Support, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
 from abu_calc.errors import InputError
 
 Array = NDArray[Any]

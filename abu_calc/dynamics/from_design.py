@@ -17,8 +17,9 @@ from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.from_tables import motor_numbers, placed
-from abu_calc.dynamics.scene import Race, Scene, Support, SwingArm
+from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.hands import in_hands
+from abu_calc.dynamics.supports.kinds import Support, SwingArm
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
 from abu_calc.errors import InputError, NotTrustworthyError, Place

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 from abu_calc.dynamics.from_tables import effects_from, placed
 from abu_calc.dynamics.parameters import rotor_of
-from abu_calc.dynamics.scene import LinearSupport, Race, Scene, Support, SwingArm, parted_angles
+from abu_calc.dynamics.scene import Race, Scene, parted_angles
 from abu_calc.dynamics.supports.body import with_body
+from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
 from abu_calc.dynamics.supports.linear import Pair, planar
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
 from abu_calc.dynamics.supports.tilting import tilting

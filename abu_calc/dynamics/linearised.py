@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 from abu_calc.dynamics import floquet
 from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import NotTrustworthyError
 
 Array = NDArray[np.float64]

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.scene import LinearSupport, Scene, Support, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
 from abu_calc.errors import InputError
 
 RESONANCE = 1e-12

@@ -13,8 +13,9 @@ from abu_calc.dynamics.equations import rhs
 from abu_calc.dynamics.jacobian import jacobian
 from abu_calc.dynamics.linearised import QUARTER, Complex
 from abu_calc.dynamics.receptance import dynamic_stiffness
-from abu_calc.dynamics.scene import LinearSupport, Race, Scene
+from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.stationary import NotKnownError, needed_resultants, still_axis
+from abu_calc.dynamics.supports.kinds import LinearSupport
 
 TOUCHING = 1e-9
 """Balls that overlap by less than this [rad] touch."""

@@ -5,107 +5,26 @@ Axes x, y are inertial; angles of a scene (imbalance, balls) are measured in the
 """
 
 import math
-import sys
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
+from abu_calc.dynamics.supports.kinds import LARGEST, Support, finite
 from abu_calc.errors import InputError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
     from abu_calc.dynamics.effects.effect import Effect
 
-Matrix = tuple[tuple[float, ...], ...]
-
 SMALLEST_GAP = 1e-6
 """Balls nearer to each other than this at the start [rad] are parted: from exactly one place they could never part."""
 
-_LARGEST = sys.float_info.max
-_NON_NEGATIVE = (0.0, _LARGEST)
-
-
-def _finite(name: str, values: tuple[float, ...]) -> None:
-    for value in values:
-        Range(name, -_LARGEST, _LARGEST, remedy="give a finite number").check(value)
+_NON_NEGATIVE = (0.0, LARGEST)
 
 
 def _same_length(name: str, values: tuple[float, ...], count: int, of: str) -> None:
     if len(values) != count:
         raise InputError(f"{name}: one value for each {of}", found=str(len(values)), allowed=str(count))
-
-
-@dataclass(frozen=True)
-class LinearSupport:
-    """M q'' + (C + Ω G) q' + K q = Pᵀ F in N coordinates q; the frame P q is what the balls feel, F acts on it.
-
-    The rows of P are x and y of the race centre, all races in one plane; or four, x, y of the centre of mass and the
-    tilts θ_y, −θ_x: then a race at z moves by (x + z θ_y, y − z θ_x). The mass M is what moves with the rotor WITHOUT
-    balls; it must be symmetric and positive definite, which `equations.assemble` verifies; the gyroscopic matrix G
-    (none where empty) is antisymmetric, Ω the speed of the rotor. `axial_inertia`: the balls move axially with a race
-    that tilts. Units: coordinates in m (then kg, N·s/m, N/m) unless their name says otherwise.
-    """
-
-    mass: Matrix
-    damping: Matrix
-    stiffness: Matrix
-    race_map: Matrix
-    names: tuple[str, ...]
-    gyroscopic: Matrix = ()
-    axial_inertia: bool = False
-    bearings: tuple[float, ...] = ()
-    """Places of the bearings along the spindle [m], where motion is told too; none on supports that do not tilt."""
-
-    def __post_init__(self) -> None:
-        size = len(self.names)
-        if len(self.race_map) not in (2, 4):
-            raise InputError("race map: must have the rows x, y or x, y and two tilts")
-        if self.axial_inertia and len(self.race_map) != 4:
-            raise InputError("balls move axially on supports that tilt only")
-        for name, matrix, rows in (
-            ("support mass", self.mass, size),
-            ("support damping", self.damping, size),
-            ("support stiffness", self.stiffness, size),
-            ("gyroscopic matrix", self.gyroscopic, size if self.gyroscopic else 0),
-            ("race map", self.race_map, len(self.race_map)),
-        ):
-            if len(matrix) != rows or any(len(row) != size for row in matrix):
-                raise InputError(f"{name}: must be {rows} × {size}")
-            for row in matrix:
-                _finite(name, row)
-
-    @property
-    def tilts(self) -> bool:
-        """Whether races stand at different places along the spindle."""
-        return len(self.race_map) == 4
-
-
-@dataclass(frozen=True)
-class SwingArm:
-    """A rigid arm of length l [m] that turns by φ about its axis, the rotor at its end (Kovalenko 2010, eqs. (1)–(3)).
-
-    J_O φ'' + b l² φ' + c l² φ = moment + what rotor and balls do; J_O [kg m²] without balls, stiffness c [N/m] and
-    damping b [N·s/m] of the joint reduced to l. Work that is cut adds its own to the stiffness and to the moment
-    [N m]: `supports.swing_arm` says how. At φ = 0 the arm lies along +x; the axis is the rotor's.
-    """
-
-    length: float
-    inertia: float
-    stiffness: float
-    damping: float
-    moment: float = 0.0
-    names: ClassVar[tuple[str, ...]] = ("arm_angle",)
-    tilts: ClassVar[bool] = False
-
-    def __post_init__(self) -> None:
-        Range("arm length", 0, _LARGEST, "m", open_low=True).check(self.length)
-        Range("arm inertia", 0, _LARGEST, "kg m²", open_low=True).check(self.inertia)
-        Range("joint damping", *_NON_NEGATIVE, "N s/m").check(self.damping)
-        # The stiffness of work that pushes itself away is negative.
-        _finite("arm stiffness and moment", (self.stiffness, self.moment))
-
-
-Support = LinearSupport | SwingArm
 
 
 @dataclass(frozen=True)
@@ -128,17 +47,17 @@ class Race:
     ball_radius: float = 0.0
 
     def __post_init__(self) -> None:
-        Range("pitch radius", 0, _LARGEST, "m", open_low=True).check(self.pitch_radius)
+        Range("pitch radius", 0, LARGEST, "m", open_low=True).check(self.pitch_radius)
         Range("rolling drag", *_NON_NEGATIVE, "1/s").check(self.drag)
         # Below 1 a ball would have less than its own mass, above 2 more than a rolling thin ring.
         Range("inertia factor", 1, 2).check(self.inertia_factor)
         Range("ball radius", 0, self.pitch_radius, "m").check(self.ball_radius)
-        _finite("plane offset", (self.plane_offset,))
+        finite("plane offset", (self.plane_offset,))
         for mass in self.ball_masses:
-            Range("ball mass", 0, _LARGEST, "kg", open_low=True).check(mass)
+            Range("ball mass", 0, LARGEST, "kg", open_low=True).check(mass)
         for name, values in (("start angles", self.start_angles), ("start speeds", self.start_speeds)):
             _same_length(name, values, len(self.ball_masses), "ball")
-            _finite(name, values)
+            finite(name, values)
 
     @property
     def static_moment(self) -> float:
@@ -168,18 +87,18 @@ class Scene:
     effects: tuple["Effect", ...] = ()
 
     def __post_init__(self) -> None:
-        Range("speed", 0, _LARGEST, "rad/s", open_low=True).check(self.speed)
+        Range("speed", 0, LARGEST, "rad/s", open_low=True).check(self.speed)
         Range("imbalance", *_NON_NEGATIVE, "kg m").check(self.imbalance)
-        Range(
-            "duration", self.revolution, _LARGEST, "s", remedy="results are means over at least one revolution"
-        ).check(self.duration)
-        _finite("imbalance angle", (self.imbalance_angle,))
-        _finite("couple imbalance", (self.couple, self.couple_angle))
+        Range("duration", self.revolution, LARGEST, "s", remedy="results are means over at least one revolution").check(
+            self.duration
+        )
+        finite("imbalance angle", (self.imbalance_angle,))
+        finite("couple imbalance", (self.couple, self.couple_angle))
         if not self.support.tilts and (self.couple or any(race.plane_offset for race in self.races)):
             raise InputError("only a support that tilts knows a couple and places along the spindle")
         for name, values in (("start position", self.start_position), ("start velocity", self.start_velocity)):
             _same_length(name, values, len(self.support.names), "support coordinate")
-            _finite(name, values)
+            finite(name, values)
 
     @property
     def revolution(self) -> float:

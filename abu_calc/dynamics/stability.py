@@ -16,8 +16,9 @@ import numpy as np
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.linearised import Array, BalancedMotion, growth_of
 from abu_calc.dynamics.resting import resting_state
-from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stationary import NotKnownError
+from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.errors import InputError
 from abu_calc.sizing.swing_arm import Arm, damping_limit
 from abu_calc.validity import Range

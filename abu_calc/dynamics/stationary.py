@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.receptance import receptance
-from abu_calc.dynamics.scene import LinearSupport, Scene
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError
 
 SAME: Final = 1e-12

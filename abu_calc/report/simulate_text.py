@@ -4,7 +4,8 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from abu_calc.checks import Check
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import check_blocks, default_blocks, facts, warning_blocks
 from abu_calc.report.effects import ledger_grid

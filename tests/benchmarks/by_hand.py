@@ -19,7 +19,8 @@ import numpy as np
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.scene import LinearSupport, Scene
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from tests.benchmarks.measuring import Array
 
 STEADY_INERTIA = 1e6

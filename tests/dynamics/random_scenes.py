@@ -19,7 +19,8 @@ from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.scene import LinearSupport, Race, Scene, Support, SwingArm
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.units import GRAVITY

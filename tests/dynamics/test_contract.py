@@ -24,7 +24,8 @@ from abu_calc.dynamics.energy import Bodies, demanded, energy, mass_matrix, powe
 from abu_calc.dynamics.equations import accelerations, owned
 from abu_calc.dynamics.jacobian import STEP
 from abu_calc.dynamics.modes import at_break, settled
-from abu_calc.dynamics.scene import LinearSupport, Scene
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.errors import InputError
 from tests.dynamics.scenes import SUPPORTS, scene_on, with_effects
 from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned

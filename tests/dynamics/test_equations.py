@@ -16,7 +16,8 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
 from abu_calc.dynamics.jacobian import STEP, jacobian
-from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.errors import InputError
 from tests.dynamics.scenes import ROTORS, SUPPORTS, coupled_scene, dimensionless, scene_on, with_effects
 from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned

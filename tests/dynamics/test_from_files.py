@@ -21,7 +21,8 @@ from abu_calc.dynamics.from_design import SCENES, STARTS, contact_half_angle, id
 from abu_calc.dynamics.from_scene import lasting, scene_from
 from abu_calc.dynamics.integrators.scipy_ import integrate
 from abu_calc.dynamics.receptance import receptance
-from abu_calc.dynamics.scene import LinearSupport, Scene, SwingArm, with_parted_balls
+from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.sizing import Design, size

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.registry import REGISTRY
-from abu_calc.dynamics.scene import LinearSupport, Race, only, parted_angles, with_parted_balls, without
+from abu_calc.dynamics.scene import Race, only, parted_angles, with_parted_balls, without
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.errors import InputError
 from abu_calc.spec.scene_effects import Effects

@@ -18,7 +18,8 @@ from abu_calc.analysis.simulate import difference, simulate
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.receptance import receptance, unbalanced_amplitude
-from abu_calc.dynamics.scene import LinearSupport, Race, Scene, with_parted_balls
+from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import dimensionless, straight_grinder

@@ -19,9 +19,10 @@ from abu_calc.dynamics.floquet import multipliers
 from abu_calc.dynamics.jacobian import jacobian
 from abu_calc.dynamics.linearised import BalancedMotion
 from abu_calc.dynamics.resting import Rest, resting_state
-from abu_calc.dynamics.scene import Race, Scene, Support, SwingArm
+from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.stability import boundaries, critical_damping, stability
 from abu_calc.dynamics.stationary import NotKnownError
+from abu_calc.dynamics.supports.kinds import Support, SwingArm
 from abu_calc.dynamics.supports.tilting import tilting
 from tests.dynamics.scenes import coupled_scene, hand_support
 

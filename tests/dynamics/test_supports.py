@@ -10,9 +10,10 @@ import pytest
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.receptance import receptance, unbalanced_amplitude
-from abu_calc.dynamics.scene import LinearSupport, Race, Scene, SwingArm
+from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.body import with_body
 from abu_calc.dynamics.supports.hands import in_hands
+from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.supports.swing_arm import resting_angle
 from abu_calc.dynamics.supports.tilting import tilting

@@ -8,7 +8,8 @@ import pytest
 
 from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_
-from abu_calc.dynamics.scene import Race, Scene, SwingArm
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
 from abu_calc.errors import InputError, RangeError
 from abu_calc.sizing.swing_arm import Arm, pressed_angle

@@ -9,7 +9,8 @@ import numpy as np
 
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.effect import Effect
-from abu_calc.dynamics.scene import LinearSupport, Race, Scene, SwingArm
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 
 Matrix = tuple[tuple[float, ...], ...]
 Units = dict[str, tuple[int, int, int]]

@@ -15,7 +15,8 @@ from abu_calc.dynamics.energy import Bodies, energy, power
 from abu_calc.dynamics.integrators.choice import integrate_with, unfit
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.modes import at_break, settled
-from abu_calc.dynamics.scene import Race, Scene, Support, with_parted_balls
+from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
+from abu_calc.dynamics.supports.kinds import Support
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.trajectory import Trajectory
 

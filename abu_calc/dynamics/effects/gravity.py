@@ -15,7 +15,8 @@ from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters, rotor_of
 from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
-from abu_calc.dynamics.scene import Scene, SwingArm
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import InputError
 from abu_calc.units import GRAVITY
 

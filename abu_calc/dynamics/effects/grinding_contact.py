@@ -29,7 +29,8 @@ from abu_calc.dynamics.equations import accelerations
 from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.receptance import receptance, reference_moment, weighing_amplitude
-from abu_calc.dynamics.scene import LinearSupport, Scene
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 

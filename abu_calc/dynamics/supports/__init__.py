@@ -1,1 +1,1 @@
-"""Builders of supports: each turns a machine's springs, masses and dampers into one linear system and its race map."""
+"""kinds.py: what a support is; the other files turn springs, masses and dampers of a machine into one."""

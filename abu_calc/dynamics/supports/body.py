@@ -3,7 +3,7 @@
 import numpy as np
 
 from abu_calc.dynamics.parameters import Array
-from abu_calc.dynamics.scene import LinearSupport
+from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, rows
 
 ROTOR, BETWEEN = np.array(((1.0, 0.0), (0.0, 0.0))), np.array(((1.0, -1.0), (-1.0, 1.0)))

@@ -1,18 +1,15 @@
 """Linear supports M q'' + C q' + K q = Pᵀ F."""
 
-import sys
-
 import numpy as np
 
 from abu_calc.dynamics.motion import Levers, Motion
 from abu_calc.dynamics.parameters import Array, Parameters
-from abu_calc.dynamics.scene import LinearSupport, Matrix
+from abu_calc.dynamics.supports.kinds import LARGEST, LinearSupport, Matrix
 from abu_calc.validity import Range
 
 Pair = tuple[float, float]
 """Along x and along y."""
 
-LARGEST = sys.float_info.max
 MASS = Range("support mass", 0, LARGEST, "kg", open_low=True)
 STIFFNESS = Range("support stiffness", 0, LARGEST, "N/m")
 DAMPING = Range("support damping", 0, LARGEST, "N·s/m")

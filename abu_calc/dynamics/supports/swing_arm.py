@@ -1,24 +1,22 @@
 """A rotor at the end of a swing arm, of which small angles are not assumed."""
 
 import math
-import sys
 
 import numpy as np
 
 from abu_calc.dynamics.motion import Levers, Motion
 from abu_calc.dynamics.parameters import Array, Parameters
-from abu_calc.dynamics.scene import SwingArm
+from abu_calc.dynamics.supports.kinds import LARGEST, SwingArm
 from abu_calc.dynamics.supports.linear import turned
 from abu_calc.errors import InputError
 from abu_calc.sizing.swing_arm import contact_gain
 from abu_calc.validity import Range
 
-_LARGEST = sys.float_info.max
-CONTACT_STIFFNESS = Range("contact stiffness", 0, _LARGEST, "N/m")
+CONTACT_STIFFNESS = Range("contact stiffness", 0, LARGEST, "N/m")
 FRICTION = Range("cutting coefficient", 0, 1.5)
 CONTACT_ANGLE = Range("contact angle", 0, math.pi, "rad")
-WHEEL_RADIUS = Range("wheel radius", 0, _LARGEST, "m", open_low=True)
-ARM_LENGTH = Range("arm length", 0, _LARGEST, "m", open_low=True)
+WHEEL_RADIUS = Range("wheel radius", 0, LARGEST, "m", open_low=True)
+ARM_LENGTH = Range("arm length", 0, LARGEST, "m", open_low=True)
 
 
 def idle_arm(length: float, inertia: float, joint_stiffness: float, joint_damping: float) -> SwingArm:

@@ -6,8 +6,8 @@ import numpy as np
 
 from abu_calc.dynamics.motion import Levers, Motion
 from abu_calc.dynamics.parameters import Array, Parameters
-from abu_calc.dynamics.scene import LinearSupport
-from abu_calc.dynamics.supports.linear import DAMPING, LARGEST, MASS, STIFFNESS, Pair, rows, turned
+from abu_calc.dynamics.supports.kinds import LARGEST, LinearSupport
+from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, rows, turned
 from abu_calc.validity import Range
 
 
