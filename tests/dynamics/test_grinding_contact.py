@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.assemble import Equations, assemble
-from abu_calc.dynamics.effects.grinding_contact import GrindingContact, normal_forces, separates
+from abu_calc.dynamics.contact_force import normal_forces, separates
+from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations import accelerations, owned

@@ -25,7 +25,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations import accelerations
 from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.receptance import receptance, reference_moment, weighing_amplitude
@@ -35,7 +34,6 @@ from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.assemble import Equations
     from abu_calc.dynamics.modes import Moment
     from abu_calc.dynamics.trajectory import Trajectory
 
@@ -120,7 +118,7 @@ class GrindingContact(Effect):
             loads.bound = self._bound(m, p)
             loads.add(frame=-self.press_force * self._held(p))
         elif self.contact == "compliant" or p.rotor == "driven":
-            loads.add(frame=self._force(m, p, self._pressed(m, mode, p)))
+            loads.add(frame=self._force(m, p, self.pressed(m, mode, p)))
 
     def _surface(self, m: Motion, p: Parameters) -> tuple[Any, Any, Any, Any]:
         """h, h' without the turning of the rotor, and ε (cos, sin)(turn + φ₀)."""
@@ -129,7 +127,7 @@ class GrindingContact(Effect):
         row = p.race_map[1] + self.plane_offset * p.race_map[3] if len(p.race_map) == 4 else p.race_map[1]  # type: ignore[index,arg-type]
         return row.dot(m.support[: p.size]) + y, row.dot(m.support[p.size :]), x, y
 
-    def _pressed(self, m: Motion, mode: Any, p: Parameters) -> Any:
+    def pressed(self, m: Motion, mode: Any, p: Parameters) -> Any:
         """N [N] of a contact that is not rigid."""
         if self.contact == "face":
             return self.press_force
@@ -206,13 +204,14 @@ class GrindingContact(Effect):
         The work of the compliant spring is in it. What a rotor of given speed needs to carry the runout past the work
         is the drive's, not of the coordinates.
         """
-        normal = solved.reaction if self.contact == "rigid" else self._pressed(m, mode, p)
+        normal = solved.reaction if self.contact == "rigid" else self.pressed(m, mode, p)
         rates = p.race_map.dot(m.support[p.size :])  # type: ignore[union-attr]
         return self._force(m, p, normal).dot(np.append(rates, m.speed) if p.rotor == "driven" else rates)
 
     def remarks(self, scene: Scene, trajectory: "Trajectory") -> tuple[str, ...]:
         """Whether wheel and work part in the last twentieth of the run."""
         from abu_calc.dynamics.assemble import assemble
+        from abu_calc.dynamics.contact_force import separates
 
         late = trajectory.t >= 0.95 * scene.duration
         last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
@@ -287,25 +286,3 @@ def _check_speeds(moment: "Moment") -> None:
             "cutting force T = f N feeds the balls\n"
             "  give the race more drag or the contact a stiffness, or lower the cutting coefficient"
         )
-
-
-def normal_forces(equations: "Equations", trajectory: "Trajectory") -> Array:
-    """N [N] at the samples of a run with a grinding contact; raises InputError for a scene without.
-
-    Rigid: of the no-separation solution, so it may be negative. Balls that stick by dry friction count as rolling.
-    """
-    contact = equations.scene.effect("grinding_contact")
-    if not isinstance(contact, GrindingContact):
-        raise InputError("the scene has no grinding contact")
-    p = equations.parameters
-    found = []
-    for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
-        motion, _, solved = accelerations(np, t, y, p)
-        normal = solved.reaction if contact.contact == "rigid" else contact._pressed(motion, TOUCHING, p)
-        found.append(normal if contact.contact == "rigid" else max(normal, 0.0))
-    return np.array(found, dtype=float)
-
-
-def separates(equations: "Equations", trajectory: "Trajectory") -> bool:
-    """Whether wheel and work part, or would part if they could, at any sample of a run."""
-    return bool(normal_forces(equations, trajectory).min() <= 0)
