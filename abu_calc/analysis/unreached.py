@@ -12,7 +12,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
 
 MOVED: Final = 1e-9
-"""By which the balls are moved at the start [rad], each the other way than its neighbour."""
+"""By which one ball of each race is moved at the start [rad], into its widest gap, so that none comes to overlap."""
 
 SENSITIVE: Final = 1e5
 """Growth of an error beyond which a motion is called chaotic: what decides a run is less than anyone can measure."""
@@ -55,14 +55,21 @@ def unreached(
 
 def _growth(scene: Scene, response: Response, choice: Choice, tolerance: float, most: int) -> float:
     """By how much an error at the start has grown in amplitude and angles; 0 where that run cannot be finished."""
-    races = tuple(
-        replace(race, start_angles=tuple(angle + MOVED * (-1) ** k for k, angle in enumerate(race.start_angles)))
-        for race in scene.races
-    )
-    moved = replace(scene, races=races)
+    moved = replace(scene, races=tuple(replace(race, start_angles=_moved(race.start_angles)) for race in scene.races))
     try:
         trajectory = choice.integrate(assemble(moved), tolerance, needed_moments(moved), most)
         apart = [QUANTITIES[key](scene, evaluate(moved, trajectory), response) for key in ("amplitude", "angles")]
     except NotTrustworthyError:
         return 0.0
     return max(apart) / MOVED
+
+
+def _moved(angles: tuple[float, ...]) -> tuple[float, ...]:
+    """The angles [rad] with the ball moved that has most room ahead of it."""
+
+    def room(ball: int) -> float:
+        turn = 2 * math.pi
+        return min((turn - (angles[ball] - other) % turn for k, other in enumerate(angles) if k != ball), default=turn)
+
+    first = max(range(len(angles)), key=room, default=None)
+    return tuple(angle + MOVED * (k == first) for k, angle in enumerate(angles))

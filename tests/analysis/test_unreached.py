@@ -7,7 +7,7 @@ import pytest
 
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.simulate import simulate
-from abu_calc.analysis.unreached import unreached
+from abu_calc.analysis.unreached import MOVED, _moved, unreached
 from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.integrators.choice import choose
@@ -54,3 +54,14 @@ def test_settling_that_hangs_on_the_end_is_told():
 
 def test_other_turns_are_told():
     assert "in the turns of the balls" in reason(CALM, 0.01, math.inf)
+
+
+@pytest.mark.parametrize("angles", [(0.3,), (0.3, 0.5), (6.2, 0.1, 0.3), (0.5, 0.1, 0.3, 6.2), (0.0, 2.0, 4.0)])
+def test_the_ball_that_is_moved_comes_nearer_to_none(angles):
+    """But by a billionth to the one across the widest gap: balls that touch are never moved into each other."""
+    moved = _moved(angles)
+    assert [b - a for a, b in zip(angles, moved, strict=True) if b != a] == [pytest.approx(MOVED, rel=1e-6)]
+    others = [angle for angle, after in zip(angles, moved, strict=True) if after == angle]
+    ball = next(angle for angle, after in zip(angles, moved, strict=True) if after != angle)
+    ahead = min(((other - ball) % (2 * math.pi) for other in others), default=2 * math.pi)
+    assert ahead >= 2 * math.pi / len(angles)
