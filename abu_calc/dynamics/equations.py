@@ -15,6 +15,7 @@ Source: Kladiev 1996, (1), and Kovalenko 2010, (1)–(3), re-derived by Lagrange
 J = 1, so its balls move faster by √(7/5), and no damping of the support, so its free vibration never dies.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -68,10 +69,63 @@ def loaded(xp: Any, t: Any, y: Any, p: Parameters) -> tuple[Motion, Levers, Load
     return motion, levers, loads
 
 
+@dataclass(slots=True)
+class _Reduced:
+    """What is left when the balls are eliminated: `mass` A = `force`, and how they follow from A.
+
+    Along the race, per mass: balls = `give` (`drive` − A `felt`); in a second direction `pushed` − A `resisted`.
+    `weights` (d × n): what a drive of each ball takes from the force.
+    """
+
+    mass: Array
+    force: Array
+    give: Array
+    drive: Array
+    felt: Array
+    weights: Array
+    inertias: Array
+    pushed: Any
+    resisted: Any
+
+
 def solve_loaded(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solved:
     """All accelerations, by eliminating those of the balls."""
+    r, across = _reduced(m, levers, loads, p), loads.across
+    A, reaction = _frame(r.mass, r.force, loads)
+    left = r.drive - A.dot(r.felt)
+    tied = loads.free is not None or loads.mates is not None
+    balls = r.give * left if loads.mates is None else r.give.dot(left)
+    q = A if p.carry is None else _behind(m, A, p)
+    beside: Any = across and r.pushed - A.dot(r.resisted)
+    return Solved(
+        frame=A,
+        balls=balls,
+        support=q[: p.size],
+        normal=None if loads.grip is None else _pressed(m, levers, loads) - A.dot(levers.outward),
+        across=across and _across(beside, balls, across, levers),
+        across_left=beside,
+        rotor=A[-1] if p.rotor == "driven" else m.acceleration,
+        reaction=reaction,
+        left=left - r.inertias * balls if tied else None,
+    )
+
+
+def by_pulls(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
+    """n × n: what unit forces per ball mass along the race do to `balls` and `normal`, where no balls are tied."""
+    r = _reduced(m, levers, loads, p)
+    A = -np.linalg.solve(r.mass, r.weights)
+    if loads.bound is not None:
+        row, pushed = loads.bound.row, np.linalg.solve(r.mass, loads.bound.force)
+        A = A - np.outer(pushed, row.dot(A) / row.dot(pushed))
+    return r.give[:, None] * (np.eye(p.balls) - r.felt.T.dot(A)), -levers.outward.T.dot(A)
+
+
+def _reduced(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> _Reduced:
+    """The frame's equations with all balls in them."""
     drive, along = _ball_side(m, levers, loads, p)
-    across, pushed, inertias, felt = loads.across, None, _inertia_factors(m, levers, p), along
+    across, inertias, felt = loads.across, _inertia_factors(m, levers, p), along
+    pushed: Any = None
+    resisted: Any = None
     if across:
         pushed = across.drive if loads.press is None else across.drive + across.outward * loads.press
         resisted = across.along
@@ -93,24 +147,9 @@ def solve_loaded(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solv
         weights = (along * p.masses).dot(give)
     force, mass = force - weights.dot(drive), mass - weights.dot(felt.T)
     if across:
-        weights = across.along * (p.masses * across.give)
-        force, mass = force - weights.dot(pushed), mass - weights.dot(resisted.T)
-    A, reaction = _frame(mass, force, loads)
-    left = drive - A.dot(felt)
-    tied = loads.free is not None or loads.mates is not None
-    balls = give * left if loads.mates is None else give.dot(left)
-    q = A if p.carry is None else _behind(m, A, p)
-    return Solved(
-        frame=A,
-        balls=balls,
-        support=q[: p.size],
-        normal=None if loads.grip is None else _pressed(m, levers, loads) - A.dot(levers.outward),
-        across=across and _across(pushed - A.dot(resisted), balls, across, levers),
-        across_left=across and pushed - A.dot(resisted),
-        rotor=A[-1] if p.rotor == "driven" else m.acceleration,
-        reaction=reaction,
-        left=left - inertias * balls if tied else None,
-    )
+        beside = across.along * (p.masses * across.give)
+        force, mass = force - beside.dot(pushed), mass - beside.dot(resisted.T)
+    return _Reduced(mass, force, give, drive, felt, weights, inertias, pushed, resisted)
 
 
 def _inertia_factors(m: Motion, levers: Levers, p: Parameters) -> Array:

@@ -4,12 +4,13 @@ Accelerations are linear in torques on the balls, so unit torques tell all that 
 the support and the other effects. Balls that touch pass on torques about the race's centre: their angles are bound.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from abu_calc.dynamics.equations import derivative, loaded, solve_loaded
+from abu_calc.dynamics.equations import by_pulls, derivative, loaded, solve_loaded
 from abu_calc.dynamics.parameters import Array
 from abu_calc.errors import NotTrustworthyError
 
@@ -31,9 +32,9 @@ SURPLUS = 1e-7 / 4
 class Responses:
     """Of a moment with all balls free: θ'', normal forces per ball mass, and what torques do to them.
 
-    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_torque`, `normal_by_torque` (n × n),
-    `state_by_torque` (states × n): per unit torque about the race's centre [N m] on each ball. `friction` (n): ±m R f,
-    negative where the inner side of the race presses; zero without dry friction.
+    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_torque`, `normal_by_torque` (n × n): per unit
+    torque about the race's centre [N m] on each ball. `friction` (n): ±m R f, negative where the inner side of the race
+    presses; zero without dry friction. `kick`: what an impulse of torques [N m s] does to the state.
     """
 
     t: float
@@ -42,8 +43,8 @@ class Responses:
     by_torque: Array
     normal: Array
     normal_by_torque: Array
-    state_by_torque: Array
     friction: Array
+    kick: Callable[[Array], Array]
 
     def among(self, chosen: Array) -> "Responses":
         """The same for some of the pairs."""
@@ -51,30 +52,28 @@ class Responses:
 
 
 def responses(moment: "Moment", behind: list[int], ahead: list[int]) -> Responses:
-    """What unit torques on each ball do at a moment, for pairs of balls."""
+    """What torques on the balls do at a moment, for pairs of balls."""
     p = moment.parameters
     m, levers, loads = loaded(np, moment.t, moment.y, p)
     hold = np.zeros(p.balls) if loads.hold is None else loads.hold
     # What friction does to balls that it cannot hold is known.
     grip = np.zeros(p.balls) if loads.grip is None else np.where(hold != 0, 0.0, loads.grip)
     loads.mates, loads.free, loads.grip = None, None, grip
-    pull = np.zeros(p.balls) if loads.pull is None else loads.pull
-    base = solve_loaded(m, levers, loads, p)
-    state = derivative(m, base, moment.y, p)
-    # Forces as large as those in the scene lose no digits in the difference.
-    unit = p.radii * p.speed**2
-    columns = []
-    for ball in range(p.balls):
-        loads.pull = pull.copy()
-        loads.pull[ball] += unit[ball]
-        more, torque = solve_loaded(m, levers, loads, p), p.masses[ball] * unit[ball] * m.radii[ball]
-        changed = ((more.balls - base.balls) / m.radii, more.normal - base.normal)
-        columns.append([one / torque for one in (*changed, derivative(m, more, moment.y, p) - state)])
-    by_torque, normal_by_torque, state_by_torque = (np.array(rows).T for rows in zip(*columns, strict=True))
+    base, levered = solve_loaded(m, levers, loads, p), p.masses * m.radii
+    balls, normal = by_pulls(m, levers, loads, p)
+
+    def kick(torques: Array) -> Array:
+        """By the difference of two solutions, with forces as large as the scene's, so that no digits are lost."""
+        size = (levered * p.radii).max() * p.speed**2 / np.abs(torques).max()
+        pull = torques * size / levered
+        more = replace(loads, pull=pull if loads.pull is None else loads.pull + pull)
+        changed = derivative(m, solve_loaded(m, levers, more, p), moment.y, p) - derivative(m, base, moment.y, p)
+        return np.asarray(changed / size)
+
     unity = np.eye(p.balls)
     return Responses(
-        moment.t, unity[ahead] - unity[behind], base.balls / m.radii, by_torque, base.normal, normal_by_torque,
-        state_by_torque, hold * p.masses * m.radii,
+        moment.t, unity[ahead] - unity[behind], base.balls / m.radii, balls / np.outer(m.radii, levered), base.normal,
+        normal / levered, hold * levered, kick,
     )  # fmt: skip
 
 
@@ -85,8 +84,8 @@ def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow:
     Pairs that then part or approach more slowly than `slow` (P) [rad/s] get equal speeds to within `rest` [rad/s],
     momentum kept. Where none approaches by more than that, nothing is done: pairs part as slowly as they do.
     """
-    D, kicks = answer.pairs, answer.state_by_torque.dot(answer.pairs.T)
-    matrix, relative, total = D.dot(kicks[rates]), D.dot(y[rates]), np.zeros(len(D))
+    D = answer.pairs
+    matrix, relative, total = D.dot(answer.by_torque).dot(D.T), D.dot(y[rates]), np.zeros(len(D))
     if not np.any(relative < -rest):
         return y
     for count in range(MOST_IMPACTS):
@@ -103,7 +102,8 @@ def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow:
             relative[near] = 0.0
         else:
             break
-    return y + kicks.dot(total) if total.any() else y
+    torques = total.dot(D)
+    return y + answer.kick(torques) if torques.any() else y
 
 
 def approaches(answer: Responses, torques: Array) -> Array:

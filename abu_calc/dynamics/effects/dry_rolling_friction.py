@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations import accelerations
+from abu_calc.dynamics.equations import accelerations, loaded
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude, weighing_amplitude
@@ -146,7 +146,7 @@ class DryRollingFriction(Effect):
             return moment.y, mode
         p, first = moment.parameters, 2 * moment.parameters.size + moment.parameters.balls
         rates = moment.y[first : first + p.balls]
-        motion, loads, _ = moment.solved(mode)
+        motion, _, loads = loaded(np, moment.t, moment.y, p)
         if loads.across is not None:
             return self._settled_across(moment, motion, loads)
         # One ball of those that move together decides for all.

@@ -18,9 +18,10 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.integrators.plain import functions
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
 from abu_calc.dynamics.integrators.traced import kept, numbers_of, trace
-from abu_calc.dynamics.modes import Modes, watched, watches
+from abu_calc.dynamics.modes import Modes, watches
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.trajectory import Trajectory
 
@@ -88,7 +89,7 @@ class _Run(Run):
         integrator = system.integrator
         integrator.pars[:] = system.values([*self.units.tolist(), *numbers])
         self._put(integrator, t, state)
-        if self._falls_at_once(integrator, t, state, parameters):
+        if watches(self.equations) and self._falls_at_once(integrator, t, state, modes):
             return t, state, True
         bound = min(bound, t + AT_ONCE * self.equations.scene.revolution)
         passed = int(np.searchsorted(self.samples, t, side="right")) - self.done
@@ -123,20 +124,19 @@ class _Run(Run):
             raise lost(integrator.time, NOT_FINITE)
         return rows, _fallen(outcome) is not None
 
-    def _falls_at_once(self, integrator: Any, t: float, state: Array, parameters: Parameters) -> bool:
+    def _falls_at_once(self, integrator: Any, t: float, state: Array, modes: Modes) -> bool:
         """Whether a watched number is not above zero at the start, and after one step has still not risen.
 
         heyoka finds where a number crosses zero from above; this one never does.
         """
-        if not watches(self.equations):
-            return False
-        low = np.array(watched(self.equations, t, state, parameters)) <= 0
+        _, watched = functions(self.equations, self.numbers, modes)
+        low = np.array(watched(t, state)) <= 0
         if not low.any():
             return False
         fallen = _fallen(integrator.step(self.equations.longest_step)[0])
         if fallen is not None:  # it had risen
             low[fallen] = False
-        after = watched(self.equations, float(integrator.time), integrator.state * self.units, parameters)
+        after = watched(float(integrator.time), integrator.state * self.units)
         self._put(integrator, t, state)
         return bool((np.array(after)[low] < 0).any())
 
