@@ -15,6 +15,7 @@ from abu_calc.analysis.rungs import Estimate, averaged, closed_form
 from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.averages import AVERAGED
 from abu_calc.dynamics.integrators import choice
+from abu_calc.dynamics.integrators.run import EVENT, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
@@ -220,7 +221,9 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
     equations, moments, started = assemble(full), needed_moments(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
     trial, spent = _trial(one, equations, moments)
-    expected = spent * (1 + (TRIAL / loose) ** (1 / ORDER))
+    # Events are as many and as long at every tolerance.
+    steps = 1 - EVENT * trial.events / work(trial)
+    expected = spent * (1 + (1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER))
     if expected > budget:
         raise NotTrustworthyError(
             f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"

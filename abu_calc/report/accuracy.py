@@ -112,7 +112,9 @@ def _grid(study: Study) -> Grid:
 
 
 def _time(seconds: float | None) -> str:
-    return "" if seconds is None else f"{1000 * seconds:.3g} ms"
+    if seconds is None:
+        return ""
+    return f"{seconds:.3g} s" if seconds >= 1 else f"{1000 * seconds:.3g} ms"
 
 
 def picture(points: tuple[Point, ...]) -> list[str]:
