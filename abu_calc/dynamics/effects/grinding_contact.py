@@ -217,8 +217,13 @@ class GrindingContact(Effect):
         last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
         if self.contact == "face" or not late.any() or not separates(assemble(scene), last):
             return ()
-        word = "would part if they could" if self.contact == "rigid" else "part again and again"
-        return (f"wheel and work {word}: press harder, or run the wheel truer",)
+        remedy = "press harder, or run the wheel truer"
+        if self.contact == "rigid":
+            return (f"wheel and work would part if they could: {remedy}",)
+        return (
+            f"wheel and work part again and again: {remedy}; nothing damps their contact, so from another start they "
+            "may stay together",
+        )
 
     def weight(self, scene: Scene) -> Weight:
         """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
