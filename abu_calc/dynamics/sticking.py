@@ -1,0 +1,190 @@
+"""Balls that stick by dry friction: which of them go on sticking, which roll, and to which side of their race.
+
+`f` is the friction per normal force. The normal forces are part of the motion, so directions and sides are tried, from
+all slow balls at rest, until they and the accelerations that follow from them agree.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from abu_calc.dynamics.equations import loaded
+from abu_calc.dynamics.motion import Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.errors import NotTrustworthyError
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.modes import Moment
+
+AT_REST = 1e-9
+"""A ball slower than this, relative to the slow motion of the balls, is at rest: events are located no better."""
+
+HOLD = 1e-7
+"""A ball is let go when pulled by this much more, relatively, than friction holds, so that it leaves with certainty."""
+
+SLOW = 1e-6
+"""Where balls move across the race too, one starts with this speed, relative to R_p Ω, in the direction of the force
+that overcomes friction, and may stick again at half of it: at rest it has no direction. Less where drag would stop it:
+then with the speed at which drag takes what friction leaves over, at least 1e-6 of it."""
+
+CROSSES = 1e-7
+"""A ball changes sides when pulled from one with this much of m R_p Ω², so that it changes with certainty."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rolling:
+    """Per ball: `direction` 0 where it sticks, ±1 the way it rolls, where it moves across the race too 1 for any.
+
+    `side`: 1 where it is pressed to the outer side of its race, −1 to the inner one. `begun`: the speed with which it
+    started where it moves across too, relative to `SLOW`.
+    """
+
+    direction: Array
+    side: Array
+    begun: Array
+
+    def like(self, other: "Rolling") -> bool:
+        """Whether both say the same."""
+        return all(np.array_equal(getattr(self, part), getattr(other, part)) for part in ("direction", "side", "begun"))
+
+
+def forces(f: Any, m: Motion, mode: Rolling, loads: Loads, solved: Solved, p: Parameters) -> tuple[Any, Any, Any]:
+    """What pulls balls along and across the race, and what friction can take of it, times R/R_p.
+
+    Of balls together their sums: torques, for their angles are bound.
+    """
+    masses = m.moments / p.radii
+    pull, most = masses * solved.left, f * masses * (mode.side * solved.normal)
+    aside = 0.0 * pull if loads.across is None else masses * solved.across_left
+    if loads.mates is None:
+        return pull, aside, most
+    return loads.mates.dot(pull), loads.mates.dot(aside), loads.mates.dot(most)
+
+
+def decided(moment: "Moment", f: float) -> tuple[Array, Rolling]:
+    """State and mode with which the balls can go on; balls that come to rest get the speed 0 exactly.
+
+    The very same objects where nothing changes. Raises NotTrustworthyError when no combination is consistent.
+    """
+    mode: Rolling = moment.mode
+    p, first = moment.parameters, 2 * moment.parameters.size + moment.parameters.balls
+    motion, _, loads = loaded(np, moment.t, moment.y, p)
+    if loads.across is not None:
+        return _decided_across(moment, f, motion, loads)
+    rates = moment.y[first : first + p.balls]
+    # One ball of those that move together decides for all.
+    leader = np.arange(p.balls) if loads.mates is None else loads.mates.argmax(axis=1)
+    rests = (np.abs(rates) <= AT_REST * moment.equations.scales[first])[leader]
+    if np.any(rates[rests] != 0):
+        y = moment.y.copy()
+        y[first : first + p.balls][rests] = 0.0
+        moment = replace(moment, y=y)
+    start = replace(mode, direction=np.where(rests, 0.0, np.sign(rates[leader])))
+    found = _decided_along(moment, f, rests, start, leader)
+    return moment.y, mode if found.like(mode) else found
+
+
+def _decided_along(moment: "Moment", f: float, rests: Array, mode: Rolling, leader: Array) -> Rolling:
+    """Sides of all balls and directions, of those at rest by what acts on them.
+
+    From all sticking, every ball whose assumption fails changes it, and after some rounds only the first of them. The
+    accelerations of the balls answer forces on them by a symmetric positive definite matrix, of which a small f takes
+    nothing, and for such problems this ends (Júdice & Pires 1994, block principal pivoting).
+    """
+    balls = len(rests)
+    for attempt in range(20 + 10 * balls):
+        wrong, better, mode = _failing(moment, f, mode)
+        wrong, better = rests & wrong[leader], better[leader]
+        if not wrong.any():
+            return mode
+        if attempt > 10 + balls:
+            wrong &= leader == leader[wrong.argmax()]
+        mode = replace(mode, direction=np.where(wrong, better, mode.direction))
+    raise _inconsistent(moment, f, "no combination of sticking and rolling balls is consistent")
+
+
+def _failing(moment: "Moment", f: float, mode: Rolling) -> tuple[Array, Array, Rolling]:
+    """Which balls, were they at rest, could not go on in their directions, and what is better for them.
+
+    And the mode with all balls on the sides to which they are pressed.
+    """
+    mode, (motion, loads, solved) = _on_sides(moment, f, mode)
+    pull, _, most = forces(f, motion, mode, loads, solved, moment.parameters)
+    sigma = mode.direction
+    slips, stops = np.abs(pull) > (1 + HOLD / 4) * np.maximum(most, 0.0), sigma * solved.balls < 0
+    return np.where(sigma == 0, slips, stops), np.where(sigma == 0, np.sign(pull), 0.0), mode
+
+
+def _on_sides(moment: "Moment", f: float, mode: Rolling) -> tuple[Rolling, tuple[Motion, Loads, Solved]]:
+    """The same directions with all balls pressed to their sides, and what then moves and acts.
+
+    A side changes the normal forces by f times as much, so two rounds do but for a few balls near none.
+    """
+    p = moment.parameters
+    for _ in range(2 + p.balls):
+        found = moment.solved(mode)
+        wrong = mode.side * found[2].normal < -CROSSES / 2 * p.radii * p.speed**2
+        if not wrong.any():
+            return mode, found
+        mode = replace(mode, side=np.where(wrong, -mode.side, mode.side))
+    raise _inconsistent(moment, f, "no side of its race presses a ball consistently")
+
+
+def _inconsistent(moment: "Moment", f: float, what: str) -> NotTrustworthyError:
+    return NotTrustworthyError(
+        f"at t = {moment.t:.6g} s {what}\n"
+        f"  friction of {f:g} times the normal force is far from a rolling ball's: check it"
+    )
+
+
+def _decided_across(moment: "Moment", f: float, motion: Motion, loads: Loads) -> tuple[Array, Rolling]:
+    """The same where balls move across the race too: what friction cannot hold starts in the force's direction.
+
+    Balls are let go one after the other, and none is held again, so this ends.
+    """
+    p, y = moment.parameters, moment.y.copy()
+    along, across = _rate_places(p)
+    slow = SLOW * p.radii * p.speed
+    mode: Rolling = moment.mode
+    least = np.where(mode.direction > 0, 0.6 * mode.begun, 1e-3) * slow
+    rolls = np.hypot(motion.radii * motion.rate, motion.rolled) > least
+    rolls = rolls if loads.mates is None else loads.mates.dot(rolls) > 0
+    held = ~rolls
+    mode = replace(mode, begun=np.where(held, 1.0, mode.begun))
+    y[along][held] = y[across][held] = 0.0
+    for _ in range(p.balls + 1):
+        start = replace(mode, direction=np.where(held, 0.0, 1.0))
+        mode, (_, loads, solved) = _on_sides(replace(moment, y=y), f, start)
+        pull, aside, most = forces(f, motion, mode, loads, solved, p)
+        force = np.hypot(pull, aside)
+        starts = held & (force > (1 + HOLD / 4) * np.maximum(most, 0.0))
+        if not starts.any():
+            break
+        share = _kept_by_drag(force - most, p) / slow
+        mode = replace(mode, begun=np.where(starts, np.clip(share, 1e-6, 1.0), mode.begun))
+        speeds = mode.begun * slow / np.where(starts, force, 1.0)
+        y[along][starts] = (speeds / motion.radii * pull)[starts]
+        y[across][starts] = (speeds * aside)[starts]
+        held = held & ~starts
+    same = np.array_equal(y, moment.y)
+    return (moment.y if same else y), moment.mode if mode.like(moment.mode) else mode
+
+
+def _kept_by_drag(force: Array, p: Parameters) -> Array:
+    """Speed [m/s] at which drag takes all of a force [N]; infinite without drag."""
+    drags = p.masses * p.drags / p.radii
+    found: Array = np.divide(force, drags, out=np.full(len(force), math.inf), where=drags > 0)
+    return found
+
+
+def _rate_places(p: Parameters) -> tuple[slice, slice]:
+    """Where the state holds the speeds of the balls along and across the race."""
+    first, place = 2 * p.size + p.balls, 2 * (p.size + p.balls)
+    for effect in p.effects:
+        if "across'" in effect.ball_states:
+            place += effect.ball_states.index("across'") * p.balls
+            break
+        place += len(effect.ball_states) * p.balls
+    return slice(first, first + p.balls), slice(place, place + p.balls)
