@@ -6,7 +6,7 @@ integrators/     the only files that know solvers   jacobian.py    exact derivat
 stationary.py    where the balls come to rest       resting.py     the same for any balls
 linearised.py    small motions about that state     stability.py   whether they die out, and at which speeds
 from_design.py   the scene of a machine             from_scene.py  the scene of a scene file
-modes.py         sticking, touching: how they switch sticking.py    which balls stick, which roll
-touching.py      impacts, which neighbours press    envelope.py    the averaged slow motion
+modes.py         how effects switch, and agree      sticking.py    which balls stick, which roll
+touching.py      impacts, and who presses whom      envelope.py    the averaged slow motion
 receptance.py    the support's steady response      trajectory.py  what an integrator hands on
 """
