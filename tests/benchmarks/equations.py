@@ -156,15 +156,19 @@ def compare_heyoka() -> None:
         equations, end = assemble(scene), scene.duration
         scales, start = np.array(equations.scales), np.array(equations.initial)
         exact = heyoka_.integrate(equations, 1e-13, [end]).y[:, -1]
-        written = hy.taylor_adaptive(by_hand(hy, scene), start, tol=heyoka_.COMPILED[0], compact_mode=False)
+        heyoka_.integrate(equations, TOLERANCE, [end])
+        order, *_ = next(reversed(heyoka_._kept))
+        written = hy.taylor_adaptive(by_hand(hy, scene), start, tol=order, compact_mode=False)
         done: dict[str, Any] = {}
 
         def composed(equations: Any = equations, end: float = end, done: dict[str, Any] = done) -> None:
             done["mine"] = heyoka_.integrate(equations, TOLERANCE, [end])
 
-        def bare(end: float = end, scales: Any = scales, start: Any = start, done: dict[str, Any] = done) -> None:
+        def bare(
+            end: float = end, units: Any = scales * (TOLERANCE / order), start: Any = start, done: dict[str, Any] = done
+        ) -> None:
             compiled = next(reversed(heyoka_._kept.values())).integrator
-            compiled.time, compiled.state[:] = 0.0, start / scales * (heyoka_.COMPILED[0] / TOLERANCE)
+            compiled.time, compiled.state[:] = 0.0, start / units
             done["bare"] = compiled.propagate_until(end)[3]
 
         def other(end: float = end, start: Any = start, written: Any = written, done: dict[str, Any] = done) -> None:

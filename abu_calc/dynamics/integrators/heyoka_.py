@@ -25,9 +25,9 @@ from abu_calc.dynamics.modes import Modes, watches
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.trajectory import Trajectory
 
-COMPILED = 1e-12, 1e-15
-"""heyoka's own tolerances: orders 15 and 19. The first as long as it leaves even angles of balls that stand still in
-space, which grow with every turn, below 1."""
+COMPILED = 1e-9, 1e-12, 1e-15
+"""heyoka's own tolerances: orders 12, 15 and 19. The first that leaves even angles of balls that stand still in space,
+which grow with every turn, below 1."""
 
 MOST_UNROLLED = 120
 """Products in a smooth scene's equations up to which its code is unrolled: it runs in half the time, but takes two
@@ -73,7 +73,7 @@ class _Run(Run):
         super().__post_init__()
         self.numbers = numbers_of(self.equations)
         turned = max(1.0, self.equations.scene.speed * float(self.samples[-1]))
-        self.compiled = COMPILED[0] if self.tolerance >= COMPILED[0] * turned else COMPILED[1]
+        self.compiled = next((one for one in COMPILED if one * turned <= self.tolerance), COMPILED[-1])
         self.units = np.array(self.equations.scales) * (self.tolerance / self.compiled)
 
     @property
