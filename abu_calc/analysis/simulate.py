@@ -12,7 +12,7 @@ from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import Response, evaluate, needed_moments
 from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import choose, unfit
 from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, with_parted_balls
@@ -122,7 +122,7 @@ def _integrated(
         error = max(SAFETY * apart, FLOOR * tolerance, FALL * before if before > 0 else 0.0)
         if error <= accuracy:
             cost = _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why)
-            said = (*warnings, *_told(scene, trajectory))
+            said = (*warnings, *_told(equations, trajectory))
             return Simulation(scene, runs[1], trajectory, cost, error, said, "equations", offered)
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
         other = _integrated(scene, accuracy, moments, most, "heyoka", warnings, offered)
@@ -145,9 +145,9 @@ def _apart(scene: Scene, before: Response, response: Response) -> float:
     return math.inf if any(abs(a - b) > math.pi for a, b in turns) else difference(scene, before, response)
 
 
-def _told(scene: Scene, trajectory: Trajectory) -> tuple[str, ...]:
+def _told(equations: Equations, trajectory: Trajectory) -> tuple[str, ...]:
     """What the effects have to say of a run."""
-    return tuple(text for effect in scene.effects for text in effect.remarks(scene, trajectory))
+    return tuple(text for effect in equations.scene.effects for text in effect.remarks(equations, trajectory))
 
 
 def tolerances(accuracy: float) -> tuple[float, ...]:

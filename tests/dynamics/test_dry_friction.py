@@ -153,6 +153,12 @@ def test_a_start_that_chatters_is_gone_through():
     assert (trajectory.y[6:, -1] == 0).all()
 
 
+def told(scene: Scene) -> tuple[str, ...]:
+    """By its first effect, of a run."""
+    equations = assemble(scene)
+    return scene.effects[0].remarks(equations, integrate(equations, 1e-6, np.linspace(0, 20, 2001)))
+
+
 def test_a_ball_off_the_outer_side_of_its_race_rubs_on_the_inner_one():
     """The support swings back with x'' = −x = 3.9 cos t; the balls are pressed by R_p Ω² = 4 and turn with 2 t."""
     scene = replace(planar_scene(1.6, 0.1), start_position=(-3.9, 0.0), imbalance=0.0)
@@ -179,10 +185,10 @@ def test_a_ball_off_the_outer_side_of_its_race_is_told():
     """Once it is pulled off by more than nothing, with the first sample at which it is."""
     scene = replace(planar_scene(1.6, -0.6), start_position=(-4.3, 0.0), imbalance=0.0)
     dry = rubbing(scene, 1e-3)
-    [said] = dry.effects[0].remarks(dry, integrate(assemble(dry), 1e-6, np.linspace(0, 20, 2001)))
+    [said] = told(dry)
     assert "ball 2 is pulled off the outer side of its race at t = 0.0" in said
     calm = rubbing(replace(scene, start_position=(-1.0, 0.0)), 1e-3)
-    assert calm.effects[0].remarks(calm, integrate(assemble(calm), 1e-6, np.linspace(0, 20, 2001))) == ()
+    assert told(calm) == ()
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)

@@ -27,6 +27,7 @@ from abu_calc.sizing.budget import friction_band
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
+    from abu_calc.dynamics.assemble import Equations
     from abu_calc.dynamics.modes import Moment
     from abu_calc.dynamics.trajectory import Trajectory
 
@@ -107,18 +108,15 @@ class DryRollingFriction(Effect):
             speed = sigma * m.xp.sqrt(sigma * (along * along + m.rolled * m.rolled) + (1 - sigma))
         return -self.coefficient * (p.masses * mode.side * solved.normal).dot(speed)
 
-    def remarks(self, scene: Scene, trajectory: "Trajectory") -> tuple[str, ...]:
+    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
         """The first sample at which a ball is off the outer side of its race, counting all balls as rolling."""
-        from abu_calc.dynamics.assemble import assemble
-
-        equations = assemble(scene)
-        p, first = equations.parameters, 2 * len(scene.support.names) + len(scene.ball_masses)
-        index = scene.effects.index(self)
+        p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
+        index = p.effects.index(self)
         if p.modes[index] is None:
             return ()
         for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
             sigma = np.sign(y[first : first + p.balls])
-            direction = sigma if scene.effect("transverse_motion") is None else np.abs(sigma)
+            direction = sigma if equations.scene.effect("transverse_motion") is None else np.abs(sigma)
             mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
             modes = (*p.modes[:index], mode, *p.modes[index + 1 :])
             outward = accelerations(np, t, y, equations.in_mode(modes))[2].normal / (p.radii * p.speed**2)

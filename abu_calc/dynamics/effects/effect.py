@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 if TYPE_CHECKING:
+    from abu_calc.dynamics.assemble import Equations
     from abu_calc.dynamics.modes import Moment
     from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
     from abu_calc.dynamics.parameters import Array, Parameters, Rotor
@@ -97,7 +98,7 @@ class Effect:
         """Power [W] it puts in, by the coordinates' own motion; negative where it takes out."""
         return 0.0
 
-    def remarks(self, scene: "Scene", trajectory: "Trajectory") -> tuple[str, ...]:
+    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
         """What a user should know of a run: that it left the range in which the effect holds, for instance."""
         return ()
 

@@ -21,6 +21,7 @@ from abu_calc.errors import InputError
 from abu_calc.units import GRAVITY
 
 if TYPE_CHECKING:
+    from abu_calc.dynamics.assemble import Equations
     from abu_calc.dynamics.trajectory import Trajectory
 
 SHAKES = 0.1
@@ -57,8 +58,9 @@ class Gravity(Effect):
             height = height + p.masses.sum() * m.offset[1]
         return self.acceleration * height
 
-    def remarks(self, scene: Scene, trajectory: "Trajectory") -> tuple[str, ...]:
+    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
         """Told when a ball would fall off its race: R_p γ'² < g sin γ. The equations hold it there."""
+        scene = equations.scene
         first, balls = 2 * len(scene.support.names), len(scene.ball_masses)
         places, rates = trajectory.y[first : first + balls], trajectory.y[first + balls : first + 2 * balls]
         steady = rotor_of(scene) == "steady"
@@ -81,18 +83,24 @@ class Gravity(Effect):
         return any(self.acceleration > SHAKES * hold for hold in held)
 
     def weight(self, scene: Scene) -> Weight:
+        """Where gravity pulls harder than dry friction holds, f R_p Ω², it shakes out all that friction does, too."""
+        own, friction = self._swings(scene), scene.effect("dry_rolling_friction")
+        if friction is None or own.value is None or not self._shakes(scene, getattr(friction, "coefficient", 0.0)):
+            return own
+        shaken = friction.weight(scene).value
+        if shaken is not None and shaken <= own.value:
+            return own
+        return Weight(shaken, "shakes balls that stick by dry friction loose in every turn")
+
+    def _swings(self, scene: Scene) -> Weight:
         """Balls swing by a = g/(J R_p Ω²) [rad] once per turn, and the axis with them, driven by Σ m R_p a/2 at 2Ω.
 
         m R_p e^{i(γ + a cos γ)} has the part i (a/2) m R_p e^{2iγ}, which adds up where balls are in one line. A ball
         that starts at rest is also pushed off at up to a Ω, and drag stops it after a Ω J/h₀; where nothing brings it
-        back, among more than two balls, it stays there. Where gravity pulls harder than dry friction holds, f R_p Ω²,
-        it shakes out all that friction does.
+        back, among more than two balls, it stays there.
         """
         if not scene.ball_masses:
             return Weight(0.0, "no balls")
-        friction = scene.effect("dry_rolling_friction")
-        if friction is not None and self._shakes(scene, getattr(friction, "coefficient", 0.0)):
-            return Weight(friction.weight(scene).value, "shakes balls that stick by dry friction loose in every turn")
         why = "swings the balls once per turn, and the axis twice"
         if isinstance(scene.support, SwingArm):
             return Weight(None, f"{why}; on a swing arm not estimated")

@@ -12,7 +12,7 @@ on the centre of the wheel's surface, ε e^{i(turn + φ₀)} off the axis, R_w a
 
     ε (N cos − T sin)(turn + φ₀) + T R_w,    face: s f N₀ R_w
 
-Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and `separates`
+Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and a remark
 tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power
 with its cube, so that it is infinite after a finite time. Compliance, one-sided contact and torque are derived.
 """
@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations import accelerations
 from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.receptance import receptance, reference_moment, weighing_amplitude
@@ -34,6 +35,7 @@ from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
+    from abu_calc.dynamics.assemble import Equations
     from abu_calc.dynamics.modes import Moment
     from abu_calc.dynamics.trajectory import Trajectory
 
@@ -45,7 +47,6 @@ TOUCHING, APART = 1.0, 0.0
 
 NEAR = 1e-9
 """Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
-
 
 RUNAWAY = 1e3
 """Balls this many times as fast as the rotor run away: they go on to infinite speed, in a moment."""
@@ -208,22 +209,28 @@ class GrindingContact(Effect):
         rates = p.race_map.dot(m.support[p.size :])  # type: ignore[union-attr]
         return self._force(m, p, normal).dot(np.append(rates, m.speed) if p.rotor == "driven" else rates)
 
-    def remarks(self, scene: Scene, trajectory: "Trajectory") -> tuple[str, ...]:
-        """Whether wheel and work part in the last twentieth of the run."""
-        from abu_calc.dynamics.assemble import assemble
-        from abu_calc.dynamics.contact_force import separates
+    def normal_forces(self, equations: "Equations", trajectory: "Trajectory") -> Array:
+        """N [N] at the samples of a run; 0 where wheel and work are apart, and negative where a rigid contact pulls.
 
-        late = trajectory.t >= 0.95 * scene.duration
-        last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
-        if self.contact == "face" or not late.any() or not separates(assemble(scene), last):
-            return ()
-        remedy = "press harder, or run the wheel truer"
+        Balls that stick by dry friction count as rolling.
+        """
+        p = equations.parameters
+        moments = [accelerations(np, t, y, p) for t, y in zip(trajectory.t, trajectory.y.T, strict=True)]
         if self.contact == "rigid":
-            return (f"wheel and work would part if they could: {remedy}",)
-        return (
-            f"wheel and work part again and again: {remedy}; nothing damps their contact, so from another start they "
-            "may stay together",
-        )
+            return np.array([solved.reaction for _, _, solved in moments], dtype=float)
+        return np.array([max(self.pressed(m, TOUCHING, p), 0.0) for m, _, _ in moments], dtype=float)
+
+    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
+        """Whether wheel and work part in the last twentieth of the run."""
+        late = trajectory.t >= 0.95 * equations.scene.duration
+        last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
+        if self.contact == "face" or not late.any() or self.normal_forces(equations, last).min() > 0:
+            return ()
+        told = "wheel and work {}: press harder, or run the wheel truer"
+        if self.contact == "rigid":
+            return (told.format("would part if they could"),)
+        doubt = "; nothing damps their contact, so from another start they may stay together"
+        return (told.format("part again and again") + doubt,)
 
     def weight(self, scene: Scene) -> Weight:
         """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
