@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
+from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.dynamics.effects.effect import Weight
 from abu_calc.dynamics.scene import Scene
 
@@ -23,10 +24,14 @@ class Entry:
 
 @dataclass(frozen=True)
 class Ledger:
-    """The scene to simulate, and what stands for each effect there is data for; `promise`: weight of what is out."""
+    """The scene to simulate, and what stands for each effect there is data for; `promise`: weight of what is out.
+
+    `spared`: what those left out for being light may take of the accuracy, so that the rest is for the integration.
+    """
 
     scene: Scene
     entries: tuple[Entry, ...]
+    spared: float = 0.0
 
     @property
     def promise(self) -> float:
@@ -57,16 +62,18 @@ def chosen(
     )  # fmt: skip
     kept = {entry.name for entry in entries if entry.included}
     scene = replace(full, effects=tuple(effect for effect in full.effects if effect.name in kept))
-    return Ledger(scene, entries)
+    spared = sum(weights[name].value or 0.0 for name in out.difference(wanted, unwanted))
+    return Ledger(scene, entries, spared)
 
 
 def _light(weights: dict[str, Weight], accuracy: float) -> frozenset[str]:
     """The lightest effects that weigh no more together than their share of the accuracy."""
     known = [(weight.value, name) for name, weight in weights.items() if weight.value is not None]
+    share = min(SHARE * accuracy, accuracy - ACCURACY.low)
     out, total = set(), 0.0
     for value, name in sorted(known):
         total += value
-        if total > SHARE * accuracy:
+        if total > share:
             break
         out.add(name)
     return frozenset(out)

@@ -48,7 +48,7 @@ def simulated(design: Design, accuracy: float) -> tuple[tuple[Run, ...], tuple[F
         unwanted = FRICTION if name == "idle" else SWITCHING
         try:
             ledger = chosen(scene_of_design(design, name), accuracy, unwanted=unwanted, why_unwanted=LEFT_OUT)
-            runs.append(Run(ledger, simulate(ledger.scene, accuracy, most_evaluations=WORK)))
+            runs.append(Run(ledger, simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK)))
         except NotTrustworthyError as error:
             failures.append(Failure(name, str(error).splitlines()[0]))
     return tuple(runs), tuple(failures)

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.parameters import rotor_of
@@ -25,7 +26,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Window:
-    """The amplitude window: moments [s], equally spaced up to the end, and how many of the last make whole turns."""
+    """The amplitude window: moments [s], equally spaced up to the end but for the first, which is where the window
+    begins, and how many of the last steps make whole turns.
+    """
 
     times: Array
     whole: int
@@ -81,7 +84,7 @@ def amplitude_window(scene: Scene) -> Window:
     turns = int(length / scene.revolution * (1 + 1e-12))
     step = scene.revolution / SAMPLES_PER_REVOLUTION
     times = scene.duration - step * np.arange(math.ceil(length / step - 1e-9), -1, -1)
-    return Window(times=np.maximum(times, 0.0), whole=turns * SAMPLES_PER_REVOLUTION)
+    return Window(times=np.maximum(times, scene.duration - length), whole=turns * SAMPLES_PER_REVOLUTION)
 
 
 def settling_moments(scene: Scene) -> Array:
@@ -105,13 +108,12 @@ def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
     first = 2 * len(scene.support.names)
     balls = slice(first, first + len(scene.ball_masses))
     states, run = trajectory.at(window.times), trajectory.at(moments)
-    whole = states[:, -window.whole :]
+    whole = states[:, -1 - window.whole :]
     place = axis_place(scene, states)
-    mean = axis_place(scene, whole).mean(axis=1, keepdims=True)
-    velocity = axis_velocity(scene, whole)
-    rms = float(np.sqrt((velocity**2).mean(axis=1)).max())
+    mean = _mean(axis_place(scene, whole))
+    rms = float(np.sqrt(_mean(axis_velocity(scene, whole) ** 2)).max())
     residuals = np.abs(total_imbalance(scene, run[balls]))
-    settled = float(np.abs(total_imbalance(scene, whole[balls])).mean())
+    settled = float(_mean(np.abs(total_imbalance(scene, whole[balls])))[0])
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
     return Response(
@@ -189,10 +191,7 @@ def _at_plane(support: LinearSupport, plane: float) -> Array:
 
 def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
     places = scene.support.bearings if isinstance(scene.support, LinearSupport) else ()
-    return tuple(
-        _largest_radius(axis_place(scene, states, z) - axis_place(scene, whole, z).mean(axis=1, keepdims=True))
-        for z in places
-    )
+    return tuple(_largest_radius(axis_place(scene, states, z) - _mean(axis_place(scene, whole, z))) for z in places)
 
 
 def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
@@ -206,7 +205,7 @@ def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
     """The earliest moment [s] after which the residual stays below the limit; None if after 95 % of the run.
 
-    Between two samples the residual is taken as straight.
+    Between two samples it is read from the cubic through the four about them.
     """
     above = np.flatnonzero(residuals > limit)
     if not len(above):
@@ -214,18 +213,36 @@ def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
     last = int(above[-1])
     if last == len(t) - 1:
         return None
-    before, after = float(residuals[last]), float(residuals[last + 1])
-    moment = float(t[last] + (t[last + 1] - t[last]) * (before - limit) / (before - after))
+    moment = _crossing(t, residuals - limit, last)
     return moment if moment <= 0.95 * t[-1] else None
 
 
+def _crossing(t: Array, values: Array, last: int) -> float:
+    """Where values, of which that at `last` is above zero and the next one not, pass zero."""
+    near = slice(max(last - 1, 0), last + 3)
+    cubic = Polynomial.fit(t[near], values[near], len(t[near]) - 1)
+    low, high = float(t[last]), float(t[last + 1])
+    inside = [root.real for root in cubic.roots().tolist() if root.imag == 0 and low <= root.real <= high]
+    # Rounding may move a root that is a sample itself out of the interval.
+    return max(inside, default=high)
+
+
+def _mean(values: Array) -> Array:
+    """Mean over equally spaced moments of whole turns, both ends among them, by Simpson's rule: means of what turns are
+    exact, and what dies out meanwhile counts as long as it lasts.
+    """
+    ends, odd, even = values[..., [0, -1]], values[..., 1::2], values[..., 2:-1:2]
+    total = ends.sum(-1, keepdims=True) + 4 * odd.sum(-1, keepdims=True) + 2 * even.sum(-1, keepdims=True)
+    return np.asarray(total / (3 * (values.shape[-1] - 1)))
+
+
 def _largest_radius(place: Array) -> float:
-    """Largest √(x² + y²) of equally spaced samples, its square refined by the parabola through the largest three."""
+    """Largest √(x² + y²) of samples, equally spaced but for the first; its square refined by a quartic through five."""
     square = (place**2).sum(axis=0)
     top = int(square.argmax())
-    if 0 < top < len(square) - 1:
-        a, b, c = square[top - 1 : top + 2].tolist()
-        bend = 2 * b - a - c
-        if bend > 0:
-            return math.sqrt(b + (c - a) ** 2 / (8 * bend))
-    return math.sqrt(float(square[top]))
+    largest = float(square[top])
+    if 2 < top < len(square) - 2 and largest > 0:
+        near = Polynomial.fit(np.arange(-2, 3), square[top - 2 : top + 3] / largest, 4)
+        crests = [root.real for root in near.deriv().roots().tolist() if root.imag == 0 and abs(root.real) <= 1]
+        largest *= max([1.0, *near(np.array(crests)).tolist()])
+    return math.sqrt(largest)

@@ -37,6 +37,7 @@ def accuracy(
     from abu_calc.cli.load import located, source_of
     from abu_calc.dynamics.from_scene import lasting
     from abu_calc.report.accuracy import study_blocks, study_result
+    from abu_calc.report.common import default_blocks, warning_blocks
     from abu_calc.report.simulation import scene_model
     from abu_calc.validity import Range
 
@@ -56,7 +57,8 @@ def accuracy(
     check = Check("ABU811", "accuracy affordable", verdict(best is not None), message,
                   None if best is None else best.error, asked, None,
                   None if best else "More time (--budget), or less accuracy.")  # fmt: skip
-    blocks = study_blocks(subject.title, full.name, measured)
+    told = (*warning_blocks(subject.warnings), *default_blocks(subject.source.defaults_used))
+    blocks = (*study_blocks(subject.title, full.name, measured), *told)
     return Outcome("accuracy", result, blocks, source_of(subject.source), (check,), scene_model(ledger.scene),
                    subject.warnings, overall((check,)))  # fmt: skip
 

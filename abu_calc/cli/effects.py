@@ -40,6 +40,7 @@ def _of_file(subject: "Subject", accuracy: float, with_: list[str] | None, witho
     from abu_calc.analysis.ledger import chosen
     from abu_calc.analysis.simulate import ACCURACY
     from abu_calc.cli.load import located, source_of
+    from abu_calc.report.common import default_blocks, warning_blocks
     from abu_calc.report.effects import ledger_blocks, ledger_result
     from abu_calc.report.simulation import scene_model
 
@@ -48,7 +49,8 @@ def _of_file(subject: "Subject", accuracy: float, with_: list[str] | None, witho
     with located(subject.source):
         ledger = chosen(subject.scene, accuracy, with_ or (), without or ())
     result = {"scene": ledger.scene.name, "accuracy": accuracy, "effects": ledger_result(ledger.entries)}
-    blocks = ledger_blocks(subject.title, ledger, accuracy)
+    told = (*warning_blocks(subject.warnings), *default_blocks(subject.source.defaults_used))
+    blocks = (*ledger_blocks(subject.title, ledger, accuracy), *told)
     return Outcome("effects", result, blocks, source_of(subject.source), (), scene_model(ledger.scene),
                    subject.warnings, "pass")  # fmt: skip
 

@@ -5,6 +5,7 @@ from typing import Any, Final
 
 from abu_calc.analysis.accuracy import Point, Reference, Study
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.common import of_scene
 from abu_calc.report.outcome import finite
 from abu_calc.report.quantities import number
 
@@ -68,11 +69,12 @@ def study_blocks(title: str, scene: str, study: Study) -> tuple[Block, ...]:
     )
     skipped = [Paragraph(f"Not measured in the time allowed (--budget): {', '.join(_grouped(study.skipped))}.")]
     return (
-        Heading(f"{title}: what accuracy of the {study.quantity} costs in the scene {scene}"),
+        Heading(f"{title}: what accuracy costs, the {study.quantity}{of_scene(scene)}"),
         Paragraph(_chosen(study), "fail" if study.chosen is None else "pass"),
         Paragraph(sure),
         Heading("Points"),
         _grid(study),
+        *(Paragraph(line) for line in _not_computed(study.points)),
         *(skipped if study.skipped else []),
         Heading("Error against time"),
         *(Paragraph(line, indent=0) for line in picture(study.points)),
@@ -89,6 +91,16 @@ def _grouped(names: tuple[str, ...]) -> list[str]:
         method, _, tolerance = name.rpartition(" ") if " " in name else (name, "", "")
         groups.setdefault(method.replace("scipy-", ""), []).append(tolerance)
     return [f"{method} {'/'.join(tolerances)}".rstrip() for method, tolerances in groups.items()]
+
+
+def _not_computed(points: tuple[Point, ...]) -> list[str]:
+    """Why points have no error, each reason once with those it holds for."""
+    groups: dict[str, dict[str, None]] = {}
+    for point in points:
+        if point.error is None and point.note:
+            method = point.rung if point.rung != "equations" else (point.integrator or "").removeprefix("scipy-")
+            groups.setdefault(point.note, {})[method] = None
+    return [f"Not computed by {', '.join(methods)}: {reason}." for reason, methods in groups.items()]
 
 
 def _chosen(study: Study) -> str:
@@ -132,12 +144,8 @@ def picture(points: tuple[Point, ...]) -> list[str]:
         column = round((x - left) / (right - left) * (WIDTH - 1))
         row = round((high - y) / (high - low) * (HEIGHT - 1))
         cells[row][column] = mark
-    lines = []
-    for row, content in enumerate(cells):
-        decade = high - row * (high - low) / (HEIGHT - 1)
-        nearest = round(decade)
-        shown = abs(decade - nearest) * (HEIGHT - 1) / (high - low) < 0.5
-        lines.append(f"{f'1e{nearest}' if shown else '':>8} |{''.join(content)}".rstrip())
+    labels = {round((high - d) / (high - low) * (HEIGHT - 1)): f"1e{d}" for d in range(low, high + 1)}
+    lines = [f"{labels.get(row, ''):>8} |{''.join(content)}".rstrip() for row, content in enumerate(cells)]
     axis = [" "] * (WIDTH + 6)
     for decade in range(left, right + 1):
         column = round((decade - left) / (right - left) * (WIDTH - 1))

@@ -10,6 +10,11 @@ from abu_calc.report.quantities import QUANTITIES, Quantity, number, shown
 BOUND = {"most": "at most", "least": "at least"}
 
 
+def of_scene(scene: str) -> str:
+    """Which scene of a machine; a scene file holds but one."""
+    return "" if scene == "scene" else f" of the scene {scene}"
+
+
 def facts(result: Mapping[str, Any], *keys: str) -> Facts:
     """Rows for keys of a result, labelled by the table of quantities; keys without a value are left out."""
     rows = []

@@ -7,6 +7,7 @@ from typing import Any
 from abu_calc.analysis.ledger import Entry, Ledger
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.common import of_scene
 from abu_calc.report.outcome import finite
 from abu_calc.report.quantities import number
 
@@ -61,8 +62,7 @@ def ledger_grid(entries: Sequence[dict[str, Any]]) -> Grid:
 
 def ledger_blocks(title: str, ledger: Ledger, accuracy: float) -> tuple[Block, ...]:
     """The ledger of a scene with its rule."""
-    of = "" if ledger.scene.name == "scene" else f" of the scene {ledger.scene.name}"
-    head = Heading(f"{title}: effects{of} at accuracy {accuracy:g}")
+    head = Heading(f"{title}: effects{of_scene(ledger.scene.name)} at accuracy {accuracy:g}")
     if not ledger.entries:
         return (head, Paragraph("The file has data for none."))
     told = f"Left out, all together: {number(ledger.promise, 2)} of {accuracy:g}."

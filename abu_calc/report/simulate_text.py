@@ -7,7 +7,7 @@ from abu_calc.checks import Check
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.report.common import check_blocks, default_blocks, facts, warning_blocks
+from abu_calc.report.common import check_blocks, default_blocks, facts, of_scene, warning_blocks
 from abu_calc.report.effects import ledger_grid
 from abu_calc.report.quantities import number, shown
 
@@ -38,7 +38,7 @@ def simulate_blocks(
             "largest_amplitude_mm", "bearing_amplitudes_mm", "velocity_rms_mm_per_s", "level_db",
             "error_estimate")  # fmt: skip
     return (
-        Heading(f"{title}: simulation{_of(result['scene'])}"),
+        Heading(f"{title}: simulation{of_scene(result['scene'])}"),
         Paragraph(_verdict(result), checks[0].status),
         Heading("Motion"),
         facts(result, *keys),
@@ -54,11 +54,6 @@ def simulate_blocks(
         Heading("Conventions"),
         Paragraph(CONVENTIONS),
     )
-
-
-def _of(scene: str) -> str:
-    """Which scene of a machine; a scene file holds but one."""
-    return "" if scene == "scene" else f" of the scene {scene}"
 
 
 def _model(scene: Scene) -> str:

@@ -30,7 +30,7 @@ def simulation_result(simulation: Simulation, ledger: Ledger) -> dict[str, Any]:
         "final": _final(response.final),
         "effects": ledger_result(ledger.entries),
         "cost": _cost(simulation.cost),
-        "error_estimate": simulation.error_estimate,
+        "error_estimate": simulation.error_estimate + ledger.spared,
         "rung": simulation.rung,
         "envelope": {"error_estimate": finite(simulation.offered.error), "why": simulation.offered.why},
     }

@@ -136,6 +136,9 @@ def _absent(finding: _Finding, origin: Origin) -> InputError:
         name = header(finding.root, finding.path)
         remedy = "`abu init FILE` writes a file with every table"
         return InputError(f"the table {name} is missing", place=Place(origin.file, None, finding.key), remedy=remedy)
+    if subtable(finding.table, finding.key):
+        name = header(finding.root, finding.path)
+        return InputError(f"the table {name} is missing", place=origin.place(finding.path), remedy=f"add {name}")
     examples = finding.table.model_fields[finding.key].examples
     remedy = f"add {finding.key} = {shown(examples[0])}, with your own value" if examples else f"add {finding.key} = …"
     return InputError("the key is missing", place=origin.place(finding.path), remedy=remedy)

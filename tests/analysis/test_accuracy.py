@@ -64,6 +64,14 @@ def test_the_picture_stays_within_eighty_columns(measured):
     assert any("D" in line for line in lines)
 
 
+def test_each_decade_stands_once_in_the_picture():
+    """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
+    points = tuple(Point("equations", "heyoka", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3) for k in range(10))
+    labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
+    decades = [int(label.removeprefix("1e")) for label in labels if label]
+    assert decades == list(range(0, -10, -1))
+
+
 def test_a_picture_of_nothing():
     assert picture((Point("closed-form", None, None, None, 0, 0, None, None),)) == ["nothing to draw"]
 

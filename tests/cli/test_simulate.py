@@ -199,7 +199,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
     assert audit["effects"] == ["gravity"] and audit["promise"] == gravity["weight"]
     assert gravity["weight"] / 3 < audit["difference"] < 3 * gravity["weight"] and audit["evaluations"] > 0
     checks = {check["code"]: check for check in document["checks"]}
-    assert checks["ABU802"]["status"] == "pass" and checks["ABU802"]["value"] == audit["difference"]
+    assert checks["ABU803"]["status"] == "pass" and checks["ABU803"]["value"] == audit["difference"]
     seen = abu("simulate", file, *fast, "--with", "gravity", "--audit")
     assert seen.status == 0 and "Every effect was in already" in seen.out
     seen = abu("simulate", file, "--without", "gravity", "--duration", "60", "--audit", "--json")

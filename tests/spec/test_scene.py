@@ -67,7 +67,7 @@ CASES: list[tuple[str, str, int | None, str, tuple[str, ...]]] = [
     (SPEED + "\n", "", 2, "scene.speed_rpm", ("missing", "add speed_rpm")),
     (IMBALANCE + "\n", "", 2, "scene.imbalance_g_mm", ("missing",)),
     (DRAG + "\n", "", 12, "scene.race[0].rolling_drag_per_s", ("missing",)),
-    (f"{RACE}\n{PITCH}\n{BALLS}\n{DRAG}\n{ANGLES}\n", "", 2, "scene.race", ("missing",)),
+    (f"{RACE}\n{PITCH}\n{BALLS}\n{DRAG}\n{ANGLES}\n", "", 2, "scene.race", ("missing", "add [[scene.race]]")),
     # rules between keys
     (MASS + "\n", "", 2, "scene.mass_kg", ('"planar" needs mass_kg', "add mass_kg = 1.0")),
     (STIFFNESS + "\n", "", 2, "scene.stiffness_N_per_m", ("needs stiffness_N_per_m",)),

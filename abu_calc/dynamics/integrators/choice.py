@@ -67,7 +67,7 @@ def choose(equations: Equations, wanted: str, tolerance: float) -> Choice:
         return _scipy("scipy-dop853", f"a short run, about {seconds:.2g} s of work: heyoka would take longer to start")
     if missing:
         return _scipy("scipy-dop853", f"heyoka would be faster, but {missing[0]}")
-    more = ", and more the more often modes switch" if watches(equations) else ""
+    more = " and more for its events" if watches(equations) else ""
     return _heyoka(f"a long run, about {seconds:.2g} s of work for SciPy{more}")
 
 
