@@ -93,7 +93,7 @@ class _Run(Run):
         watcher = Watcher(watched, t, state) if watches(self.equations) else None
         spent = self.evaluations
         while solver.status == "running":
-            self.evaluations = spent + solver.nfev + (watcher.evaluations if watcher else 0)
+            self.evaluations = spent + _evaluations(solver, watcher)
             if self.evaluations > self.most_evaluations:
                 raise lost(solver.t, f"more work than allowed, {self.evaluations} evaluations")
             try:
@@ -107,7 +107,7 @@ class _Run(Run):
             asked = watcher is not None or self.samples[self.done] <= solver.t
             dense = solver.dense_output() if asked else None
             event = watcher.event(dense, solver.t_old, solver.t) if watcher else None
-            self.evaluations = spent + solver.nfev + (watcher.evaluations if watcher else 0)
+            self.evaluations = spent + _evaluations(solver, watcher)
             if dense is not None:
                 last = int(np.searchsorted(self.samples, solver.t if event is None else event, side="right"))
                 if last > self.done:
@@ -144,3 +144,8 @@ class _Run(Run):
             **implicit,
         )
         return solver
+
+
+def _evaluations(solver: "OdeSolver", watcher: Watcher | None) -> int:
+    """Of the equations so far; a Jacobian takes one for each state."""
+    return int(solver.nfev + solver.njev * solver.n + (watcher.evaluations if watcher else 0))
