@@ -205,7 +205,7 @@ def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
     """The earliest moment [s] after which the residual stays below the limit; None if after 95 % of the run.
 
-    Between two samples it is read from the cubic through the four about them.
+    Between two samples it is read from the quintic through the six about them.
     """
     above = np.flatnonzero(residuals > limit)
     if not len(above):
@@ -219,10 +219,10 @@ def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
 
 def _crossing(t: Array, values: Array, last: int) -> float:
     """Where values, of which that at `last` is above zero and the next one not, pass zero."""
-    near = slice(max(last - 1, 0), last + 3)
-    cubic = Polynomial.fit(t[near], values[near], len(t[near]) - 1)
+    near = slice(max(last - 2, 0), last + 4)
+    curve = Polynomial.fit(t[near], values[near], len(t[near]) - 1)
     low, high = float(t[last]), float(t[last + 1])
-    inside = [root.real for root in cubic.roots().tolist() if root.imag == 0 and low <= root.real <= high]
+    inside = [root.real for root in curve.roots().tolist() if root.imag == 0 and low <= root.real <= high]
     # Rounding may move a root that is a sample itself out of the interval.
     return max(inside, default=high)
 

@@ -13,6 +13,7 @@ from abu_calc.analysis.differences import amplitude, angles, difference, settlin
 from abu_calc.analysis.ledger import SHARE, chosen
 from abu_calc.analysis.simulate import simulate
 from abu_calc.cli.subject import subject_of
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
@@ -72,6 +73,13 @@ def test_what_is_asked_for_by_name() -> None:
     assert ledger.promise == 5.0 and all("by decree" in entry.why for entry in ledger.entries)
 
 
+def test_what_is_left_out_for_being_light_takes_its_part_of_the_accuracy() -> None:
+    """Not what was asked out: that is not held against the accuracy."""
+    full = scene(Weighed("light", 1e-3), Weighed("lighter", 5e-4), Weighed("heavy", 5.0), Weighed("unlike", 1e-4))
+    ledger = chosen(full, 0.01, wanted=("lighter",), unwanted=("heavy", "unlike"))
+    assert ledger.spared == 1e-3 and ledger.promise == pytest.approx(5.0011)
+
+
 # whether weights are honest
 @pytest.mark.parametrize("speed", [300.0, 600.0, 1500.0])
 def test_gravity_weighs_what_it_changes(speed: float) -> None:
@@ -95,6 +103,15 @@ def test_among_four_balls_gravity_shifts_where_they_stay() -> None:
     swing, weight = 9.80665 / (1.4 * 0.025 * 600**2), Gravity().weight(full).value
     true = angles(full, without.response, with_.response)
     assert weight is not None and 3 * swing < true < weight
+
+
+def test_gravity_weighs_no_less_beside_a_friction_that_holds_nothing() -> None:
+    """What it shakes loose comes on top of its own pull."""
+    own = Gravity().weight(scene(Gravity())).value
+    assert own is not None
+    for lever, more in ((1e-12, False), (1e-6, True)):
+        weight = Gravity().weight(scene(Gravity(), DryRollingFriction(lever, 0.003))).value
+        assert weight is not None and (weight > own if more else weight == own)
 
 
 @pytest.mark.parametrize("magnitude", [1e-8, 1e-7, 5e-7])

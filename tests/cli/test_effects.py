@@ -53,8 +53,11 @@ def test_of_a_scene(file: str) -> None:
     assert all("whirls" in entry["why"] or "swings" in entry["why"] for entry in found.values())
     document = abu("effects", file, "--json").document
     assert document["result"]["scene"] == "scene" and document["model"]["effects"] == ["gravity"]
-    # What is simulated is what was told.
+    # What is simulated is what was told, and the error claimed counts what was left out.
     simulated = abu("simulate", file, "--duration", "20", "--json").document
+    assert found["race_eccentricity"]["weight"] < simulated["result"]["error_estimate"] <= 0.01
+    assert simulated["checks"][0]["value"] == simulated["result"]["error_estimate"]
+    assert "Defaults used" in abu("effects", file).out
     assert simulated["result"]["effects"] == list(found.values()) and simulated["model"]["effects"] == ["gravity"]
 
 

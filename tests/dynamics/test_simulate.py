@@ -118,17 +118,17 @@ def residual(t, creep):
 
 def test_settling_is_read_between_samples_and_not_near_the_end():
     t = np.arange(11.0)
-    # Falling straight from 4 at 2 s to 0 at 6 s after a dip; a cubic through samples of a line is the line.
-    assert settling_time(t, np.array([5.0, 1, 4, 3, 2, 1, 0, 0, 0, 0, 0]), 1.5) == pytest.approx(4.5)
+    # Falling straight from 6 at 2 s to 0 at 8 s after a dip; a quintic through samples of a line is the line.
+    assert settling_time(t, np.array([5.0, 1, 6, 5, 4, 3, 2, 1, 0, 0, 0]), 3.5) == pytest.approx(4.5)
     assert settling_time(t, np.array([1.0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0]), 2.0) == 0.0
     assert settling_time(t, np.array([5.0, 1, 4, 0, 0, 0, 0, 0, 0, 0, 3]), 2.0) is None
     # Falling from 4 at 9 s to 0 at 10 s: it passes 0.1 later than 95 % of the run.
     assert settling_time(t, np.array([5.0, 1, 4, 4, 4, 4, 4, 4, 4, 4, 0]), 0.1) is None
     # A sample on the limit itself.
     assert settling_time(t, np.array([5.0, 4, 3, 2, 1, 0, 0, 0, 0, 0, 0]), 1.0) == pytest.approx(4.0)
-    # exp(-t/2) with four samples about the crossing: 0.54/24 of its fourth derivative, at most 0.014, over its slope,
-    # 0.05, is 0.006; a line between two samples would be 0.06 off.
-    assert settling_time(t, np.exp(-t / 2), 0.1) == pytest.approx(2 * math.log(10), abs=6e-3)
+    # exp(-t/2) with six samples about the crossing: 3.4/720 of its sixth derivative, at most 0.006, over its slope,
+    # 0.05, is 0.0006; a line between two samples would be 0.06 off.
+    assert settling_time(t, np.exp(-t / 2), 0.1) == pytest.approx(2 * math.log(10), abs=6e-4)
 
 
 def test_the_window_begins_where_it_begins():
