@@ -83,6 +83,7 @@ def validate(
 
         raise told(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
+    notes += [f"{key_path(path)} plays no part beside the other keys." for path in table.given_in_vain()]
     return table, Reading(document.file, document.text, document.sha256, defaults, tuple(notes))
 
 

@@ -1,11 +1,11 @@
 # ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """What the machine does besides idling: grinding, running up, hanging on a motor or on a swing arm."""
 
-from typing import Annotated, Final, Literal, Self
+from typing import Annotated, Final, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field
 
-from abu_calc.spec.table import Table, problem, whole
+from abu_calc.spec.table import Table, whole
 
 STIFFNESS: Final = "contact_stiffness_N_per_m"
 
@@ -53,16 +53,6 @@ class Grinding(Table):
     def unused(self) -> frozenset[str]:
         """The stiffness, where the contact has none."""
         return frozenset() if self.contact == "compliant" else frozenset({STIFFNESS})
-
-    @model_validator(mode="after")
-    def _stiffness_is_of_compliant_contact(self) -> Self:
-        if self.contact != "compliant" and STIFFNESS in self.model_fields_set:
-            raise problem(
-                f'contact = "{self.contact}" has no stiffness',
-                STIFFNESS,
-                remedy=f'leave {STIFFNESS} out, or write contact = "compliant"',
-            )
-        return self
 
 
 class RunUp(Table):

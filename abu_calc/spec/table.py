@@ -27,7 +27,7 @@ class Table(BaseModel):
         return ()
 
     def unused(self) -> frozenset[str]:
-        """Keys whose default plays no part, given the other keys."""
+        """Keys that play no part, given the other keys: no default of theirs is told, and whoever gives one is."""
         return frozenset()
 
     def own_defaults(self) -> dict[str, object]:
@@ -39,18 +39,29 @@ class Table(BaseModel):
             if key not in silent and value is not None and not isinstance(value, (Table, dict)) and value != ()
         }
 
-    def defaults(self, path: tuple[Part, ...] = ()) -> Iterator[tuple[tuple[Part, ...], object]]:
+    def defaults(self) -> Iterator[tuple[tuple[Part, ...], object]]:
         """The defaults in force in this table and those inside it, with their paths."""
-        for key, value in self.own_defaults().items():
-            yield (*path, key), value
+        for path, table in self.tables():
+            for key, value in table.own_defaults().items():
+                yield (*path, key), value
+
+    def given_in_vain(self) -> Iterator[tuple[Part, ...]]:
+        """Paths of the keys that were given and play no part, given the others."""
+        for path, table in self.tables():
+            for key in sorted(table.unused() & table.model_fields_set):
+                yield (*path, key)
+
+    def tables(self, path: tuple[Part, ...] = ()) -> "Iterator[tuple[tuple[Part, ...], Table]]":
+        """This table and those inside it, with their paths."""
+        yield path, self
         for key in type(self).model_fields:
             value = getattr(self, key)
             if isinstance(value, Table):
-                yield from value.defaults((*path, key))
+                yield from value.tables((*path, key))
             elif isinstance(value, tuple):
                 for index, item in enumerate(value):
                     if isinstance(item, Table):
-                        yield from item.defaults((*path, key, index))
+                        yield from item.tables((*path, key, index))
 
 
 def subtable(model: type[Table], key: str) -> type[Table] | None:

@@ -26,6 +26,14 @@ def test_a_file_with_every_key_is_read(tmp_path: Path) -> None:
     assert loaded.machine.bearing[0].housing_outer_mm == 60
 
 
+def test_keys_that_play_no_part_are_told(tmp_path: Path) -> None:
+    text = BASIC.replace('shaft_fit = "k6"', 'housing_material = "steel"')
+    loaded = read(tmp_path, text + '[grinding]\ncontact = "face"\ncontact_stiffness_N_per_m = 1e5\n')
+    assert [warning.split()[0] for warning in loaded.warnings] == [
+        "grinding.contact_stiffness_N_per_m", "bearing[0].housing_material",
+    ]  # fmt: skip
+
+
 def test_the_full_sample_names_every_key_of_the_models() -> None:
     """Otherwise the properties over its numbers would pass by a key that was added later."""
     alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation"}

@@ -91,8 +91,6 @@ CASES: list[tuple[str, str, int | None, str, tuple[str, ...]]] = [
     (RACE, effect("run_up = {}"), 13, "scene.effects.run_up.time_s", ("no time",)),
     (RACE, effect("motor = { no_load_speed_rpm = 10 }"), 13, "scene.effects.motor.no_load_speed_rpm",
      ("cannot reach", "19.0986")),
-    (RACE, effect('grinding_contact = { contact = "rigid", contact_stiffness_N_per_m = 1 }'), 13,
-     "scene.effects.grinding_contact.contact_stiffness_N_per_m", ("no stiffness",)),
     (RACE, effect("grinding_contact = { plane_offset_mm = 5 }"), 13, "scene.effects.grinding_contact.plane_offset_mm",
      ("places along the spindle",)),
     (RACE, effect("grinding_contact = { wheel_radius_mm = 0 }"), 13, "scene.effects.grinding_contact.wheel_radius_mm",
@@ -214,6 +212,15 @@ def test_defaults_in_force_are_told(tmp_path: Path) -> None:
     assert told["scene.imbalance_angle_deg"] == 0.0 and told["scene.initial.vy_mm_per_s"] == 0.0
     assert dict(read(tmp_path, PLANAR).defaults_used) == {}
     assert read(tmp_path, SCENE).scene.race[0].start_speeds == (0.0, 0.0)
+
+
+def test_a_key_that_plays_no_part_is_told(tmp_path: Path) -> None:
+    """The stiffness of a contact that is none; the file is right otherwise."""
+    rigid = effect('grinding_contact = { contact = "rigid", contact_stiffness_N_per_m = 1 }')
+    loaded = read(tmp_path, SCENE.replace(RACE, rigid))
+    assert loaded.warnings == ("scene.effects.grinding_contact.contact_stiffness_N_per_m plays no part beside the "
+                               "other keys.",)  # fmt: skip
+    assert read(tmp_path, SCENE.replace(RACE, rigid.replace("rigid", "compliant"))).warnings == ()
 
 
 def test_overrides_are_told_by_their_option(tmp_path: Path) -> None:
