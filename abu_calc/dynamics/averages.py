@@ -25,6 +25,9 @@ AVERAGED: Final = frozenset({"gravity", "race_eccentricity"})
 SLOW: Final = 0.3
 """Largest rate of the balls, relative to the distance of the speed from natural frequencies, that counts as slow."""
 
+STILL: Final = 1e-6
+"""Rates of motions, as a share of the fastest, that are none, or the same."""
+
 TURNED: Final = np.array((1, -1j))
 """Forces (cos, sin)(Ωt + φ) are Re{(1, −i) e^{i(Ωt + φ)}}."""
 
@@ -152,6 +155,20 @@ def dying(support: Loaded, free: Array, moments: Array) -> tuple[Complex, Comple
     """V [2N, mode] and c e^{λt} [mode, moment] of the free motion (q, q') = V c e^{λt} from `free` at t = 0."""
     values, V = np.linalg.eig(support.motion)
     return V, np.linalg.solve(V, free.astype(complex))[:, None] * np.exp(np.outer(values, moments))
+
+
+def swinging(support: Loaded, force: Array, t: float) -> float:
+    """The most the axis [m] swings at t about the place to which a force on the frame moves it from t = 0 on."""
+    values, V = np.linalg.eig(support.motion)
+    push = np.linalg.solve(support.mass, support.frame.T @ force)
+    shares = np.linalg.solve(V, np.concatenate([0 * push, push]).astype(complex))
+    limit = STILL * np.abs(values).max()
+    moving = np.abs(values) > limit  # a coordinate that nothing holds goes away
+    values, shares, places = values[moving], shares[moving], V[: len(push), moving]
+    left = support.frame[:2] @ places * (shares / values * np.exp(values * t))
+    # Motions of one rate are one, however they are told apart.
+    alike = np.abs(values[:, None] - values) < limit
+    return float((np.abs(left @ alike) / alike.sum(axis=0)).sum())
 
 
 def _kick(scene: Scene, support: Loaded, free: Array, race: NDArray[np.intp]) -> Array:

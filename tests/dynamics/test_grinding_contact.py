@@ -384,3 +384,11 @@ def test_constraint_holds_through_a_run_up():
     scene = contact.placed(scene_on("planar", RunUp(3.0, 2.0), contact))
     trajectory = scipy_.integrate(assemble(scene), 1e-9, np.linspace(0, 20, 101))
     np.testing.assert_allclose(trajectory.y[1], -0.1 * np.sin(trajectory.y[-2] + 0.5), atol=1e-8)
+
+
+def test_what_the_cutting_force_moves_at_once_swings_on():
+    """T/c as free motion dies out with 2M/b; a run much longer does not know of it. Light damping, so 1 % does."""
+    contact = GrindingContact(45.0, 0.35, "compliant", 1e5)
+    short, long = (grinder(contact, damping=20.0, duration=duration) for duration in (0.5, 50.0))
+    more = (contact.weight(short).value - contact.weight(long).value) * weighing_amplitude(short)
+    assert more == pytest.approx(0.35 * 45.0 / CX * math.exp(-20.0 * 0.95 * 0.5 / (2 * M)), rel=0.01)

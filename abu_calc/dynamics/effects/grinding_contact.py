@@ -236,7 +236,10 @@ class GrindingContact(Effect):
         """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
 
         N~ = −(y + E)/(1/c_n + h_wn), y of the wheel without contact, E = −iε e^{iφ₀}, h_wn its motion by the contact.
+        And what is left near the end of swinging about the place to which T moves it.
         """
+        from abu_calc.dynamics.averages import loaded, swinging
+
         self._row(scene)
         if self.contact == "face":
             driven = any(effect.rotor == "driven" for effect in scene.effects)
@@ -251,6 +254,7 @@ class GrindingContact(Effect):
         normal = -(free - 1j * self.runout * np.exp(1j * self.runout_angle)) / (give + seen)
         X, Y = normal * answer
         changed = float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
+        changed += swinging(loaded(scene), wheel @ (self.drag * self.press_force, 0.0), 0.95 * scene.duration)
         return Weight(changed / weighing_amplitude(scene), f"holds the axis, and runout drives it; {self._braking}")
 
     @property
