@@ -6,9 +6,9 @@ from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
 
 BALANCED_SHARE = 0.1
-WORK = 150_000
-"""Evaluations that the simulation of one scene within `abu size` may take, some seconds. Six balls that bounce off each
-other took SciPy 110 000 until two runs agreed, other machines a tenth of that."""
+WORK = 300_000
+"""Evaluations that the simulation of one scene within `abu size` may take, some seconds. A wheel that bounces before it
+stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
 
 
 def idle_checks(design: Design, response: Response) -> tuple[Check, ...]:

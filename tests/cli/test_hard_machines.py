@@ -1,5 +1,7 @@
 """Machines at the edge of what a file may say: an answer with its reason in bounded work, never a crash."""
 
+import importlib.util
+
 import pytest
 
 from abu_calc.analysis.idle import WORK
@@ -33,6 +35,17 @@ def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: f
     idle = result["simulation"][0]
     # Δ = 0.01 mm at 6.4 kg, as an imbalance.
     assert idle["scene"] == "idle" and idle["residual_imbalance_g_mm"] == pytest.approx(64, abs=5)
+
+
+@pytest.mark.parametrize("drag", [15, 45, 92])
+def test_bounces_at_the_start_are_gone_through_without_heyoka(drag: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its tolerances must be tighter there, and its work still suffices."""
+    found = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "heyoka" else found(name))
+    entries = "suspension.damping_ratios=0.25", f"autobalancer.rolling_drag_per_s={drag}"
+    _, checks, result = _checks(STRAIGHT, *entries)
+    assert {check["status"] for check in checks.values()} == {"pass"}
+    assert {run["cost"]["integrator"] for run in result["simulation"]} == {"scipy-dop853"}
 
 
 @pytest.mark.parametrize("drag", [0, 1, 1e5])
