@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.ledger import Ledger
-from abu_calc.analysis.simulate import Simulation, simulate
+from abu_calc.analysis.simulate import Simulation, Tell, silent, simulate
 from abu_calc.dynamics.scene import Scene
 
 
@@ -20,12 +20,14 @@ class Audit:
     wall_s: float
 
 
-def audit(full: Scene, ledger: Ledger, run: Simulation, accuracy: float, integrator: str = "auto") -> Audit:
+def audit(
+    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, integrator: str = "auto", tell: Tell = silent
+) -> Audit:
     """Simulate the scene with all its effects to the same accuracy. Raises NotTrustworthyError as `simulate` does."""
     added = tuple(entry.name for entry in ledger.entries if not entry.included)
     if not added:
         return Audit(0.0, 0.0, (), 0, 0.0)
-    whole = simulate(full, accuracy, integrator=integrator)
+    whole = simulate(full, accuracy, integrator=integrator, tell=tell)
     return Audit(
         difference=difference(run.scene, run.response, whole.response),
         promise=ledger.promise,

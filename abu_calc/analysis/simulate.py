@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +21,9 @@ from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
 Array = NDArray[np.float64]
+
+Tell = Callable[[str], None]
+"""Gets what is being done, in a few words."""
 
 ACCURACY = Range("accuracy", 1e-8, 0.5, key="--accuracy")
 
@@ -65,19 +68,24 @@ class Simulation:
     offered: Offer
 
 
+def silent(_: str) -> None:
+    """For whom does not watch."""
+
+
 def simulate(
     scene: Scene,
     accuracy: float = 0.01,
     sample_times: Sequence[float] = (),
     most_evaluations: int = 50_000_000,
     integrator: str = "auto",
+    tell: Tell = silent,
 ) -> Simulation:
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further moments to hold in the trajectory; `most_evaluations` bounds the work of all runs;
-    `integrator` is auto, scipy or heyoka; either asks for the equations. Raises NotTrustworthyError when the work does
-    not suffice, or when no tolerance reaches the accuracy: the motion is then chaotic, or decided by less than
-    rounding.
+    `integrator` is auto, scipy or heyoka; either asks for the equations. `tell` gets what is being done. Raises
+    NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
+    chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
     scene, warnings = with_parted_balls(scene)
@@ -86,18 +94,20 @@ def simulate(
         raise InputError("sample times must lie within the run", allowed=f"0 … {scene.duration:g} s")
     moments, started = np.union1d(needed_moments(scene), wanted), time.perf_counter()
     offered = Offer(None, "the equations were asked for")
+    tell(f"{scene.name}: averages")
     if integrator == "auto" and not len(wanted):
         offered = offer(scene, accuracy, moments)
     if offered.trajectory is not None and offered.error is not None:
         run = offered.trajectory
         cost = _cost(run, run.evaluations, run.steps, time.perf_counter() - started, offered.why)
         return Simulation(scene, evaluate(scene, run), run, cost, offered.error, warnings, "envelope", offered)
-    return _integrated(scene, accuracy, moments, most_evaluations, integrator, warnings, offered)
+    return _integrated(scene, accuracy, moments, most_evaluations, integrator, warnings, offered, tell)
 
 
 def _integrated(
-    scene: Scene, accuracy: float, moments: Array, most: int, integrator: str, warnings: tuple[str, ...], offered: Offer
-) -> Simulation:
+    scene: Scene, accuracy: float, moments: Array, most: int, integrator: str, warnings: tuple[str, ...],
+    offered: Offer, tell: Tell,
+) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations = assemble(scene)
     choice = choose(equations, integrator, tolerances(accuracy)[0])
@@ -105,6 +115,7 @@ def _integrated(
     runs: list[Response] = []
     apart, spared = math.nan, 0
     for tolerance in tolerances(accuracy):
+        tell(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
         try:
             trajectory = choice.integrate(equations, tolerance, moments, most)
         except NotTrustworthyError as failure:
@@ -125,7 +136,7 @@ def _integrated(
             said = (*warnings, *_told(equations, trajectory))
             return Simulation(scene, runs[1], trajectory, cost, error, said, "equations", offered)
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
-        other = _integrated(scene, accuracy, moments, most, "heyoka", warnings, offered)
+        other = _integrated(scene, accuracy, moments, most, "heyoka", warnings, offered, tell)
         both = replace(other.cost, evaluations=other.cost.evaluations + evaluations, steps=other.cost.steps + steps)
         return replace(other, cost=both)
     raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)

@@ -1,7 +1,5 @@
 """`abu accuracy MACHINE|SCENE`: what accuracy costs in time."""
 
-import sys
-from collections.abc import Callable
 from typing import Annotated
 
 import typer
@@ -9,6 +7,7 @@ import typer
 from abu_calc.checks import Check, overall, verdict
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
 from abu_calc.cli.simulate import Accuracy
 from abu_calc.cli.subject import File, WhichScene, WhichStart, one_of, subject_of
 from abu_calc.report.outcome import Outcome
@@ -48,9 +47,8 @@ def accuracy(
     with located(subject.source):
         full = lasting(subject.scene, duration, "scene.duration_s" if duration is None else "--duration")
         ledger = chosen(full, asked)
-    tell = _teller(how)
-    measured = study(full, ledger, quantity, asked, budget, tell)
-    tell("")
+    with progress(how) as tell:
+        measured = study(full, ledger, quantity, asked, budget, tell)
     result = study_result(measured)
     best = measured.chosen
     message = "a way to compute was measured whose error is below the accuracy"
@@ -61,18 +59,6 @@ def accuracy(
     blocks = (*study_blocks(subject.title, full.name, measured), *told)
     return Outcome("accuracy", result, blocks, source_of(subject.source), (check,), scene_model(ledger.scene),
                    subject.warnings, overall((check,)))  # fmt: skip
-
-
-def _teller(how: Delivery) -> Callable[[str], None]:
-    """Tells progress on standard error, on one line, where somebody watches; nothing clears it."""
-    watched = sys.stderr.isatty() and not how.quiet
-
-    def tell(what: str) -> None:
-        if watched:
-            sys.stderr.write(f"\r\033[K{what}{' …' if what else ''}")
-            sys.stderr.flush()
-
-    return tell
 
 
 def register(app: typer.Typer) -> None:

@@ -8,6 +8,7 @@ import typer
 from abu_calc.checks import Check, overall, verdict
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
 from abu_calc.cli.subject import File, WhichScene, WhichStart, one_of, subject_of
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
@@ -66,10 +67,11 @@ def simulate(
         full = lasting(subject.scene, duration, "scene.duration_s" if duration is None else "--duration")
         ledger = chosen(full, accuracy, with_ or (), without or ())
     moments = trajectory_moments(full, samples or SAMPLES) if trajectory else ()
-    run = integrate(ledger.scene, accuracy - ledger.spared, moments, integrator=integrator)
+    with progress(how) as tell:
+        run = integrate(ledger.scene, accuracy - ledger.spared, moments, integrator=integrator, tell=tell)
+        audited = run_again(full, ledger, run, accuracy, integrator, tell) if audit else None
     result, checks = simulation_result(run, ledger), [_accuracy_check(run, ledger.spared, accuracy)]
-    if audit:
-        audited = run_again(full, ledger, run, accuracy, integrator)
+    if audited:
         result["audit"] = audit_result(audited)
         checks.append(_audit_check(audited, accuracy))
     if trajectory:  # when nothing can fail or be interrupted for long any more

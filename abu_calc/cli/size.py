@@ -1,10 +1,13 @@
 """`abu size MACHINE`: from one file about a machine to a sized and simulated design."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from abu_calc.cli.command import Machine, Overrides, add_command
+from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -12,6 +15,7 @@ if TYPE_CHECKING:
 
 
 def size(
+    how: Delivery,
     machine: Machine,
     set_: Overrides = None,
     explain: Annotated[bool, typer.Option("--explain", help="Show every formula with its numbers and source.")] = False,
@@ -20,10 +24,13 @@ def size(
     """Size the autobalancer of a machine: region, capacity, balls, track, seats, simulation."""
     from abu_calc.cli.load import load
 
-    return sized(load(machine, set_), explain=explain, accuracy=accuracy)
+    with progress(how) as tell:
+        return sized(load(machine, set_), explain=explain, accuracy=accuracy, tell=tell)
 
 
-def sized(loaded: "Loaded", *, explain: bool = False, accuracy: float = 0.01) -> Outcome:
+def sized(
+    loaded: "Loaded", *, explain: bool = False, accuracy: float = 0.01, tell: Callable[[str], None] = lambda _: None
+) -> Outcome:
     """The outcome of sizing a file that is read already."""
     from abu_calc.analysis.idle import idle_checks, not_simulated
     from abu_calc.analysis.machine import simulated
@@ -38,7 +45,7 @@ def sized(loaded: "Loaded", *, explain: bool = False, accuracy: float = 0.01) ->
     machine = machine_of(loaded, "size")
     with located(loaded):
         design = size_design(machine)
-        runs, failures = simulated(design, accuracy)
+        runs, failures = simulated(design, accuracy, tell)
         region = true_region(design)
     checks = (*design.checks, *(not_simulated(failure.scene, failure.reason) for failure in failures))
     for run in runs:

@@ -1,0 +1,34 @@
+"""Long work shows what it is at, on one line of standard error, where somebody watches."""
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from abu_calc.cli.deliver import Delivery
+
+SOON = 0.7
+"""Seconds that pass in silence: most commands are done by then."""
+
+
+@contextmanager
+def progress(how: Delivery) -> Iterator[Callable[[str], None]]:
+    """Takes texts and shows the last one with the time since the start; the line goes at the end."""
+    if how.quiet or not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = SpinnerColumn("line"), TextColumn("{task.description}", markup=False), TimeElapsedColumn()
+    bar = Progress(*columns, console=Console(stderr=True, no_color=not how.color), transient=True)
+    task = bar.add_task("", total=None)
+    later = threading.Timer(SOON, bar.start)
+    later.daemon = True
+    later.start()
+    try:
+        yield lambda text: bar.update(task, description=text)
+    finally:
+        later.cancel()
+        later.join()
+        bar.stop()
