@@ -11,7 +11,6 @@ from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from tests.cli.runner import abu
 
-
 GONE = "\x1b[?25h\r\x1b[1A\x1b[2K"
 """The cursor is back, and the line is not."""
 
