@@ -229,7 +229,7 @@ class GrindingContact(Effect):
         told = "wheel and work {}: press harder, or run the wheel truer"
         if self.contact == "rigid":
             return (told.format("would part if they could"),)
-        doubt = "; nothing damps their contact, so from another start they may stay together"
+        doubt = "; nothing damps their contact, so how far they bounce may depend on the start"
         return (told.format("part again and again") + doubt,)
 
     def weight(self, scene: Scene) -> Weight:
