@@ -219,12 +219,11 @@ def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
 
 def _crossing(t: Array, values: Array, last: int) -> float:
     """Where values, of which that at `last` is above zero and the next one not, pass zero."""
-    near = slice(max(last - 2, 0), last + 4)
-    curve = Polynomial.fit(t[near], values[near], len(t[near]) - 1)
-    low, high = float(t[last]), float(t[last + 1])
-    inside = [root.real for root in curve.roots().tolist() if root.imag == 0 and low <= root.real <= high]
+    near, low, high = slice(max(last - 2, 0), last + 4), float(t[last]), float(t[last + 1])
+    curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near])
+    inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
     # Rounding may move a root that is a sample itself out of the interval.
-    return max(inside, default=high)
+    return low + (high - low) * max(inside, default=1.0)
 
 
 def _mean(values: Array) -> Array:

@@ -16,7 +16,8 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import lru_cache
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,36 +71,49 @@ def envelope(scene: Scene, tolerance: float, sample_times: Array, order: int = 2
     return Envelope(sample_times, theta, rate, int(told["nfe"][-1]), int(told["nst"][-1]))
 
 
-def slow_motion(model: Averages, order: int = 2) -> Callable[[float, Array], list[float]]:
-    """(t, (θ, θ')) → (θ', θ''), in plain numbers: for a few balls that takes a fifth of the time of arrays."""
+Rates = Callable[[float, Array], list[float]]
+
+
+def slow_motion(model: Averages, order: int = 2) -> Rates:
+    """(t, (θ, θ')) → (θ', θ''), in plain numbers: for a few balls that takes a tenth of the time of arrays."""
     W, of_race = model.speed, 2 + model.race
     held, slope = W**4 * model.forward, 4 * W**3 * model.forward + W**4 * model.slope
-    still = (held @ model.own + W**2 * model.offset).tolist()
+    still = held @ model.own + W**2 * model.offset
     # What each ball does to each race, by its place and by its speed.
-    places = (held[:, of_race] * model.moments).T
-    speeds = (slope[:, of_race] * model.moments).T if order > 1 else 0.0 * places
-    pulls = [
-        list(zip(range(len(still)), *both, strict=True)) for both in zip(places.tolist(), speeds.tolist(), strict=True)
+    places = held[:, of_race] * model.moments
+    speeds = slope[:, of_race] * model.moments if order > 1 else 0.0 * places
+    shares, drags = 1 / (model.radii * model.factors), model.drags / model.factors
+    numbers = [part.ravel().tolist() for part in (still, places, speeds, shares, drags)]
+    return _written(tuple(model.race.tolist()), len(still))(*numbers)
+
+
+@lru_cache(maxsize=32)
+def _written(race: tuple[int, ...], races: int) -> Callable[..., Rates]:
+    """A maker of rates from their numbers, for balls in these races; without loops, which take as long as the rest."""
+    balls, pairs = range(len(race)), [(i, k) for i in range(races) for k in range(len(race))]
+
+    def names(*kinds: str) -> str:
+        return ", ".join(f"{kind}{k}" for kind in kinds for k in balls)
+
+    felt = [" + ".join(f"e{k} * (p{i}_{k} + v{i}_{k} * w{k})" for k in balls) for i in range(races)]
+    pulled = [
+        f"(f{i}.imag * e{k}.real - f{i}.real * e{k}.imag) * c{k} - d{k} * w{k}" for k, i in enumerate(race)
+    ]  # fmt: skip
+    text = [
+        "def make(still, places, velocities, shares, drags):",
+        f" [{', '.join(f's{i}' for i in range(races))}] = still",
+        *(f" [{', '.join(f'{of[0]}{i}_{k}' for i, k in pairs)}] = {of}" for of in ("places", "velocities")),
+        f" [{names('c')}], [{names('d')}] = shares, drags",
+        " def rates(_, state):",
+        f"  [{names('a', 'w')}] = state.tolist()",
+        *(f"  e{k} = rect(1.0, a{k})" for k in balls),
+        *(f"  f{i} = s{i} + {sum_}" for i, sum_ in enumerate(felt)),
+        f"  return [{names('w')}, {', '.join(pulled)}]",
+        " return rates",
     ]
-    rest = list(zip(model.race.tolist(), (1 / (model.radii * model.factors)).tolist(),
-                    (model.drags / model.factors).tolist(), strict=True))  # fmt: skip
-    count = len(rest)
-
-    def rates(_: float, state: Array) -> list[float]:
-        values: list[float] = state.tolist()
-        rate, felt, turned = values[count:], still.copy(), []
-        for pull, angle, speed in zip(pulls, values, rate, strict=False):
-            e = cmath.rect(1.0, angle)
-            turned.append(e)
-            for race, by_place, by_speed in pull:
-                felt[race] += e * (by_place + by_speed * speed)
-        rate += [
-            (felt[race].imag * e.real - felt[race].real * e.imag) * share - drag * speed
-            for (race, share, drag), e, speed in zip(rest, turned, rate, strict=True)
-        ]
-        return rate
-
-    return rates
+    scope: dict[str, Any] = {"rect": cmath.rect}
+    exec(compile("\n".join(text), "<slow motion>", "exec"), scope)
+    return cast(Callable[..., Rates], scope["make"])
 
 
 def whirl(scene: Scene, theta: Array, rate: Array) -> tuple[Complex, Complex]:
