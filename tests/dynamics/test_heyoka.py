@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -205,6 +206,23 @@ def test_every_order_keeps_the_tolerance(tolerance):
     exact = heyoka_.integrate(equations, 1e-13, end).y[:, -1]
     off = np.abs((heyoka_.integrate(equations, tolerance, end).y[:, -1] - exact) / equations.scales).max()
     assert off < 100 * tolerance
+
+
+def test_compiled_code_is_kept_apart_and_bounded(tmp_path):
+    """In a folder of its own, in this process alone; where somebody has chosen one, there."""
+    state = heyoka.llvm_state
+    before = state.get_diskcache_path()
+    try:
+        state.set_diskcache_path(str(tmp_path / "heyoka"))
+        heyoka_._keep_apart(state)
+        assert Path(state.get_diskcache_path()) == tmp_path / "abu-calc"
+        assert state.get_diskcache_limit() == heyoka_.ON_DISK
+        state.set_diskcache_path(str(tmp_path / "chosen"))
+        heyoka_._keep_apart(state)
+        assert Path(state.get_diskcache_path()) == tmp_path / "chosen"
+        assert state.get_diskcache_limit() > heyoka_.ON_DISK
+    finally:
+        state.set_diskcache_path(before)
 
 
 @pytest.mark.parametrize("times", [[], [0.0], [-1.0, 1.0], [1.0, 1.0], [2.0, 1.0], [np.nan], [np.inf]])

@@ -13,6 +13,7 @@ below 1, and one compiled order serves many tolerances.
 import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,11 @@ these numbers are near 1, so it is far below what rounding does to them."""
 
 AT_ONCE = 10_000
 """Revolutions between two returns from heyoka, within which no interrupt is heard: some tenths of a second."""
+
+
+ON_DISK = 100_000_000
+"""Bytes of compiled code that are kept on disk, some dozens of structures: what heyoka finds there it counts through
+each time, which takes it a third of a second for a gigabyte."""
 
 
 def load() -> None:
@@ -162,6 +168,7 @@ def _compile(equations: Equations, parameters: Parameters, tolerance: float) -> 
 
     # It would warn on the standard output, of roots at the very start of a step, which are looked for here.
     heyoka.set_logger_level_error()
+    _keep_apart(heyoka.llvm_state)
     states = [heyoka.expression(f"z{k}") for k in range(len(equations.states))]
     traced = trace(equations, parameters, heyoka, states, scaled=True)
     nothing = 0.0 * traced.t
@@ -178,3 +185,11 @@ def _compile(equations: Equations, parameters: Parameters, tolerance: float) -> 
         ],
     )
     return _Compiled(integrator, traced.tape.values())
+
+
+def _keep_apart(state: Any) -> None:
+    """Beside heyoka's own folder, which it lets grow to twenty gigabytes; another one that somebody chose stays."""
+    path = Path(state.get_diskcache_path())
+    if path.name == "heyoka":
+        state.set_diskcache_path(str(path.with_name("abu-calc")))
+        state.set_diskcache_limit(ON_DISK)
