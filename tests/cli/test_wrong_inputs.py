@@ -37,7 +37,7 @@ def test_a_wrong_file(
         (("size", "mmg-3200k-knife-shaft"), ("bearings only", "check-fit")),
         (("size", "avtovaz-707-222", "--accuracy", "0"), ("accuracy",)),
         (("size", "avtovaz-707-222", "--accuracy", "nan"), ("accuracy",)),
-        (("size", "avtovaz-707-222", "--accuracy", "much"), ("accuracy", "much")),
+        (("size", "avtovaz-707-222", "--accuracy", "much"), ("accuracy", "valid")),
         (("size", "avtovaz-707-222", "--with", "gravity"), ("--with",)),
         (("size", "avtovaz-707-222", "--output", "design.docx"), ("design.docx", ".json")),
         (("size", "avtovaz-707-222", "--output", "no/folder/design.json"), ("folder does not exist",)),

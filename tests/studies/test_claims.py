@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.studies import claims
 from tests.studies.claims import ACCURACIES, averaged_and_judged, judged, study
 
 QUICK = (3, 7, 12, 14, 17, 19, 23, 37, 38, 39, 43, 49, 53)
@@ -11,12 +12,20 @@ AVERAGED = (14, 45, 53, 62, 107)
 """Seeds whose smooth part the envelope may take."""
 
 
+@pytest.fixture
+def patient(monkeypatch):
+    """However slow the machine is."""
+    monkeypatch.setattr(claims, "SECONDS", 3600)
+
+
+@pytest.mark.usefixtures("patient")
 def test_claims_hold_on_a_few_scenes():
     verdicts, unmeasured = study(QUICK, judged)
     assert len(verdicts) == len(QUICK) * len(ACCURACIES) and not unmeasured
     assert [one for one in verdicts if one.refused or one.broken > 1 or one.claim > one.accuracy] == []
 
 
+@pytest.mark.usefixtures("patient")
 def test_claims_of_the_envelope_hold_on_a_few_scenes():
     verdicts, _ = study(AVERAGED, averaged_and_judged)
     assert len(verdicts) >= 5

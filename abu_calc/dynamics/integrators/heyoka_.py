@@ -45,8 +45,8 @@ AT_ONCE = 10_000
 """Revolutions between two returns from heyoka, within which no interrupt is heard: some tenths of a second."""
 
 
-ON_DISK = 100_000_000
-"""Bytes of compiled code that are kept on disk, some dozens of structures: what heyoka finds there it counts through
+ON_DISK = 200_000_000
+"""Bytes of compiled code that are kept on disk, a hundred structures or so: what heyoka finds there it counts through
 each time, which takes it a third of a second for a gigabyte."""
 
 
