@@ -37,7 +37,7 @@ def unreached(
     worst, key = max((QUANTITIES[key](scene, *runs), key) for key in COMPARED)
     by = "in whether they settle" if math.isinf(worst) else "in the turns of the balls"
     by = f"by {apart:.2g}, most in the {COMPARED[key]}" if math.isfinite(apart) else by
-    first = f"{scene.name}: the accuracy {accuracy:g} is not reached, the two finest runs differ {by}"
+    first = f"{scene.name}: the accuracy {accuracy:.3g} is not reached, the two finest runs differ {by}"
     growth = _growth(scene, runs[1], choice, tolerance, most)
     if growth > SENSITIVE:
         return NotTrustworthyError(
