@@ -26,7 +26,7 @@ _HOMES = {
     "Scene": "dynamics.scene",
     "Race": "dynamics.scene",
     "planar": "dynamics.supports.linear",
-    "idle_scene": "dynamics.from_design",
+    "idle_scene": "scenes.from_design",
     "simulate": "analysis.simulate",
 }
 

@@ -12,11 +12,11 @@ from abu_calc.analysis.differences import QUANTITIES, Told
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import Response, evaluate, needed_moments
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
-from abu_calc.dynamics.assemble import Equations, assemble
-from abu_calc.dynamics.averages import AVERAGED
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators.run import EVENT, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
+from abu_calc.dynamics.slow.averages import AVERAGED
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
 

@@ -7,8 +7,8 @@ from typing import Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.receptance import weighing_amplitude
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.receptance import weighing_amplitude
 
 
 class Told(Protocol):

@@ -6,8 +6,8 @@ from typing import Final
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, Tell, silent, simulate
-from abu_calc.dynamics.from_design import scene_of_design
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
 
 FRICTION: Final = ("dry_rolling_friction",)

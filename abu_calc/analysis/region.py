@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from abu_calc.dynamics.from_design import contact_half_angle, idle_scene
-from abu_calc.dynamics.stability import Boundary, boundaries, stability
+from abu_calc.dynamics.balanced.stability import Boundary, boundaries, stability
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.scenes.from_design import contact_half_angle, idle_scene
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
 

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.parameters import rotor_of
-from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude
+from abu_calc.dynamics.equations.parameters import rotor_of
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
+from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.units import level_from_velocity

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import settling_moments, settling_time, total_imbalance
-from abu_calc.dynamics.averages import averages, loaded
-from abu_calc.dynamics.envelope import (
+from abu_calc.dynamics.balanced.resting import resting_angles
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.slow.averages import averages, loaded
+from abu_calc.dynamics.slow.envelope import (
     ball_rate,
     envelope,
     free_amplitude,
@@ -19,12 +21,10 @@ from abu_calc.dynamics.envelope import (
     not_averaged,
     whirl,
 )
-from abu_calc.dynamics.receptance import reference_moment, weighing_amplitude
-from abu_calc.dynamics.resting import resting_angles
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.receptance import reference_moment, weighing_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.sizing.slow_motion import decay_rate
+from abu_calc.formulas.slow_motion import decay_rate
 
 LEADING, SLOWNESS = 0.5, 10.0
 """Weights in the error of the envelope: of what its last order changes, and of (rate of the balls/gap)². Calibrated

@@ -12,7 +12,7 @@ from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import Response, evaluate, needed_moments
 from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
-from abu_calc.dynamics.assemble import Equations, assemble
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import choose, unfit
 from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, with_parted_balls

@@ -6,7 +6,7 @@ from typing import Final
 
 from abu_calc.analysis.differences import QUANTITIES
 from abu_calc.analysis.response import Response, evaluate, needed_moments
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import Choice
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError

@@ -34,10 +34,10 @@ def accuracy(
     from abu_calc.analysis.ledger import chosen
     from abu_calc.analysis.simulate import ACCURACY
     from abu_calc.cli.load import located, source_of
-    from abu_calc.dynamics.from_scene import lasting
     from abu_calc.report.accuracy import study_blocks, study_result
     from abu_calc.report.common import default_blocks, warning_blocks
     from abu_calc.report.simulation import scene_model
+    from abu_calc.scenes.from_scene import lasting
     from abu_calc.validity import Range
 
     ACCURACY.check(asked)

@@ -53,11 +53,11 @@ def simulate(
     from abu_calc.analysis.simulate import ACCURACY
     from abu_calc.analysis.simulate import simulate as integrate
     from abu_calc.cli.load import located, source_of
-    from abu_calc.dynamics.from_scene import lasting
     from abu_calc.report.files import write
     from abu_calc.report.simulate_text import simulate_blocks
     from abu_calc.report.simulation import audit_result, scene_model, simulation_result
     from abu_calc.report.trajectory import trajectory_csv, trajectory_moments
+    from abu_calc.scenes.from_scene import lasting
 
     ACCURACY.check(accuracy)
     _check_options(how, integrator, trajectory, samples)

@@ -13,7 +13,7 @@ from abu_calc.report.outcome import Outcome
 from abu_calc.units import to_si
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.stability import Stability
+    from abu_calc.dynamics.balanced.stability import Stability
 
 FASTEST_RPM = 1e6
 SCENES = ("idle", "swing-arm-idle", "swing-arm-cutting")
@@ -33,8 +33,8 @@ def stability(
 ) -> Outcome:
     """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""
     from abu_calc.cli.load import source_of
-    from abu_calc.dynamics.stability import boundaries, critical_damping
-    from abu_calc.dynamics.stability import stability as judge
+    from abu_calc.dynamics.balanced.stability import boundaries, critical_damping
+    from abu_calc.dynamics.balanced.stability import stability as judge
     from abu_calc.report.simulation import scene_model
     from abu_calc.report.stability import stability_blocks, stability_result, stability_warnings
 

@@ -46,7 +46,7 @@ def subject_of(
 ) -> Subject:
     """Read the file and make its scene; `scene` and `start` are for machines only."""
     from abu_calc.cli.load import load_any
-    from abu_calc.dynamics.from_design import STARTS
+    from abu_calc.scenes.from_design import STARTS
     from abu_calc.spec.read import Loaded
 
     one_of("--scene", scene, SCENES)
@@ -78,7 +78,7 @@ def one_of(option: str, value: str | None, allowed: Sequence[str]) -> None:
 
 def _of_machine(loaded: "Loaded", scene: str, start: str) -> Subject:
     from abu_calc.cli.load import located, machine_of
-    from abu_calc.dynamics.from_design import STARTS, contact_half_angle, scene_of_design
+    from abu_calc.scenes.from_design import STARTS, contact_half_angle, scene_of_design
     from abu_calc.sizing import size
 
     machine = machine_of(loaded, "simulate")
@@ -98,7 +98,7 @@ def _of_machine(loaded: "Loaded", scene: str, start: str) -> Subject:
 
 def _of_scene(loaded: "LoadedScene") -> Subject:
     from abu_calc.cli.load import located
-    from abu_calc.dynamics.from_scene import scene_from
+    from abu_calc.scenes.from_scene import scene_from
 
     with located(loaded):
         scene = scene_from(loaded.scene)

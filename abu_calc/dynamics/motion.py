@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.dynamics.equations.parameters import Array, Parameters
 
 
 @dataclass(slots=True)

@@ -29,7 +29,7 @@ class Step:
 STEPS: Final[Mapping[str, Step]] = {
     "frequency": Step(
         "Frequency region",
-        ("sizing.frequency:zones", "sizing.frequency:finite_mass_gap", "sizing.suspension:natural_frequency"),
+        ("sizing.frequency:zones", "sizing.frequency:finite_mass_gap", "formulas.suspension:natural_frequency"),
         (
             "(2m/(J·M))^(1/3) = (2 · {ball_mass_g} g / ({inertia_factor} · {effective_mass_kg} kg))^(1/3) = "
             "{finite_mass_gap}",
@@ -47,7 +47,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "mass": Step(
         "Mass that moves",
-        ("sizing.body:Body.inertance", "sizing.body:Body.effective_mass", "sizing.suspension:Hands"),
+        ("sizing.body:Body.inertance", "sizing.body:Body.effective_mass", "formulas.suspension:Hands"),
         ("M = {system_mass_kg} kg, felt at the wheel: {effective_mass_kg} kg",),
     ),
     "capacity": Step(
@@ -55,7 +55,7 @@ STEPS: Final[Mapping[str, Step]] = {
         (
             "sizing.capacity:required_capacity",
             "sizing.capacity:runout_factor",
-            "sizing.contact:SteadyContact.balancing_imbalance",
+            "formulas.contact:SteadyContact.balancing_imbalance",
             "sizing.capacity:plane_ratio",
         ),
         (
@@ -67,7 +67,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "budget": Step(
         "Accuracy budget",
-        ("sizing.budget:friction_band", "sizing.budget:permitted_displacement", "sizing.budget:plane_rest"),
+        ("formulas.friction_band:friction_band", "sizing.budget:permitted_displacement", "sizing.budget:plane_rest"),
         (
             "√({race_eccentricity_um}² + {rolling_friction_um}² + {plane_offset_um}²) = "
             "{accuracy_budget_residual_um} µm, permitted {permitted_um} µm",
@@ -75,7 +75,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "balls": Step(
         "Balls",
-        ("sizing.ball_ring:capacity", "sizing.ball_ring:best_count", "sizing.balls:choose"),
+        ("formulas.ball_ring:capacity", "formulas.ball_ring:best_count", "sizing.balls:choose"),
         (
             "sin β = r/(R−r) = {ball_radius_mm}/{pitch_radius_mm}; {ball_mass_g} g · {pitch_radius_mm} mm · "
             "sin({ball_count}β)/sin β = {capacity_g_mm} g·mm = {capacity_ratio} × need",
@@ -92,8 +92,8 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.stress:hoop_stress",
             "sizing.stress:ring_flexure",
             "sizing.track:carry_over_speed",
-            "sizing.slow_motion:ball_stiffness",
-            "sizing.slow_motion:optimum_drag",
+            "formulas.slow_motion:ball_stiffness",
+            "formulas.slow_motion:optimum_drag",
         ),
         (
             "ρ = r + (5/7)(R−r) = {ball_radius_mm} + (5/7)·{pitch_radius_mm} = {groove_radius_mm} mm",
@@ -130,13 +130,13 @@ STEPS: Final[Mapping[str, Step]] = {
     "swing-arm": Step(
         "Swing arm",
         (
-            "sizing.swing_arm:contact_gain",
-            "sizing.swing_arm:worst_contact_angle",
-            "sizing.swing_arm:series_gain",
-            "sizing.swing_arm:stiffness_limit",
-            "sizing.swing_arm:resonance",
-            "sizing.swing_arm:damping_limit",
-            "sizing.swing_arm:growth_rate",
+            "formulas.swing_arm:contact_gain",
+            "formulas.swing_arm:worst_contact_angle",
+            "formulas.swing_arm:series_gain",
+            "formulas.swing_arm:stiffness_limit",
+            "formulas.swing_arm:resonance",
+            "formulas.swing_arm:damping_limit",
+            "formulas.swing_arm:growth_rate",
         ),
         (
             "c_n < {contact_stiffness_limit_N_per_m} N/m (series), {contact_stiffness_limit_exact_N_per_m} N/m (exact, "
@@ -147,7 +147,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "simulation": Step(
         "Simulation",
-        ("dynamics.equations:", "analysis.response:settling_time", "analysis.simulate:simulate"),
+        ("dynamics.equations.right_hand_side:", "analysis.response:settling_time", "analysis.simulate:simulate"),
     ),
 }
 """Steps in the order of the pipeline."""

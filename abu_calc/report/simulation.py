@@ -6,7 +6,7 @@ from abu_calc.analysis.audit import Audit
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import FinalState
 from abu_calc.analysis.simulate import Cost, Simulation
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.report.effects import ledger_result

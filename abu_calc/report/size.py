@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Any
 
 from abu_calc.analysis.machine import Run
 from abu_calc.analysis.region import TrueRegion
+from abu_calc.formulas.friction_band import friction_band
 from abu_calc.report.outcome import finite
 from abu_calc.report.simulation import simulation_result
 from abu_calc.report.stability import boundaries_result
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import AccuracyBudget, friction_band
+from abu_calc.sizing.budget import AccuracyBudget
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.frequency import FrequencyRegion
 from abu_calc.sizing.track import Track

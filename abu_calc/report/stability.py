@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from abu_calc.checks import Check
-from abu_calc.dynamics.stability import Boundary, Stability
+from abu_calc.dynamics.balanced.stability import Boundary, Stability
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import check_blocks, default_blocks, facts, warning_blocks
 from abu_calc.report.outcome import finite

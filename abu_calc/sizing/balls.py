@@ -3,7 +3,7 @@
 from bisect import bisect_left
 from dataclasses import dataclass
 
-from abu_calc.sizing.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
+from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
 from abu_calc.sizing.budget import AccuracyBudget, Balls, accuracy_budget, fan
 from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case

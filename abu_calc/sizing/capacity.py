@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
+from abu_calc.formulas.contact import SteadyContact
+from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.contact import SteadyContact
-from abu_calc.sizing.suspension import dynamic_stiffness
 from abu_calc.validity import Range
 
 FRICTION = Range("cutting coefficient f", 0.0, 2.0, key="grinding.cutting_coefficient")

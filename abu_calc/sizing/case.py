@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formulas.suspension import Hands, Springs, Suspension
 from abu_calc.sizing.body import Body
-from abu_calc.sizing.suspension import Hands, Springs, Suspension
 from abu_calc.spec.machine import Autobalancer, Grinding, Machine
 from abu_calc.standards.hands import hand
 from abu_calc.units import to_si

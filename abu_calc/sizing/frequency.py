@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from abu_calc.checks import Check, verdict
+from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.units import from_si
 from abu_calc.validity import Range
 

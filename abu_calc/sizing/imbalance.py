@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from statistics import fmean
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.suspension import resonance_factor
 from abu_calc.standards.balance import permissible_imbalance
 from abu_calc.units import level_from_velocity, to_si, velocity_from_level
 

@@ -1,7 +1,7 @@
 """What the search may choose from: the envelope, stock sizes, and what the file has pinned."""
 
 from abu_calc.errors import InputError, Place
-from abu_calc.sizing.ball_ring import best_count, half_angle, most_balls
+from abu_calc.formulas.ball_ring import best_count, half_angle, most_balls
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import greatest_race_radius, least_race_radius, width
 from abu_calc.standards.balls import stock_diameter, stock_diameters

@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 
 from abu_calc.checks import Check, verdict
+from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import groove_radius
-from abu_calc.sizing.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
 from abu_calc.sizing.stress import ring_flexure
 from abu_calc.units import GRAVITY, from_si, to_si
 

@@ -5,11 +5,11 @@ import math
 from dataclasses import dataclass
 
 from abu_calc.checks import Check, verdict
+from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.suspension import resonance_factor
 
 
 @dataclass(frozen=True)

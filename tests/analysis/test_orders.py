@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice, scipy_
 from tests.dynamics.scenes import coupled_scene, dimensionless, scene_on, straight_grinder
 

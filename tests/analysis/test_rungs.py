@@ -10,14 +10,14 @@ from abu_calc.analysis.differences import QUANTITIES, difference
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.rungs import averaged, closed_form, offer
 from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics import envelope as envelope_module
-from abu_calc.dynamics.assemble import assemble
-from abu_calc.dynamics.averages import averages
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.envelope import envelope, not_averaged
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.slow import envelope as envelope_module
+from abu_calc.dynamics.slow.averages import averages
+from abu_calc.dynamics.slow.envelope import envelope, not_averaged
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError

@@ -8,8 +8,8 @@ import pytest
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.simulate import simulate
 from abu_calc.analysis.unreached import MOVED, _moved, unreached
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.errors import NotTrustworthyError
 from tests.dynamics.scenes import dimensionless

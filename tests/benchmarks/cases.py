@@ -8,11 +8,11 @@ from typing import cast
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import Equations, assemble
-from abu_calc.dynamics.from_design import scene_of_design
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
 from abu_calc.dynamics.scene import Scene, only
 from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from abu_calc.spec.machine import Machine

@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.plain import functions
-from abu_calc.dynamics.integrators.traced import Numbers
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.tracing.plain import functions
+from abu_calc.dynamics.tracing.traced import Numbers
 from tests.benchmarks.by_hand import planar, with_floats
 from tests.dynamics.scenes import straight_grinder
 
@@ -189,7 +189,7 @@ started = time.perf_counter()
 import heyoka
 imported = time.perf_counter()
 heyoka.llvm_state.set_diskcache_enabled({cached})
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import heyoka_
 from tests.benchmarks.equations import grinder
 equations = assemble(grinder({balls}))

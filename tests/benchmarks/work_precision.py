@@ -24,8 +24,8 @@ from scipy import integrate
 from abu_calc.analysis.differences import QUANTITIES, Told
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.rungs import averaged
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice, scipy_
 from abu_calc.dynamics.scene import Scene, without
 from abu_calc.errors import AbuError

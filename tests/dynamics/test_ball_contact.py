@@ -8,17 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.energy import energy
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.scipy_ import integrate
-from abu_calc.dynamics.modes import settled, starting, watched
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.switching.modes import settled, starting, watched
 from abu_calc.errors import InputError, RangeError
+from tests.dynamics.energy import energy
 from tests.dynamics.scenes import dimensionless
 
 RADIUS = 0.2

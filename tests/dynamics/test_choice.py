@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.errors import InputError

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.effect import Effect, Weight
@@ -20,13 +19,14 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
-from abu_calc.dynamics.equations import accelerations, owned
-from abu_calc.dynamics.jacobian import STEP
-from abu_calc.dynamics.modes import at_break, settled
+from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.equations.jacobian import STEP
+from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.errors import InputError
+from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
 from tests.dynamics.scenes import SUPPORTS, scene_on, with_effects
 from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned
 

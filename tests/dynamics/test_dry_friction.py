@@ -10,15 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.equations import accelerations
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.right_hand_side import accelerations
 from abu_calc.dynamics.integrators.scipy_ import integrate
-from abu_calc.dynamics.modes import starting
 from abu_calc.dynamics.motion import Solved
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.sticking import Rolling
+from abu_calc.dynamics.switching.modes import starting
+from abu_calc.dynamics.switching.sticking import Rolling
 from abu_calc.errors import RangeError
 from tests.dynamics.scenes import coupled_scene, dimensionless
 

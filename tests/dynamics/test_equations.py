@@ -8,17 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
-from abu_calc.dynamics.jacobian import STEP, jacobian
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.jacobian import STEP, jacobian
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.errors import InputError
+from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
 from tests.dynamics.scenes import ROTORS, SUPPORTS, coupled_scene, dimensionless, scene_on, with_effects
 from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned
 

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
@@ -17,16 +16,17 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.from_design import SCENES, STARTS, contact_half_angle, idle_scene, scene_of_design
-from abu_calc.dynamics.from_scene import lasting, scene_from
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.scipy_ import integrate
-from abu_calc.dynamics.receptance import receptance
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
+from abu_calc.dynamics.supports.receptance import receptance
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.formulas.suspension import dynamic_stiffness
+from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, idle_scene, scene_of_design
+from abu_calc.scenes.from_scene import lasting, scene_from
 from abu_calc.sizing import Design, size
-from abu_calc.sizing.suspension import dynamic_stiffness
 from abu_calc.spec import presets
 from abu_calc.spec.read import Loaded
 from abu_calc.spec.read_scene import read_any

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.equations import accelerations, owned
+from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
 from abu_calc.dynamics.integrators import scipy_
-from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import hand_support, scene_on

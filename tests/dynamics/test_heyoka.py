@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import run, scipy_
 from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene

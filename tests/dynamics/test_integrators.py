@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
-from abu_calc.dynamics.integrators import plain
-from abu_calc.dynamics.integrators.traced import Numbers
-from abu_calc.dynamics.modes import Modes, settled, watched, watches
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.switching.modes import Modes, settled, watched, watches
+from abu_calc.dynamics.tracing import plain
+from abu_calc.dynamics.tracing.traced import Numbers
 from abu_calc.errors import NotTrustworthyError
 from tests.dynamics.random_scenes import random_scene
 from tests.dynamics.scenes import ROTORS, SUPPORTS, scene_on, straight_grinder

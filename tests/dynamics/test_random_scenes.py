@@ -8,7 +8,7 @@ import pytest
 
 from abu_calc.analysis.response import Response
 from abu_calc.analysis.simulate import Simulation, difference, simulate
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import unfit
 from abu_calc.errors import NotTrustworthyError
 from tests.dynamics.random_scenes import random_scene

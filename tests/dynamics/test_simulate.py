@@ -15,11 +15,11 @@ from abu_calc.analysis.response import (
     settling_time,
 )
 from abu_calc.analysis.simulate import difference, simulate
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
-from abu_calc.dynamics.receptance import receptance, unbalanced_amplitude
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
 from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.receptance import receptance, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import dimensionless, straight_grinder

@@ -10,14 +10,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.assemble import assemble
-from abu_calc.dynamics.floquet import magnus, multipliers
+from abu_calc.dynamics.balanced.floquet import magnus, multipliers
+from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
+from abu_calc.dynamics.balanced.resting import resting_angles
+from abu_calc.dynamics.balanced.stability import boundaries, crossings, stability
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators import scipy_
-from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.linearised import BalancedMotion, growth_of
-from abu_calc.dynamics.resting import resting_angles
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability import boundaries, crossings, stability
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import dimensionless

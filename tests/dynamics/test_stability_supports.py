@@ -11,17 +11,17 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.balanced.floquet import multipliers
+from abu_calc.dynamics.balanced.linearised import BalancedMotion
+from abu_calc.dynamics.balanced.resting import Rest, resting_state
+from abu_calc.dynamics.balanced.stability import boundaries, critical_damping, stability
+from abu_calc.dynamics.balanced.stationary import NotKnownError
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.equations import rhs
-from abu_calc.dynamics.floquet import multipliers
-from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.linearised import BalancedMotion
-from abu_calc.dynamics.resting import Rest, resting_state
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.jacobian import jacobian
+from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.stability import boundaries, critical_damping, stability
-from abu_calc.dynamics.stationary import NotKnownError
 from abu_calc.dynamics.supports.kinds import Support, SwingArm
 from abu_calc.dynamics.supports.tilting import tilting
 from tests.dynamics.scenes import coupled_scene, hand_support

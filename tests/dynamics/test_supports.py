@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.effect import Effect
-from abu_calc.dynamics.receptance import receptance, unbalanced_amplitude
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.body import with_body
 from abu_calc.dynamics.supports.hands import in_hands
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.receptance import receptance, unbalanced_amplitude
 from abu_calc.dynamics.supports.swing_arm import resting_angle
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError, RangeError
-from abu_calc.sizing.suspension import Hands, dynamic_stiffness
+from abu_calc.formulas.suspension import Hands, dynamic_stiffness
 from abu_calc.standards.hands import hand
 
 EMPTY = Race(0.03, (), 0.0, 1.0, (), ())

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
 from abu_calc.errors import InputError, RangeError
-from abu_calc.sizing.swing_arm import Arm, pressed_angle
+from abu_calc.formulas.swing_arm import Arm, pressed_angle
 
 
 def bare(omega: float, natural: float, h: float, kappa: float, duration: float, angle: float = 0.0) -> Scene:

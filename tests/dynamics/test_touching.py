@@ -6,14 +6,14 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.effect import Effect, Kind
-from abu_calc.dynamics.energy import mass_matrix
-from abu_calc.dynamics.equations import accelerations, derivative
-from abu_calc.dynamics.modes import Moment
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.parameters import Parameters
+from abu_calc.dynamics.equations.right_hand_side import accelerations, derivative
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.touching import Responses, responses
+from abu_calc.dynamics.switching.modes import Moment
+from abu_calc.dynamics.switching.touching import Responses, responses
+from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import SUPPORTS, with_effects
 from tests.dynamics.test_contract import Sample, samples, taken
 

@@ -6,18 +6,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.equations import accelerations, owned
+from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
 from abu_calc.dynamics.integrators import scipy_
-from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.errors import NotTrustworthyError, RangeError
 from tests.dynamics.scenes import scene_on
 

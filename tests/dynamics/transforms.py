@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 

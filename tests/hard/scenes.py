@@ -9,16 +9,16 @@ import numpy as np
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.simulate import Simulation, simulate
-from abu_calc.dynamics.assemble import Equations, assemble
 from abu_calc.dynamics.effects.effect import Effect
-from abu_calc.dynamics.energy import Bodies, energy, power
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import integrate_with, unfit
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
-from abu_calc.dynamics.modes import at_break, settled
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
 from abu_calc.dynamics.supports.kinds import Support
 from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.dynamics.trajectory import Trajectory
+from tests.dynamics.energy import Bodies, energy, power
 
 RPM = math.pi / 30
 CLAIM = 3.0

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from abu_calc.analysis.simulate import simulate
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability import stability
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, resting_angle
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.cli.runner import abu

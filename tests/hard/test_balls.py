@@ -8,12 +8,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability import stability
 from abu_calc.errors import InputError
 from tests.hard.scenes import (
     CLAIM,

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.assemble import assemble
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
 from tests.dynamics.test_grinding_contact import BALL, CX, CY, EPS, PHI, PITCH_RADIUS, E, M, W, grinder, normal_forces
 from tests.hard.scenes import check_agreement, check_claim, check_energy, machine, run

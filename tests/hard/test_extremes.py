@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.stability import stability
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.units import GRAVITY
 from tests.dynamics.scenes import dimensionless

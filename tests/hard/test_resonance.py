@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import brentq
 
 from abu_calc.analysis.simulate import simulate
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability import stability
 from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import InputError
 from tests.cli.runner import abu

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from abu_calc.sizing.ball_ring import capacity, half_angle
+from abu_calc.formulas.ball_ring import capacity, half_angle
+from abu_calc.formulas.suspension import Hands, dynamic_stiffness, natural_frequency
 from abu_calc.sizing.body import Body
 from abu_calc.sizing.budget import displacement_level, permitted_displacement
 from abu_calc.sizing.capacity import plane_ratio
@@ -12,7 +13,6 @@ from abu_calc.sizing.case import read_case
 from abu_calc.sizing.housing import groove_radius, housing
 from abu_calc.sizing.imbalance import imbalance_from_level
 from abu_calc.sizing.stress import hertz_ball_in_toroid, hoop_stress, permitted_pressure
-from abu_calc.sizing.suspension import Hands, dynamic_stiffness, natural_frequency
 from abu_calc.sizing.track import carry_over_speed
 from abu_calc.standards.hands import hand
 from abu_calc.standards.hardness import vickers

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from abu_calc.checks import overall
 from abu_calc.errors import InputError
+from abu_calc.formulas.ball_ring import capacity, half_angle
 from abu_calc.sizing import size
-from abu_calc.sizing.ball_ring import capacity, half_angle
 from abu_calc.sizing.balls import choose
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.capacity import required_capacity

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from abu_calc.errors import InputError
-from abu_calc.sizing.slow_motion import (
+from abu_calc.formulas.slow_motion import (
     ball_stiffness,
     decay_rate,
     optimum_drag,

@@ -5,13 +5,10 @@ import math
 
 import pytest
 
-from abu_calc.sizing.ball_ring import best_count, capacity, corrector_mass, half_angle
-from abu_calc.sizing.budget import fan, friction_band
-from abu_calc.sizing.capacity import required_capacity, runout_factor
-from abu_calc.sizing.case import read_case
-from abu_calc.sizing.contact import SteadyContact
-from abu_calc.sizing.frequency import finite_mass_gap, zones
-from abu_calc.sizing.swing_arm import (
+from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle
+from abu_calc.formulas.contact import SteadyContact
+from abu_calc.formulas.friction_band import friction_band
+from abu_calc.formulas.swing_arm import (
     Arm,
     contact_gain,
     damping_limit,
@@ -21,6 +18,10 @@ from abu_calc.sizing.swing_arm import (
     stiffness_limit,
     worst_contact_angle,
 )
+from abu_calc.sizing.budget import fan
+from abu_calc.sizing.capacity import required_capacity, runout_factor
+from abu_calc.sizing.case import read_case
+from abu_calc.sizing.frequency import finite_mass_gap, zones
 from abu_calc.units import level_from_velocity, velocity_from_level
 from tests.sizing.machines import machine
 

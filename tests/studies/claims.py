@@ -16,10 +16,10 @@ from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import Response, evaluate, needed_moments
 from abu_calc.analysis.rungs import WIDEST, offer
 from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.assemble import assemble
-from abu_calc.dynamics.envelope import ball_rate
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
+from abu_calc.dynamics.slow.envelope import ball_rate
 from abu_calc.errors import NotTrustworthyError
 from tests.dynamics.random_scenes import random_scene
 

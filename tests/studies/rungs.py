@@ -15,7 +15,7 @@ from abu_calc.analysis.differences import Told, amplitude, angles, level, settli
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.rungs import WIDEST, Estimate, averaged, closed_form, offer
 from abu_calc.cli.subject import subject_of
-from abu_calc.dynamics.assemble import assemble
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.errors import InputError

@@ -15,16 +15,16 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations.parameters import Array, Parameters
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.sticking import AT_REST
-from abu_calc.dynamics.touching import Responses, approaches, impacts, pressing, responses
+from abu_calc.dynamics.switching.sticking import AT_REST
+from abu_calc.dynamics.switching.touching import Responses, approaches, impacts, pressing, responses
 from abu_calc.errors import InputError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.switching.modes import Moment
 
 TOUCHING = 1e-9
 """Gaps [rad] up to this are closed: events are located no better."""

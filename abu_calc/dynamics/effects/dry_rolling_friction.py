@@ -17,18 +17,18 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations import accelerations
+from abu_calc.dynamics.equations.parameters import Parameters
+from abu_calc.dynamics.equations.right_hand_side import accelerations
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.receptance import reference_moment, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
-from abu_calc.sizing.budget import friction_band
+from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
+from abu_calc.formulas.friction_band import friction_band
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.assemble import Equations
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.equations.assemble import Equations
+    from abu_calc.dynamics.switching.modes import Moment
     from abu_calc.dynamics.trajectory import Trajectory
 
 LEAVES = 1e-4

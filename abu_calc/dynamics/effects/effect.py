@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.assemble import Equations
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.equations.assemble import Equations
+    from abu_calc.dynamics.equations.parameters import Array, Parameters, Rotor
     from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-    from abu_calc.dynamics.parameters import Array, Parameters, Rotor
     from abu_calc.dynamics.scene import Scene
+    from abu_calc.dynamics.switching.modes import Moment
     from abu_calc.dynamics.trajectory import Trajectory
 
 Kind = Literal["conservative", "dissipative", "driven"]

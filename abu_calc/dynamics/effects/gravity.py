@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations.parameters import Parameters, rotor_of
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Parameters, rotor_of
-from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.errors import InputError
 from abu_calc.units import GRAVITY
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.assemble import Equations
+    from abu_calc.dynamics.equations.assemble import Equations
     from abu_calc.dynamics.trajectory import Trajectory
 
 SHAKES = 0.1

@@ -25,18 +25,18 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations import accelerations
+from abu_calc.dynamics.equations.parameters import Array, Parameters
+from abu_calc.dynamics.equations.right_hand_side import accelerations
 from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Array, Parameters
-from abu_calc.dynamics.receptance import receptance, reference_moment, weighing_amplitude
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.receptance import receptance, reference_moment, weighing_amplitude
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.assemble import Equations
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.equations.assemble import Equations
+    from abu_calc.dynamics.switching.modes import Moment
     from abu_calc.dynamics.trajectory import Trajectory
 
 Contact = Literal["compliant", "rigid", "face"]
@@ -238,7 +238,7 @@ class GrindingContact(Effect):
         N~ = −(y + E)/(1/c_n + h_wn), y of the wheel without contact, E = −iε e^{iφ₀}, h_wn its motion by the contact.
         And what is left near the end of swinging about the place to which T moves it.
         """
-        from abu_calc.dynamics.averages import loaded, swinging
+        from abu_calc.dynamics.slow.averages import loaded, swinging
 
         self._row(scene)
         if self.contact == "face":

@@ -13,8 +13,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations.parameters import Parameters, Rotor
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Parameters, Rotor
 from abu_calc.dynamics.scene import Scene
 
 

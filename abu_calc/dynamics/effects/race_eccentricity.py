@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations.parameters import Parameters
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.receptance import weighing_amplitude
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.receptance import weighing_amplitude
 
 
 @dataclass(frozen=True)

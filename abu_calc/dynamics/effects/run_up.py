@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
+from abu_calc.dynamics.equations.parameters import Rotor
 from abu_calc.dynamics.motion import Motion
-from abu_calc.dynamics.parameters import Rotor
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError
 

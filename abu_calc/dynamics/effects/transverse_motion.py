@@ -30,16 +30,16 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations import owned
+from abu_calc.dynamics.equations.parameters import Array, Parameters
+from abu_calc.dynamics.equations.right_hand_side import owned
 from abu_calc.dynamics.motion import Across, Levers, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Array, Parameters
-from abu_calc.dynamics.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.validity import Range
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.switching.modes import Moment
 
 _LARGEST = sys.float_info.max
 _EDGE = 1e-9

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final, cast
 
-from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
 from abu_calc.dynamics.integrators.run import Array
-from abu_calc.dynamics.modes import watches
+from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError
 

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.integrators.plain import Function
 from abu_calc.dynamics.integrators.run import Array
+from abu_calc.dynamics.tracing.plain import Function
 
 CHECKS = (0.25, 0.5, 0.75)
 """Places in a step at which events are looked for, beside its end."""

@@ -18,12 +18,12 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.integrators.plain import functions
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.parameters import Parameters
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
-from abu_calc.dynamics.integrators.traced import kept, numbers_of, trace
-from abu_calc.dynamics.modes import Modes, watches
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.switching.modes import Modes, watches
+from abu_calc.dynamics.tracing.plain import functions
+from abu_calc.dynamics.tracing.traced import kept, numbers_of, trace
 from abu_calc.dynamics.trajectory import Trajectory
 
 COMPILED = 1e-9, 1e-12, 1e-15

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.modes import Modes, at_break, settled, starting
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.switching.modes import Modes, at_break, settled, starting
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range

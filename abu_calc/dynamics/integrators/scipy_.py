@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators.events import Watcher
-from abu_calc.dynamics.integrators.plain import Function, functions
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
-from abu_calc.dynamics.integrators.traced import numbers_of
-from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.modes import Modes, starting, watches
+from abu_calc.dynamics.switching.modes import Modes, starting, watches
+from abu_calc.dynamics.tracing.plain import Function, functions
+from abu_calc.dynamics.tracing.traced import numbers_of
 from abu_calc.dynamics.trajectory import Trajectory
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from abu_calc.dynamics.parameters import Array
+from abu_calc.dynamics.equations.parameters import Array
 from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, rows
 

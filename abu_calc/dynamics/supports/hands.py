@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from abu_calc.dynamics.parameters import Array
+from abu_calc.dynamics.equations.parameters import Array
 from abu_calc.dynamics.supports.kinds import LinearSupport
 from abu_calc.dynamics.supports.linear import MASS, rows
 from abu_calc.standards.hands import Hand
@@ -15,7 +15,7 @@ def in_hands(mass: float, axes: tuple[Hand, Hand]) -> LinearSupport:
 
     Element 1 stands between ground and palm (mass m₁), 2 between palm and fingers (m₂), 3 between palm and handle, 4
     between fingers and handle; the skin masses m₃, m₄ move with the handle. Its receptance is 1/(reaction − mΩ²) of
-    `sizing.suspension.Hands`. Mass positive; raises RangeError. Source: ISO 10068:2012, Annex C, model 2; how its
+    `formulas.suspension.Hands`. Mass positive; raises RangeError. Source: ISO 10068:2012, Annex C, model 2; how its
     elements connect is assumed.
 
     >>> from abu_calc.standards.hands import hand

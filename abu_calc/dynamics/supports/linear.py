@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from abu_calc.dynamics.equations.parameters import Array, Parameters
 from abu_calc.dynamics.motion import Levers, Motion
-from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.supports.kinds import LARGEST, LinearSupport, Matrix
 from abu_calc.validity import Range
 

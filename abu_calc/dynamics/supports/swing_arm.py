@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 
+from abu_calc.dynamics.equations.parameters import Array, Parameters
 from abu_calc.dynamics.motion import Levers, Motion
-from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.supports.kinds import LARGEST, SwingArm
 from abu_calc.dynamics.supports.linear import turned
 from abu_calc.errors import InputError
-from abu_calc.sizing.swing_arm import contact_gain
+from abu_calc.formulas.swing_arm import contact_gain
 from abu_calc.validity import Range
 
 CONTACT_STIFFNESS = Range("contact stiffness", 0, LARGEST, "N/m")

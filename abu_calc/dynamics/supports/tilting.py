@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from abu_calc.dynamics.equations.parameters import Array, Parameters
 from abu_calc.dynamics.motion import Levers, Motion
-from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.supports.kinds import LARGEST, LinearSupport
 from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, rows, turned
 from abu_calc.validity import Range

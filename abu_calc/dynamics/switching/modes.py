@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.equations import accelerations, owned
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.parameters import Parameters
+from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
 from abu_calc.dynamics.motion import Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Parameters
 from abu_calc.errors import NotTrustworthyError
 
 Modes = tuple[Any, ...]

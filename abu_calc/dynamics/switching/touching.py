@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from abu_calc.dynamics.equations import by_pulls, derivative, loaded, solve_loaded
-from abu_calc.dynamics.parameters import Array
+from abu_calc.dynamics.equations.parameters import Array
+from abu_calc.dynamics.equations.right_hand_side import by_pulls, derivative, loaded, solve_loaded
 from abu_calc.errors import NotTrustworthyError
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.switching.modes import Moment
 
 MOST_IMPACTS = 10_000
 """In a chain that passes impacts on without end, all that still approach lose their speed at once."""

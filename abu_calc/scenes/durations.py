@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from abu_calc.dynamics.supports.kinds import Support, SwingArm
+from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.slow_motion import ball_stiffness, decay_rate
 
 DECAY_TIMES = 7.0
 LONGEST_REVOLUTIONS = 400.0

@@ -18,9 +18,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics import floquet
-from abu_calc.dynamics.assemble import Equations, assemble
-from abu_calc.dynamics.jacobian import jacobian
+from abu_calc.dynamics.balanced import floquet
+from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import NotTrustworthyError

@@ -10,10 +10,10 @@ from typing import Any, cast
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.integrators.traced import Numbers, kept, trace
-from abu_calc.dynamics.modes import Modes, watched
-from abu_calc.dynamics.parameters import Array, Parameters
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.parameters import Array, Parameters
+from abu_calc.dynamics.switching.modes import Modes, watched
+from abu_calc.dynamics.tracing.traced import Numbers, kept, trace
 
 MOST_BALLS, MOST_NUMBERS = 32, 1000
 """Beyond so many balls, or parameters (sixteen balls that touch), arrays are about as fast, and need not be written."""

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from abu_calc.dynamics.equations import loaded
+from abu_calc.dynamics.equations.parameters import Array, Parameters
+from abu_calc.dynamics.equations.right_hand_side import loaded
 from abu_calc.dynamics.motion import Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.errors import NotTrustworthyError
 
 if TYPE_CHECKING:
-    from abu_calc.dynamics.modes import Moment
+    from abu_calc.dynamics.switching.modes import Moment
 
 AT_REST = 1e-9
 """A ball slower than this, relative to the slow motion of the balls, is at rest: events are located no better."""

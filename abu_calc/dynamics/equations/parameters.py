@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.frame import add_rotor, arm_frame, ball_mass, linear_frame, spin_inertia, tilt_map
+from abu_calc.dynamics.equations.frame import add_rotor, arm_frame, ball_mass, linear_frame, spin_inertia, tilt_map
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
 

@@ -8,14 +8,14 @@ from itertools import accumulate, islice, pairwise
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import assemble
-from abu_calc.dynamics.equations import rhs
-from abu_calc.dynamics.jacobian import jacobian
-from abu_calc.dynamics.linearised import QUARTER, Complex
-from abu_calc.dynamics.receptance import dynamic_stiffness
+from abu_calc.dynamics.balanced.linearised import QUARTER, Complex
+from abu_calc.dynamics.balanced.stationary import NotKnownError, needed_resultants, still_axis
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.jacobian import jacobian
+from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.stationary import NotKnownError, needed_resultants, still_axis
 from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.receptance import dynamic_stiffness
 
 TOUCHING = 1e-9
 """Balls that overlap by less than this [rad] touch."""

@@ -22,8 +22,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.averages import AVERAGED, SLOW, TURNED, Averages, averages, dying, loaded
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.slow.averages import AVERAGED, SLOW, TURNED, Averages, averages, dying, loaded
 from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import NotTrustworthyError
 

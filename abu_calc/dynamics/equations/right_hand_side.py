@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.elimination import solve
+from abu_calc.dynamics.equations.elimination import solve
+from abu_calc.dynamics.equations.parameters import Array, Parameters
 from abu_calc.dynamics.motion import Across, Levers, Loads, Motion, Solved, motion_of
-from abu_calc.dynamics.parameters import Array, Parameters
 
 
 def rhs(xp: Any, t: Any, y: Any, p: Parameters) -> Array:

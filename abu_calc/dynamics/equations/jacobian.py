@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.assemble import Equations
+from abu_calc.dynamics.equations.assemble import Equations
 
 STEP = 1e-100
 """An imaginary step cancels nothing, so it may be so small that its square is nothing."""

@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.receptance import receptance
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.receptance import receptance
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError
 
 SAME: Final = 1e-12

@@ -7,7 +7,6 @@ from typing import Final, Literal
 
 import numpy as np
 
-from abu_calc.dynamics.durations import settling_duration
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.effect import Effect
@@ -16,17 +15,19 @@ from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.from_tables import motor_numbers, placed
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.hands import in_hands
 from abu_calc.dynamics.supports.kinds import Support, SwingArm
 from abu_calc.dynamics.supports.linear import planar
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
 from abu_calc.errors import InputError, NotTrustworthyError, Place
-from abu_calc.sizing.ball_ring import half_angle
+from abu_calc.formulas.ball_ring import half_angle
+from abu_calc.formulas.suspension import Hands, Springs
+from abu_calc.formulas.swing_arm import pressed_angle
+from abu_calc.scenes.durations import settling_duration
+from abu_calc.scenes.from_tables import motor_numbers, placed
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.suspension import Hands, Springs
-from abu_calc.sizing.swing_arm import pressed_angle, read_arm
+from abu_calc.sizing.swing_arm import read_arm
 from abu_calc.spec.machine import SwingArm as SwingArmTable
 from abu_calc.units import to_si
 from abu_calc.validity import Range

@@ -21,11 +21,11 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import assemble
-from abu_calc.dynamics.equations import accelerations, owned
-from abu_calc.dynamics.jacobian import STEP
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.jacobian import STEP
+from abu_calc.dynamics.equations.parameters import Array, Parameters
+from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
 from abu_calc.dynamics.motion import motion_of
-from abu_calc.dynamics.parameters import Array, Parameters
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
 

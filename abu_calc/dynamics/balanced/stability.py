@@ -13,14 +13,14 @@ from typing import Final, Literal
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import assemble
-from abu_calc.dynamics.linearised import Array, BalancedMotion, growth_of
-from abu_calc.dynamics.resting import resting_state
+from abu_calc.dynamics.balanced.linearised import Array, BalancedMotion, growth_of
+from abu_calc.dynamics.balanced.resting import resting_state
+from abu_calc.dynamics.balanced.stationary import NotKnownError
+from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stationary import NotKnownError
 from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.errors import InputError
-from abu_calc.sizing.swing_arm import Arm, damping_limit
+from abu_calc.formulas.swing_arm import Arm, damping_limit
 from abu_calc.validity import Range
 
 MARGIN: Final = 1e-9
@@ -106,7 +106,7 @@ def stability(scene: Scene, half_angle: float = 0.0) -> Stability:
 def critical_damping(scene: Scene) -> float | None:
     """Joint damping [N·s/m] that parametric resonance of a swing arm cannot overcome as long as nothing is balanced.
 
-    (m₀e/l)·ω₀·(1 + 17κ²/64), see `sizing.swing_arm.damping_limit`; ω₀ = l√(c/J_O) of the scene's stiffness, with the
+    (m₀e/l)·ω₀·(1 + 17κ²/64), see `formulas.swing_arm.damping_limit`; ω₀ = l√(c/J_O) of the scene's stiffness, with the
     balls' inertia in J_O. None on other supports, on an arm that does not stand, and beyond κ = 0.3. Source: Kovalenko
     2010, (24).
     """

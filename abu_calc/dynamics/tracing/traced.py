@@ -11,10 +11,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from abu_calc.dynamics.assemble import Equations
-from abu_calc.dynamics.integrators.symbols import Functions, Symbol, Tape
-from abu_calc.dynamics.modes import Modes, watched, watches
-from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.parameters import Parameters
+from abu_calc.dynamics.switching.modes import Modes, watched, watches
+from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
 
 MOST_KEPT = 32
 """Structures whose code is kept in this process."""

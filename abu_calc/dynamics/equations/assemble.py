@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.equations import rhs
-from abu_calc.dynamics.parameters import Array, Parameters, parameters_of
+from abu_calc.dynamics.equations.parameters import Array, Parameters, parameters_of
+from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports import linear, swing_arm, tilting
 from abu_calc.dynamics.supports.kinds import SwingArm

@@ -1,0 +1,1 @@
+"""The one set of equations: from a scene to what is integrated."""

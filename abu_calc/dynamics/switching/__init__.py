@@ -1,0 +1,1 @@
+"""Modes, which balls stick, which touch: what is decided where a scene switches."""

@@ -1,0 +1,1 @@
+"""The equations told in another language: plain Python, heyoka."""

@@ -1,0 +1,121 @@
+"""A machine on a swing arm: what the contact adds to its stiffness, its resonances, and where it grows.
+
+Source: Kovalenko 2010, corrected.
+"""
+
+import math
+from dataclasses import dataclass
+
+from abu_calc.validity import Range
+
+FRICTION = Range("cutting coefficient f", 0.0, 0.8, key="swing_arm.cutting_coefficient")
+RADIUS_RATIO = Range("disk radius over arm length R/l", 0.0, 1.0, key="swing_arm.arm_length_mm")
+MODULATION = Range("κ = l·ds/J", 0.0, 0.3, key="swing_arm.moment_of_inertia_kg_m2")
+
+
+@dataclass(frozen=True)
+class Arm:
+    """The arm with the machine on it [SI]; inertia about the arm's axis, with the autobalancer."""
+
+    length: float
+    inertia: float
+    joint_stiffness: float
+    joint_damping: float
+    contact_stiffness: float
+    friction: float
+    disk_radius: float
+    contact_angle: float
+    touch_angle: float
+    pressing_moment: float
+
+
+def contact_gain(angle: float, friction: float, ratio: float) -> float:
+    """g(Z) = sin Z·(sin Z + f·(R/l − cos Z)): contact stiffness felt by the arm, per c_n·l² [1].
+
+    Z angle between the arm and the contact radius, the normal [rad]; f for a disk turning in the pressing sense.
+    Source: Kovalenko 2010, (3). Printed: the text measures Z to the tangent; then sine and cosine would change places.
+    """
+    return math.sin(angle) * (math.sin(angle) + friction * (ratio - math.cos(angle)))
+
+
+def worst_contact_angle(friction: float, ratio: float) -> float:
+    """Z* that makes g largest [rad], from sin 2Z + f·(R/l)·cos Z − f·cos 2Z = 0.
+
+    Series: Z* = π/2 + f/2 − (R/l)f²/4 + (3(R/l)² − 4)f³/24. Range: f up to 0.8, R/l up to 1.
+    Source: Kovalenko 2010, (13), the exact root instead of the series.
+
+    >>> round(worst_contact_angle(0.4, 0.33), 5), round(worst_contact_angle(0.8, 0.33), 5)
+    (1.75012, 1.87707)
+    """
+    f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
+    from scipy.optimize import brentq  # here, so that only files with a swing arm pay for it
+
+    def slope(angle: float) -> float:
+        return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
+
+    return float(brentq(slope, math.pi / 2, 3 * math.pi / 4, xtol=1e-12))
+
+
+def series_gain(friction: float, ratio: float) -> float:
+    """g* = 1 + (R/l)f + f²/4 − (R/l)f³/8 [1], never below the exact one, so on the safe side by at most 1.2 %.
+
+    Range: f up to 0.8, R/l 0.2…0.5. Source: Kovalenko 2010, (14).
+
+    >>> round(series_gain(0.4, 0.33), 6)
+    1.16936
+    """
+    f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
+    return 1 + r * f + f**2 / 4 - r * f**3 / 8
+
+
+def stiffness_limit(arm: Arm, speed: float, gain: float) -> float:
+    """Largest contact stiffness that keeps the arm supercritical [N/m]: (J_O·Ω² − c_sh·l²)/(g·l²).
+
+    g of `contact_gain` or `series_gain`; J_O inertia with autobalancer, c_sh joint stiffness reduced to the length l.
+    Range: necessary, not sufficient (finite mass of the balls). Source: Kovalenko 2010, (13) and (14).
+    """
+    return (arm.inertia * speed**2 - arm.joint_stiffness * arm.length**2) / (gain * arm.length**2)
+
+
+def resonance(arm: Arm, gain: float) -> float:
+    """ω₀* = √{(c_sh·l² + c_n·l²·g*)/J_O} [rad/s]; parametric resonance at twice that. Kovalenko 2010, (15)."""
+    return arm.length * math.sqrt((arm.joint_stiffness + arm.contact_stiffness * gain) / arm.inertia)
+
+
+def damping_limit(arm: Arm, imbalance: float, natural: float) -> float:
+    """Joint damping that parametric resonance cannot overcome [N·s/m]: (ds/l)·ω₀*·(1 + 17κ²/64), κ = l·ds/J_O.
+
+    ds imbalance [kg m]. Range: κ up to 0.3, worst detuning near Ω = 2ω₀. Source: Kovalenko 2010, (23) and (24); the
+    second-order factor is ours. Printed: without it the bound is unsafe by 0.27 % at κ = 0.1, 2.5 % at 0.3.
+    """
+    kappa = MODULATION.check(arm.length * imbalance / arm.inertia)
+    return imbalance / arm.length * natural * (1 + 17 * kappa**2 / 64)
+
+
+def growth_rate(arm: Arm, imbalance: float, natural: float) -> float:
+    """Rate at which the arm's oscillation grows at Ω = 2ω₀ [1/s]: κω₀/2 − h, h = h_sh·l²/(2J_O); negative: it decays.
+
+    Range: small κ. Source: Kovalenko 2010, (22), as a rate in time.
+    """
+    kappa = MODULATION.check(arm.length * imbalance / arm.inertia)
+    return kappa * natural / 2 - arm.joint_damping * arm.length**2 / (2 * arm.inertia)
+
+
+def arm_stiffness(arm: Arm) -> float:
+    """Static stiffness while cutting, reduced to the arm's length [N/m]: c^(p) = c_sh + c_n·g(Z).
+
+    Negative at small contact angles, where friction lifts the wheel by itself: the arm then does not stand (static
+    divergence). Range: one contact point. Source: Kovalenko 2010, (3); the divergence is ours.
+    """
+    return arm.joint_stiffness + arm.contact_stiffness * contact_gain(
+        arm.contact_angle, arm.friction, arm.disk_radius / arm.length
+    )
+
+
+def pressed_angle(arm: Arm) -> float | None:
+    """Resting angle of the arm while cutting [rad], or nothing where the arm does not stand. Kovalenko 2010, (5')."""
+    stiffness = arm_stiffness(arm)
+    if stiffness <= 0:
+        return None
+    contact = stiffness - arm.joint_stiffness
+    return (arm.pressing_moment / arm.length**2 + contact * arm.touch_angle) / stiffness
