@@ -59,6 +59,20 @@ SYMBOLS: Final[dict[str, str]] = {
 """How a unit is printed, where that differs from its suffix."""
 
 
+def unit_of(key: str) -> str:
+    """The unit a key carries, as printed: the longest known suffix ("" for none).
+
+    >>> unit_of("damping_limit_N_s_per_m"), unit_of("imbalance_g_mm"), unit_of("ball_count")
+    ('N·s/m', 'g·mm', '')
+    """
+    parts = key.split("_")
+    for start in range(1, len(parts)):
+        suffix = "_".join(parts[start:])
+        if suffix in SI_PER_UNIT or suffix in SYMBOLS:
+            return SYMBOLS.get(suffix, suffix)
+    return ""
+
+
 def to_si(value: float, unit: str) -> float:
     """A value in `unit` as SI.
 

@@ -10,7 +10,19 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "abu_calc"
-ROOMS = ("standards", "spec", "formulas", "fits", "sizing", "dynamics", "scenes", "analysis", "report", "cli")
+ROOMS = (
+    "standards",
+    "spec",
+    "formulas",
+    "fits",
+    "sizing",
+    "dynamics",
+    "scenes",
+    "analysis",
+    "studies",
+    "report",
+    "cli",
+)
 GROUND = {"errors", "units", "checks", "validity", "version"}
 
 

@@ -33,7 +33,7 @@ def accuracy(
     from abu_calc.analysis.differences import QUANTITIES
     from abu_calc.analysis.ledger import chosen
     from abu_calc.analysis.simulate import ACCURACY
-    from abu_calc.cli.load import located, source_of
+    from abu_calc.cli.load import source_of
     from abu_calc.report.accuracy import study_blocks, study_result
     from abu_calc.report.common import default_blocks, warning_blocks
     from abu_calc.report.simulation import scene_model
@@ -44,7 +44,7 @@ def accuracy(
     one_of("--quantity", quantity, tuple(QUANTITIES))
     Range("budget", LEAST_BUDGET, MOST_BUDGET, "s", key="--budget").check(budget)
     subject = subject_of(file, set_, scene, start)
-    with located(subject.source):
+    with subject.source.located():
         full = lasting(subject.scene, duration, "scene.duration_s" if duration is None else "--duration")
         ledger = chosen(full, asked)
     with progress(how) as tell:

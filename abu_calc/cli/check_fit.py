@@ -10,7 +10,7 @@ from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.spec.bearing import Bearing
-    from abu_calc.spec.read import Loaded
+    from abu_calc.spec.read import Machine
 
 OPTIONS = {
     "name": "--name",
@@ -102,17 +102,17 @@ def check_fit(
     return _outcome((bearing,), None, defaults, explain)
 
 
-def fitted(loaded: "Loaded", *, explain: bool = False) -> Outcome:
+def fitted(loaded: "Machine", *, explain: bool = False) -> Outcome:
     """The outcome for the bearings of a file that is read already."""
-    from abu_calc.cli.load import located, source_of
+    from abu_calc.cli.load import source_of
 
-    if not loaded.machine.bearing:
+    if not loaded.tables.bearing:
         raise InputError(
             "the file has no bearings", place=Place(loaded.file, key="bearing"), remedy="Add a table [[bearing]]."
         )
-    with located(loaded):
+    with loaded.located():
         defaults = tuple(default for default in loaded.defaults_used if default[0].startswith("bearing"))
-        return _outcome(loaded.machine.bearing, source_of(loaded), defaults, explain)
+        return _outcome(loaded.tables.bearing, source_of(loaded), defaults, explain)
 
 
 def _from_options(given: dict[str, Any]) -> tuple["Bearing", tuple[tuple[str, object], ...]]:

@@ -39,14 +39,14 @@ def effects(
 def _of_file(subject: "Subject", accuracy: float, with_: list[str] | None, without: list[str] | None) -> Outcome:
     from abu_calc.analysis.ledger import chosen
     from abu_calc.analysis.simulate import ACCURACY
-    from abu_calc.cli.load import located, source_of
+    from abu_calc.cli.load import source_of
     from abu_calc.report.common import default_blocks, warning_blocks
     from abu_calc.report.effects import ledger_blocks, ledger_result
     from abu_calc.report.simulation import scene_model
 
     ACCURACY.check(accuracy)
     check_effects(subject.scene.effects, with_, without)
-    with located(subject.source):
+    with subject.source.located():
         ledger = chosen(subject.scene, accuracy, with_ or (), without or ())
     result = {"scene": ledger.scene.name, "accuracy": accuracy, "effects": ledger_result(ledger.entries)}
     told = (*warning_blocks(subject.warnings), *default_blocks(subject.source.defaults_used))

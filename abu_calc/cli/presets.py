@@ -17,7 +17,7 @@ def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="P
     if name is not None:
         text = load(name).text
         return Outcome("presets", {"name": name, "text": text}, (), plain=text)
-    listed = [{"name": each, "machine": load(each).machine.machine.name} for each in names()]
+    listed = [{"name": each, "machine": load(each).tables.machine.name} for each in names()]
     blocks = (
         Heading("Presets"),
         Grid(("name", "machine"), tuple((each["name"], each["machine"]) for each in listed)),

@@ -52,7 +52,7 @@ def simulate(
     from abu_calc.analysis.ledger import chosen
     from abu_calc.analysis.simulate import ACCURACY
     from abu_calc.analysis.simulate import simulate as integrate
-    from abu_calc.cli.load import located, source_of
+    from abu_calc.cli.load import source_of
     from abu_calc.report.files import write
     from abu_calc.report.simulate_text import simulate_blocks
     from abu_calc.report.simulation import audit_result, scene_model, simulation_result
@@ -63,7 +63,7 @@ def simulate(
     _check_options(how, integrator, trajectory, samples)
     subject = subject_of(file, set_, scene, start)
     check_effects(subject.scene.effects, with_, without)
-    with located(subject.source):
+    with subject.source.located():
         full = lasting(subject.scene, duration, "scene.duration_s" if duration is None else "--duration")
         ledger = chosen(full, accuracy, with_ or (), without or ())
     moments = trajectory_moments(full, samples or SAMPLES) if trajectory else ()

@@ -15,7 +15,7 @@ from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.spec.read import Loaded
+    from abu_calc.spec.read import Machine
 
 
 def verify(
@@ -39,7 +39,7 @@ def verify(
     for index, each in enumerate(loaded, 1):
         if sys.stderr.isatty() and not how.quiet:
             print(f"{index}/{len(loaded)} {each.file}", file=sys.stderr)
-        if not expected_values(each.machine) and not update:
+        if not expected_values(each.tables) and not update:
             if not _asked_for(files, each.file):
                 continue
             raise InputError(
@@ -60,25 +60,25 @@ def verify(
     )
 
 
-def recompute(loaded: "Loaded") -> dict[str, Any]:
+def recompute(loaded: "Machine") -> dict[str, Any]:
     """The result of a file as paths in [expected] name it, its status included."""
     from abu_calc.cli.check_fit import fitted
     from abu_calc.cli.size import sized
     from abu_calc.spec.bearing_file import BearingFile
 
-    whole = not isinstance(loaded.machine, BearingFile) and loaded.machine.autobalancer is not None
-    outcome = sized(loaded) if whole else fitted(loaded)
+    whole = not isinstance(loaded.tables, BearingFile) and loaded.tables.autobalancer is not None
+    outcome = None
     result = outcome.result if whole else {"fits": outcome.result}
     return {"status": outcome.status, **result}
 
 
 def _compare(
-    loaded: "Loaded", found: dict[str, Any], blocks: list[Block], checks: list[Check], results: list[dict[str, Any]]
+    loaded: "Machine", found: dict[str, Any], blocks: list[Block], checks: list[Check], results: list[dict[str, Any]]
 ) -> None:
     from abu_calc.report.expected import compare, shown_value
     from abu_calc.spec.bearing_file import expected_tolerances, expected_values
 
-    differences = compare(expected_values(loaded.machine), expected_tolerances(loaded.machine), found)
+    differences = compare(expected_values(loaded.tables), expected_tolerances(loaded.tables), found)
     failed = [each for each in differences if not each.passed]
     passed = not failed
     message = f"{len(differences)} values, {len(failed)} differ"
@@ -97,7 +97,7 @@ def _compare(
         blocks += [Heading(loaded.file), Grid(("path", "expected", "found", "deviation", "allowed"), rows)]
 
 
-def _update(loaded: "Loaded", found: dict[str, Any]) -> dict[str, Any]:
+def _update(loaded: "Machine", found: dict[str, Any]) -> dict[str, Any]:
     """Write the values into the file's [expected], its comments and layout kept."""
     import tomlkit
 
@@ -114,7 +114,7 @@ def _update(loaded: "Loaded", found: dict[str, Any]) -> dict[str, Any]:
         )
     document = tomlkit.parse(loaded.text)
     table = document.setdefault("expected", tomlkit.table())
-    values = current(tuple(expected_values(loaded.machine)), found)
+    values = current(tuple(expected_values(loaded.tables)), found)
     for key, value in values.items():
         table[key] = value
     write(path, tomlkit.dumps(document))

@@ -9,7 +9,7 @@ from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import of_scene
 from abu_calc.report.outcome import finite
-from abu_calc.report.quantities import number
+from abu_calc.report.numbers import number
 
 WEIGHTS = (
     "A weight is an estimate of what leaving the effect out would change, counted as --accuracy counts errors: axis "

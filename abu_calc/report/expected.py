@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from abu_calc.report.files import flattened
-from abu_calc.report.quantities import number
+from abu_calc.report.numbers import number
 
 DEFAULT_TOLERANCE: Final = 1e-3
 """Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""

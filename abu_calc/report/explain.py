@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from abu_calc.report.blocks import Block, Heading, Paragraph
-from abu_calc.report.quantities import number
+from abu_calc.report.numbers import number
 
 PARTS: Final = re.compile(r"\n|\s(?=(?:Range|Source|Printed|Raises):)")
 """Where what a formula says of itself is broken into paragraphs."""

@@ -10,8 +10,8 @@ from typing import Any
 
 from abu_calc.errors import OutputError
 from abu_calc.report.outcome import Outcome, document, to_json
-from abu_calc.report.quantities import unit_of
 from abu_calc.report.text import as_text
+from abu_calc.units import unit_of
 
 
 def as_toml(outcome: Outcome) -> str:
@@ -29,6 +29,8 @@ def as_csv(outcome: Outcome) -> str:
     for path, value in flattened({"status": outcome.status, **_named(outcome.result)}):
         key = next((part for part in reversed(path.split(".")) if not part.isdigit()), path)
         writer.writerow((path, "" if value is None else value, unit_of(key)))
+    for path, value in flattened({"abu": document(outcome)["abu"], "input": outcome.provenance.input or {}}):
+        writer.writerow((path, value, ""))
     return buffer.getvalue()
 
 

@@ -2,22 +2,15 @@
 
 import math
 from dataclasses import asdict, dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 from abu_calc.checks import Check, Status
 from abu_calc.errors import AbuError, InputError
 from abu_calc.report.blocks import Block
-from abu_calc.version import __version__
+from abu_calc.studies.result import Provenance, Result
 
 SCHEMA = 1
 EXIT_STATUS: dict[Status, int] = {"pass": 0, "fail": 1, "not-done": 1}
-
-
-class Source(NamedTuple):
-    """The file a result comes from."""
-
-    file: str
-    sha256: str
 
 
 @dataclass(frozen=True)
@@ -27,13 +20,21 @@ class Outcome:
     command: str
     result: Any
     blocks: tuple[Block, ...]
-    source: Source | None = None
+    provenance: Provenance = field(default_factory=Provenance.today)
     checks: tuple[Check, ...] = ()
     model: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     status: Status = "pass"
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
+
+    @classmethod
+    def of(cls, result: Result, blocks: tuple[Block, ...]) -> "Outcome":
+        """That of a study, and how it is shown."""
+        return cls(
+            result.command, result.payload, blocks, result.provenance, result.checks, result.model.to_dict(),
+            result.warnings, result.status,
+        )  # fmt: skip
 
     @property
     def exit_status(self) -> int:
@@ -44,8 +45,8 @@ class Outcome:
 def document(outcome: Outcome) -> dict[str, Any]:
     """The envelope of a result."""
     return {
-        "abu": _head(outcome.command),
-        "input": outcome.source._asdict() if outcome.source else None,
+        "abu": _head(outcome.command, outcome.provenance),
+        "input": outcome.provenance.input,
         "status": outcome.status,
         "checks": [asdict(check) for check in outcome.checks],
         "result": outcome.result,
@@ -67,12 +68,12 @@ def error_document(command: str, error: BaseException) -> dict[str, Any]:
             "allowed": error.allowed,
             "remedy": error.remedy,
         }
-    return {"abu": _head(command), "input": None, "status": "not-done", "checks": [], "result": None, "model": {},
+    return {"abu": _head(command, Provenance.today()), "input": None, "status": "not-done", "checks": [], "result": None, "model": {},
             "warnings": [], "error": facts}  # fmt: skip
 
 
-def _head(command: str) -> dict[str, Any]:
-    return {"version": __version__, "command": command, "schema": SCHEMA}
+def _head(command: str, provenance: Provenance) -> dict[str, Any]:
+    return {"version": provenance.version, "command": command, "schema": SCHEMA, "date": provenance.date}
 
 
 def to_json(content: dict[str, Any]) -> str:

@@ -14,7 +14,7 @@ from abu_calc.sizing.frequency import frequency_region
 from abu_calc.sizing.imbalance import find_imbalance
 from abu_calc.sizing.track import track
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration
-from abu_calc.spec.machine import Machine
+from abu_calc.spec.machine import MachineFile
 
 if TYPE_CHECKING:
     from abu_calc.fits.seats import BearingSeats
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["Design", "size"]
 
 
-def size(machine: Machine) -> Design:
+def size(machine: MachineFile) -> Design:
     """Size an autobalancer for a machine.
 
     The need depends on the machine with its autobalancer, so each candidate is judged by its own mass, and the steps
@@ -45,7 +45,7 @@ def size(machine: Machine) -> Design:
     return Design(case, frequency, imbalance, choice, race, others, idle, loaded, seats, arm, advice, checks, warnings)
 
 
-def _seats(machine: Machine) -> "tuple[BearingSeats, ...]":
+def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":
     if not machine.bearing:
         return ()
     from abu_calc.fits.seats import seat_bearing

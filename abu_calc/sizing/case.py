@@ -6,7 +6,7 @@ from typing import Literal
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.suspension import Hands, Springs, Suspension
 from abu_calc.sizing.body import Body
-from abu_calc.spec.machine import Autobalancer, Grinding, Machine
+from abu_calc.spec.machine import Autobalancer, Grinding, MachineFile
 from abu_calc.standards.hands import hand
 from abu_calc.units import to_si
 
@@ -37,7 +37,7 @@ class Handle:
 class Case:
     """What sizing needs to know of a machine [SI]; masses without the autobalancer."""
 
-    table: Machine
+    table: MachineFile
     autobalancer: Autobalancer
     machine_mass: float
     body: Body
@@ -59,7 +59,7 @@ class Case:
         return self.body.wheel + self.race_offset
 
 
-def read_case(machine: Machine) -> Case:
+def read_case(machine: MachineFile) -> Case:
     """The case of a machine file; refused where the file has no [autobalancer]."""
     abu, top = machine.autobalancer, machine.machine
     if abu is None:
@@ -89,7 +89,7 @@ def read_case(machine: Machine) -> Case:
     )
 
 
-def _body(machine: Machine) -> Body:
+def _body(machine: MachineFile) -> Body:
     top = machine.machine
     mass = top.mass_kg + machine.wheel.mass_kg
     if top.transverse_inertia_kg_m2 is None or top.center_of_mass_to_wheel_mm is None:
@@ -97,7 +97,7 @@ def _body(machine: Machine) -> Body:
     return Body(mass, 1 / top.transverse_inertia_kg_m2, to_si(top.center_of_mass_to_wheel_mm, "mm"))
 
 
-def _suspension(machine: Machine, mass: float) -> Suspension:
+def _suspension(machine: MachineFile, mass: float) -> Suspension:
     table = machine.suspension
     if table.frequencies is None or table.dampings is None:
         return Hands((hand("x"), hand("z")))

@@ -9,7 +9,7 @@ from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import is_number, shown_short
 
 if TYPE_CHECKING:
-    from abu_calc.spec.machine import Machine
+    from abu_calc.spec.machine import MachineFile
 
 NAME = "Name of the machine, as reports print it."
 
@@ -104,12 +104,12 @@ class BearingFile(Table):
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 
 
-def expected_values(file: "Machine | BearingFile") -> dict[str, object]:
+def expected_values(file: "MachineFile | BearingFile") -> dict[str, object]:
     """What `abu verify` compares: path in the result → value."""
     return {path: value for path, value in file.expected.items() if not isinstance(value, dict)}
 
 
-def expected_tolerances(file: "Machine | BearingFile") -> dict[str, float]:
+def expected_tolerances(file: "MachineFile | BearingFile") -> dict[str, float]:
     """Path in the result → relative tolerance, where one is given."""
     given = file.expected.get(TOLERANCE)
     return dict(given) if isinstance(given, dict) else {}

@@ -5,10 +5,11 @@ What tells of faults is imported when there is one.
 
 import hashlib
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
@@ -16,6 +17,9 @@ from abu_calc.errors import InputError, Place
 from abu_calc.spec import presets
 from abu_calc.spec.table import Table
 from abu_calc.spec.text import Part, key_path
+
+if TYPE_CHECKING:
+    from abu_calc.spec.overrides import Override
 
 LARGEST_FILE: Final = 1_000_000
 """Bytes of the largest file that is read; ours have a few thousand."""
@@ -40,6 +44,8 @@ class Reading:
     file: str
     text: str
     sha256: str
+    overrides: "tuple[Override, ...]"
+    """Entries of the file that were replaced, in the order given."""
     defaults_used: tuple[tuple[str, object], ...]
     """Key path and value of each default in force in the tables that are there."""
     warnings: tuple[str, ...]
@@ -50,6 +56,22 @@ class Reading:
         from abu_calc.spec.lines import key_lines
 
         return key_lines(self.text)
+
+    @property
+    def document(self) -> Document:
+        """The file once more, without its overrides."""
+        return Document(self.file, self.text, self.sha256, _parsed(self.text, self.file))
+
+    @contextmanager
+    def located(self) -> Iterator[None]:
+        """Give errors that know only a key the file and the line they come from."""
+        try:
+            yield
+        except InputError as error:
+            key = error.place.key
+            if error.place.file is not None or (key or "").startswith("--"):
+                raise
+            raise error.at(Place(self.file, self.lines.get(key) if key else None, key)) from None
 
 
 def open_document(source: str) -> Document:
@@ -65,9 +87,12 @@ def open_document(source: str) -> Document:
 
 
 def validate(
-    document: Document, overrides: Sequence[str], known: type[Table], choose: Callable[[dict[str, object]], type[Model]]
+    document: Document,
+    overrides: "Sequence[Override]",
+    known: type[Table],
+    choose: Callable[[dict[str, object]], type[Model]],
 ) -> tuple[Model, Reading]:
-    """The table of a document with entries overridden (`table.key=value`, typed as TOML), and what is to be told of it.
+    """The table of a document with entries overridden, and what is to be told of it.
 
     `known` tells the keys that overrides may name, `choose` the model of the document as overridden. Raises InputError
     for whatever is wrong; several faults come as SpecErrors.
@@ -84,20 +109,28 @@ def validate(
         raise told(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
     notes += [f"{key_path(path)} plays no part beside the other keys." for path in table.given_in_vain()]
-    return table, Reading(document.file, document.text, document.sha256, defaults, tuple(notes))
+    return table, Reading(document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes))
 
 
 def _overridden(
-    content: dict[str, object], overrides: Sequence[str], known: type[Table]
+    content: dict[str, object], overrides: "Sequence[Override]", known: type[Table]
 ) -> tuple[dict[tuple[Part, ...], str], list[str]]:
     """Puts overrides into the document; the option of each path that one set, and the notes."""
     if not overrides:
         return {}, []
-    from abu_calc.spec.overrides import apply, parse_override
+    from abu_calc.spec.overrides import apply
 
-    given = [parse_override(override) for override in overrides]
-    notes = apply(content, given, known)
-    return {override.path: override.option for override in given}, notes
+    notes = apply(content, overrides, known)
+    return {override.path: override.option for override in overrides}, notes
+
+
+def parsed_overrides(overrides: Sequence[str]) -> "tuple[Override, ...]":
+    """Overrides as written on the command line, `table.key=value`."""
+    if not overrides:
+        return ()
+    from abu_calc.spec.overrides import parse_override
+
+    return tuple(map(parse_override, overrides))
 
 
 def _parsed(text: str, source: str) -> dict[str, object]:

@@ -27,7 +27,7 @@ __all__ = [
     "BearingFile",
     "Grinding",
     "Limits",
-    "Machine",
+    "MachineFile",
     "MachineName",
     "MachineTable",
     "Motor",
@@ -40,7 +40,7 @@ __all__ = [
 ]
 
 
-class Machine(Table):
+class MachineFile(Table):
     """A machine and the autobalancer wanted for it."""
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"autobalancer"})

@@ -1,8 +1,8 @@
-"""`--set table.key=value`: one entry of a file replaced."""
+"""`--set table.key=value`, or `changed({"table.key": value})`: entries of a file replaced."""
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -19,22 +19,36 @@ EXAMPLE: Final = "--set machine.mass_kg=5.6"
 
 @dataclass(frozen=True)
 class Override:
-    """One `--set`: the path and the value, typed as TOML."""
+    """One entry replaced: the path and the value, typed as TOML; `option_name`: the option that gave it."""
 
     path: tuple[Part, ...]
     value: object
+    option_name: str = "--set "
+
+    @property
+    def key(self) -> str:
+        """The path as TOML writes it."""
+        return key_path(self.path)
 
     @property
     def option(self) -> str:
         """How messages name it."""
-        return f"--set {key_path(self.path)}"
+        return f"{self.option_name}{self.key}"
+
+
+def overrides_of(values: Mapping[str, object]) -> list[Override]:
+    """Overrides by key path, as Python gives them: values as they are, tuples as lists."""
+    return [
+        Override(_path(key.strip()), list(value) if isinstance(value, tuple) else value, "")
+        for key, value in values.items()
+    ]
 
 
 def parse_override(text: str) -> Override:
     """An override as written on the command line; a bare word is text, since shells strip quotes.
 
     >>> parse_override("bearing.0.shaft_fit=m6")
-    Override(path=('bearing', 0, 'shaft_fit'), value='m6')
+    Override(path=('bearing', 0, 'shaft_fit'), value='m6', option_name='--set ')
     """
     key, equals, value = _split(text)
     if not equals or not key.strip():

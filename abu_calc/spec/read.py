@@ -1,4 +1,4 @@
-"""Reading a machine file: document → overrides → model, every fault told with its place."""
+"""Machine files, read and found right: document → overrides → tables, every fault told with its place."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,46 +6,66 @@ from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
 from abu_calc.spec.bearing_file import BearingFile
-from abu_calc.spec.document import LARGEST_FILE, Document, Reading, open_document, validate
+from abu_calc.spec.document import LARGEST_FILE, Document, Reading, open_document, parsed_overrides, validate
 
 if TYPE_CHECKING:
-    from abu_calc.spec.machine import Machine
+    from abu_calc.spec.machine import MachineFile
+    from abu_calc.spec.overrides import Override
 
-__all__ = ["LARGEST_FILE", "Loaded", "machine_from", "read_machine"]
+__all__ = ["LARGEST_FILE", "Machine", "machine_from", "read_machine"]
 
 
 @dataclass(frozen=True)
-class Loaded(Reading):
-    """A machine file, read and found right."""
+class Machine(Reading):
+    """A machine file, or one of bearings alone; `tables` are what stands in it, in the units people wrote."""
 
-    machine: "Machine | BearingFile"
+    tables: "MachineFile | BearingFile"
+
+    def changed(self, values: Mapping[str, object]) -> "Machine":
+        """The machine with entries of its file replaced, by key path: `changed({"wheel.mass_kg": 0.5})`.
+
+        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
+        """
+        from abu_calc.spec.overrides import overrides_of
+
+        return machine_from(self.document, (*self.overrides, *overrides_of(values)))
+
+    def whole(self, command: str) -> "MachineFile":
+        """The tables of a whole machine; raises InputError for a file that holds bearings alone."""
+        if not isinstance(self.tables, BearingFile):
+            return self.tables
+        raise InputError(
+            f"this file holds bearings only, `abu {command}` needs a whole machine",
+            place=Place(self.file, key="machine"),
+            remedy="Use `abu check-fit`, or add [suspension], [wheel] and [autobalancer].",
+        )
 
 
-def read_machine(source: str, overrides: Sequence[str] = ()) -> Loaded:
+def read_machine(source: str, overrides: Sequence[str] = ()) -> Machine:
     """Reads a machine file, or a preset by its name, with entries overridden (`table.key=value`, typed as TOML).
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
-    return machine_from(open_document(source), overrides)
+    return machine_from(open_document(source), parsed_overrides(overrides))
 
 
-def machine_from(document: Document, overrides: Sequence[str] = ()) -> Loaded:
+def machine_from(document: Document, overrides: "Sequence[Override]" = ()) -> Machine:
     """The machine of a document that is open already; raises as `read_machine` does."""
     _refuse_other_files(document.content, document.file)
     # Only overrides ask what keys are known, so that a file of bearings alone loads no more than it needs.
     known = _whole() if overrides else BearingFile
-    machine, reading = validate(document, overrides, known, _model)
-    return Loaded(**vars(reading), machine=machine)
+    tables, reading = validate(document, overrides, known, _model)
+    return Machine(**vars(reading), tables=tables)
 
 
-def _model(content: Mapping[str, object]) -> "type[Machine] | type[BearingFile]":
+def _model(content: Mapping[str, object]) -> "type[MachineFile] | type[BearingFile]":
     return BearingFile if _bearings_alone(content) else _whole()
 
 
-def _whole() -> "type[Machine]":
-    from abu_calc.spec.machine import Machine
+def _whole() -> "type[MachineFile]":
+    from abu_calc.spec.machine import MachineFile
 
-    return Machine
+    return MachineFile
 
 
 def _refuse_other_files(document: Mapping[str, object], source: str) -> None:

@@ -1,22 +1,35 @@
 """Reading a scene file, and files that may hold either a scene or a machine."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
-from abu_calc.spec.document import Document, Reading, open_document, validate
-from abu_calc.spec.read import Loaded, machine_from
+from abu_calc.spec.document import Document, Reading, open_document, parsed_overrides, validate
+from abu_calc.spec.read import Machine, machine_from
 from abu_calc.spec.scene import SceneFile, SceneTable
+
+if TYPE_CHECKING:
+    from abu_calc.spec.overrides import Override
 
 
 @dataclass(frozen=True)
-class LoadedScene(Reading):
-    """A scene file, read and found right."""
+class SceneDescription(Reading):
+    """A scene file; `scene` is what stands in it, in the units people wrote."""
 
     scene: SceneTable
 
+    def changed(self, values: Mapping[str, object]) -> "SceneDescription":
+        """The scene with entries of its file replaced, by key path: `changed({"scene.speed_rpm": 5800.0})`.
 
-def read_scene(source: str, overrides: Sequence[str] = ()) -> LoadedScene:
+        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
+        """
+        from abu_calc.spec.overrides import overrides_of
+
+        return _scene_from(self.document, (*self.overrides, *overrides_of(values)))
+
+
+def read_scene(source: str, overrides: Sequence[str] = ()) -> SceneDescription:
     """Reads a scene file with entries overridden (`scene.key=value`, typed as TOML).
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
@@ -26,19 +39,19 @@ def read_scene(source: str, overrides: Sequence[str] = ()) -> LoadedScene:
         for table, kind in (("machine", "a machine"), ("rig", "readings of a rig")):
             if table in document.content:
                 raise InputError(f"this file holds {kind}, not a scene", place=Place(source, key=table))
-    return _scene_from(document, overrides)
+    return _scene_from(document, parsed_overrides(overrides))
 
 
-def read_any(source: str, overrides: Sequence[str] = ()) -> Loaded | LoadedScene:
+def read_any(source: str, overrides: Sequence[str] = ()) -> Machine | SceneDescription:
     """Reads a scene file, or a machine file, or a machine preset by its name: whichever it is."""
-    document = open_document(source)
-    return _scene_from(document, overrides) if _holds_scene(document) else machine_from(document, overrides)
+    document, replaced = open_document(source), parsed_overrides(overrides)
+    return _scene_from(document, replaced) if _holds_scene(document) else machine_from(document, replaced)
 
 
 def _holds_scene(document: Document) -> bool:
     return "scene" in document.content and "machine" not in document.content
 
 
-def _scene_from(document: Document, overrides: Sequence[str]) -> LoadedScene:
+def _scene_from(document: Document, overrides: "Sequence[Override]") -> SceneDescription:
     file, reading = validate(document, overrides, SceneFile, lambda _: SceneFile)
-    return LoadedScene(**vars(reading), scene=file.scene)
+    return SceneDescription(**vars(reading), scene=file.scene)

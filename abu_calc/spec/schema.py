@@ -4,7 +4,7 @@ from typing import Any, Final
 
 from pydantic.json_schema import models_json_schema
 
-from abu_calc.spec.machine import BearingFile, Machine
+from abu_calc.spec.machine import BearingFile, MachineFile
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.table import Table
 
@@ -15,8 +15,8 @@ _DROPPED: Final = ("title", "examples", "$defs")
 
 def machine_schema() -> dict[str, Any]:
     """The schema of machine files: a machine whole, or bearings alone."""
-    kinds = [{"$ref": f"#/definitions/{model.__name__}"} for model in (Machine, BearingFile)]
-    return _schema("machine", Machine, BearingFile) | {"anyOf": kinds}
+    kinds = [{"$ref": f"#/definitions/{model.__name__}"} for model in (MachineFile, BearingFile)]
+    return _schema("machine", MachineFile, BearingFile) | {"anyOf": kinds}
 
 
 def scene_schema() -> dict[str, Any]:

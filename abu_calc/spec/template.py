@@ -5,7 +5,7 @@ from typing import Final
 
 from pydantic.fields import FieldInfo
 
-from abu_calc.spec.machine import Machine
+from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.table import Table, is_array, subtable
 from abu_calc.spec.text import key_path, shown
@@ -22,7 +22,7 @@ def template() -> str:
 
     Required keys carry example values, keys with a default carry it, all others are commented out.
     """
-    return _text("machine", Machine)
+    return _text("machine", MachineFile)
 
 
 def scene_template() -> str:

@@ -15,7 +15,7 @@ from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
-from abu_calc.spec.machine import Machine
+from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.presets import names
 from abu_calc.spec.read import read_machine
 from tests.benchmarks.equations import grinder
@@ -80,15 +80,15 @@ def case(name: str, scene: Scene) -> Case:
 @cache
 def design(preset: str) -> Design:
     """A preset, sized."""
-    machine = read_machine(preset).machine
-    if not isinstance(machine, Machine):
+    machine = read_machine(preset).tables
+    if not isinstance(machine, MachineFile):
         raise TypeError(f"{preset} holds bearings alone")
     return size(machine)
 
 
 def presets() -> list[str]:
     """The presets of whole machines that can be sized."""
-    return [name for name in names() if isinstance(read_machine(name).machine, Machine)]
+    return [name for name in names() if isinstance(read_machine(name).tables, MachineFile)]
 
 
 def with_effects(scene: Scene, wanted: Collection[str]) -> Scene:

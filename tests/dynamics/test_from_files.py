@@ -28,7 +28,7 @@ from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, idle
 from abu_calc.scenes.from_scene import lasting, scene_from
 from abu_calc.sizing import Design, size
 from abu_calc.spec import presets
-from abu_calc.spec.read import Loaded
+from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import read_any
 from tests.sizing.machines import machine
 from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING, read
@@ -265,8 +265,8 @@ def design_of(designs: dict[str, Design], name: str) -> Design:
     if name not in designs:
         tables = ["grinding.contact=rigid"] if "swing" in name else ["swing_arm.arm_length_mm=350"]
         loaded = read_any(name, [*tables, "run_up.time_s=0.5", "motor.no_load_speed_rpm=7000"])
-        assert isinstance(loaded, Loaded)
-        designs[name] = size(loaded.machine)
+        assert isinstance(loaded, Machine)
+        designs[name] = size(loaded.tables)
     return designs[name]
 
 

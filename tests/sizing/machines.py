@@ -3,7 +3,7 @@
 from copy import deepcopy
 from typing import Any
 
-from abu_calc.spec.machine import Machine
+from abu_calc.spec.machine import MachineFile
 
 BASE: dict[str, Any] = {
     "machine": {
@@ -19,7 +19,7 @@ BASE: dict[str, Any] = {
 }
 
 
-def machine(**changes: Any) -> Machine:
+def machine(**changes: Any) -> MachineFile:
     """The base machine with entries changed: `wheel__runout_mm=0.09`; None removes an entry, a dict sets a table."""
     tables = deepcopy(BASE)
     for path, value in changes.items():
@@ -30,4 +30,4 @@ def machine(**changes: Any) -> Machine:
             tables[table].pop(key, None)
         else:
             tables.setdefault(table, {})[key] = value
-    return Machine.model_validate(tables)
+    return MachineFile.model_validate(tables)

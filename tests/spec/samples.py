@@ -8,7 +8,7 @@ from typing import Any
 
 from abu_calc.errors import InputError
 from abu_calc.spec.errors import SpecErrors
-from abu_calc.spec.read import Loaded, read_machine
+from abu_calc.spec.read import Machine, read_machine
 
 Row = tuple[str, str, str]
 """Header (as written, "" within a table), key, value as written."""
@@ -175,7 +175,7 @@ def document(text: str) -> dict[str, object]:
     return tomllib.loads(text)
 
 
-def read(folder: Path, text: str | bytes, overrides: Sequence[str] = ()) -> Loaded:
+def read(folder: Path, text: str | bytes, overrides: Sequence[str] = ()) -> Machine:
     file = folder / "m.toml"
     file.write_bytes(text.encode("utf-8") if isinstance(text, str) else text)
     return read_machine(str(file), overrides)

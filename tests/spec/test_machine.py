@@ -6,24 +6,24 @@ from pathlib import Path
 import pytest
 
 from abu_calc.spec.bearing import Bearing
-from abu_calc.spec.machine import BearingFile, Machine, expected_tolerances, expected_values
+from abu_calc.spec.machine import BearingFile, MachineFile, expected_tolerances, expected_values
 from abu_calc.spec.table import Table, all_tables
 from tests.spec.samples import BASIC, BEARINGS, FULL, document, full_text, read
 
 
-def machine(folder: Path, text: str) -> Machine:
+def machine(folder: Path, text: str) -> MachineFile:
     loaded = read(folder, text).machine
-    assert isinstance(loaded, Machine)
+    assert isinstance(loaded, MachineFile)
     return loaded
 
 
 def test_a_file_with_every_key_is_read(tmp_path: Path) -> None:
     loaded = read(tmp_path, full_text()[0])
     assert loaded.defaults_used == () and loaded.warnings == ()
-    assert isinstance(loaded.machine, Machine)
-    assert loaded.machine.machine.speed_range == (5800, 5800)
-    assert loaded.machine.wheel.measured_level_db == (110, 111)
-    assert loaded.machine.bearing[0].housing_outer_mm == 60
+    assert isinstance(loaded.tables, MachineFile)
+    assert loaded.tables.machine.speed_range == (5800, 5800)
+    assert loaded.tables.wheel.measured_level_db == (110, 111)
+    assert loaded.tables.bearing[0].housing_outer_mm == 60
 
 
 def test_keys_that_play_no_part_are_told(tmp_path: Path) -> None:
@@ -37,7 +37,7 @@ def test_keys_that_play_no_part_are_told(tmp_path: Path) -> None:
 def test_the_full_sample_names_every_key_of_the_models() -> None:
     """Otherwise the properties over its numbers would pass by a key that was added later."""
     alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation"}
-    for path, table in all_tables(Machine):
+    for path, table in all_tables(MachineFile):
         header = next(header for header in FULL if header.strip("[]") == ".".join(path))
         inner = {key for key in table.model_fields if key == "handle"}
         assert table.model_fields.keys() - inner - alternatives == FULL[header].keys() - alternatives
@@ -147,9 +147,9 @@ def test_a_motor_may_reach_the_rated_speed_just(tmp_path: Path) -> None:
 
 def test_bearings_alone(tmp_path: Path) -> None:
     loaded = read(tmp_path, BEARINGS)
-    assert isinstance(loaded.machine, BearingFile)
-    assert [bearing.name for bearing in loaded.machine.bearing] == ["left", "bearing"]
-    assert loaded.machine.limits.vibration_level_db == 109
+    assert isinstance(loaded.tables, BearingFile)
+    assert [bearing.name for bearing in loaded.tables.bearing] == ["left", "bearing"]
+    assert loaded.tables.limits.vibration_level_db == 109
     assert dict(loaded.defaults_used)["bearing[1].shaft_fit"] == "k6"
 
 
@@ -180,7 +180,7 @@ def test_models_are_frozen() -> None:
 
 
 def test_every_key_is_described_with_an_example_where_it_has_no_default() -> None:
-    for path, table in all_tables(Machine):
+    for path, table in all_tables(MachineFile):
         assert issubclass(table, Table) and table.__doc__
         for key, field in table.model_fields.items():
             assert field.description and len(field.description) > 20, (path, key)

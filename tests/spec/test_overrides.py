@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.spec.machine import BearingFile, Machine
+from abu_calc.spec.machine import BearingFile, MachineFile
 from abu_calc.spec.overrides import parse_override
 from tests.spec.samples import BASIC, BEARINGS, read, refused
 
@@ -65,9 +65,9 @@ def test_wrong_overrides_name_the_option(tmp_path: Path, override: str, key: str
         assert word in str(error)
 
 
-def machine(folder: Path, overrides: list[str], text: str = BASIC) -> Machine:
+def machine(folder: Path, overrides: list[str], text: str = BASIC) -> MachineFile:
     loaded = read(folder, text, overrides).machine
-    assert isinstance(loaded, Machine)
+    assert isinstance(loaded, MachineFile)
     return loaded
 
 
@@ -93,8 +93,8 @@ def test_one_source_of_imbalance_takes_the_place_of_another(tmp_path: Path) -> N
     measured = BASIC.replace("imbalance_g_mm = 150.0", 'measured_level_db = 111\nmeasured_at = "front"')
     measured += '[[machine.handle]]\nname = "front"\nfrom_center_of_mass_mm = 100\n'
     loaded = read(tmp_path, measured, ["wheel.imbalance_g_mm=200"])
-    assert isinstance(loaded.machine, Machine)
-    wheel = loaded.machine.wheel
+    assert isinstance(loaded.tables, MachineFile)
+    wheel = loaded.tables.wheel
     assert (wheel.imbalance_g_mm, wheel.measured_level_db, wheel.measured_at) == (200, None, None)
     assert "--set wheel.imbalance_g_mm takes the place of wheel.measured_level_db" in loaded.warnings
     again = machine(tmp_path, ["wheel.measured_level_db=[109,110]"], measured).wheel

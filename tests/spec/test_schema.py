@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 from pydantic import ValidationError
 
-from abu_calc.spec.machine import BearingFile, Machine
+from abu_calc.spec.machine import BearingFile, MachineFile
 from abu_calc.spec.schema import machine_schema
 from abu_calc.spec.table import RULE
 from abu_calc.spec.template import template
@@ -64,7 +64,7 @@ def test_every_key_keeps_its_description_and_its_default() -> None:
     wheel = SCHEMA["definitions"]["Wheel"]["properties"]
     assert wheel["runout_mm"]["default"] == 0 and "[mm]" in wheel["runout_mm"]["description"]
     for name, body in SCHEMA["definitions"].items():
-        if name not in ("Machine", "BearingFile"):
+        if name not in ("MachineFile", "BearingFile"):
             assert all(key.get("description") for key in body["properties"].values()), name
         assert body["additionalProperties"] is False
 
@@ -95,7 +95,7 @@ def test_wrong_files_do_not(old: str, new: str) -> None:
     assert not VALIDATOR.is_valid(document(BASIC.replace(old, new, 1)))
 
 
-def structurally_good(model: type[Machine] | type[BearingFile], data: dict[str, Any]) -> bool:
+def structurally_good(model: type[MachineFile] | type[BearingFile], data: dict[str, Any]) -> bool:
     """Whether a model finds nothing but rules between keys broken, which a schema does not tell."""
     try:
         model.model_validate(data)
@@ -123,4 +123,4 @@ PLACES = [(number, path) for number, sample in enumerate(SAMPLES) for path in pl
 def test_schema_and_models_agree(place: tuple[int, tuple[Any, ...]], how: str, value: Any) -> None:
     number, path = place
     data = mutated(SAMPLES[number], path, how, value)
-    assert VALIDATOR.is_valid(data) == (structurally_good(Machine, data) or structurally_good(BearingFile, data))
+    assert VALIDATOR.is_valid(data) == (structurally_good(MachineFile, data) or structurally_good(BearingFile, data))

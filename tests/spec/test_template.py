@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.spec.machine import Machine
+from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.table import all_tables
 from abu_calc.spec.template import WIDTH, template
 from tests.spec.samples import document, read
@@ -17,12 +17,12 @@ REPLACED = {"imbalance_g_mm": ("balance_grade", "measured_level_db"), "runout_mm
 def test_it_reads_back_and_shows_every_default(tmp_path: Path) -> None:
     loaded = read(tmp_path, template())
     assert [path for path, _ in loaded.defaults_used] == ["machine.speed_range_rpm"]
-    assert isinstance(loaded.machine, Machine) and loaded.machine.autobalancer is not None
+    assert isinstance(loaded.tables, MachineFile) and loaded.tables.autobalancer is not None
 
 
 def test_it_names_every_table_and_key_once() -> None:
     rows = [row.lstrip("#") for row in template().splitlines() if not row.startswith("# ")]
-    for path, table in all_tables(Machine):
+    for path, table in all_tables(MachineFile):
         header = next(row for row in rows if row.strip("[]") == ".".join(path) and row.startswith("["))
         block = rows[rows.index(header) + 1 :]
         end = next((index for index, row in enumerate(block) if row.startswith("[")), len(block))

@@ -1,0 +1,241 @@
+"""The parts of a sized design, as results tell them: SI in, user units out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+
+from abu_calc.analysis.region import TrueRegion
+from abu_calc.dynamics.balanced.stability import Boundary as SpeedLimit
+from abu_calc.formulas.friction_band import friction_band
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.track import Track
+from abu_calc.sizing.vibration import Place
+from abu_calc.sizing.vibration import Vibration as Levelled
+from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
+from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.simulated_scene import finite
+from abu_calc.units import from_si
+
+if TYPE_CHECKING:
+    from abu_calc.sizing.swing_arm import SwingArmBounds
+
+
+@dataclass(frozen=True, kw_only=True)
+class StabilityBoundary(Record):
+    """A speed at which the balanced state gains or loses its stability."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    stable_above: Annotated[bool, Quantity("stable above it")]
+
+
+def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundary, ...]:
+    """Speeds where stability changes."""
+    return tuple(StabilityBoundary(speed_rpm=from_si(one.speed, "rpm"), stable_above=one.stable_above)
+                 for one in limits)  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Frequency(Record):
+    """Where the working speeds lie, by the simple rule and by the eigenvalues."""
+
+    speed_hz: Annotated[float, Quantity("rated speed", "Ω/2π")]
+    natural_frequencies_hz: Annotated[tuple[float, ...], Quantity("natural frequencies x, y", "ω/2π")]
+    region: Annotated[str, Quantity("region")]
+    balancing_possible: Annotated[bool, Quantity("balancing possible")]
+    finite_mass_gap: Annotated[float, Quantity("finite-mass gap", "(2m/JM)^⅓", 3)]
+    stable: Annotated[bool | None, Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed")]
+    stability_boundaries_rpm: tuple[StabilityBoundary, ...] | None
+
+    @classmethod
+    def of(cls, design: Design, region: TrueRegion) -> Self:
+        """Of a design."""
+        found, limits = design.frequency, region.boundaries
+        return cls(
+            speed_hz=from_si(found.speed, "hz"),
+            natural_frequencies_hz=tuple(from_si(w, "hz") for w in found.natural_frequencies),
+            region=found.region,
+            balancing_possible=found.balancing_possible,
+            finite_mass_gap=found.finite_mass_gap,
+            stable=region.stable,
+            stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Autobalancer(Record):
+    """One candidate."""
+
+    ball_count: Annotated[int, Quantity("number of balls", "n")]
+    ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
+    ball_mass_g: Annotated[float, Quantity("mass of one ball", "m")]
+    race_radius_mm: Annotated[float, Quantity("race radius", "R")]
+    pitch_radius_mm: Annotated[float, Quantity("pitch radius", "R − r")]
+    groove_radius_mm: Annotated[float | None, Quantity("groove radius (± 0.2)", "ρ")]
+    capacity_g_mm: Annotated[float, Quantity("capacity, balls touching", "mR_p·sin nβ/sin β")]
+    capacity_ratio: Annotated[float | None, Quantity("capacity / need", "", 3)]
+    outer_diameter_mm: Annotated[float, Quantity("outer diameter")]
+    width_mm: Annotated[float, Quantity("width")]
+    mass_g: Annotated[float, Quantity("mass with balls")]
+    mass_fraction: Annotated[float, Quantity("share of the machine's mass", "", 3, percent=True)]
+    ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
+    contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
+    hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρv²", 3)]
+    optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ)", 3)]
+    carry_over_rpm: Annotated[float, Quantity("least speed that carries balls over", "√(g/R_p)", 3)]
+    residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
+    corrector: Annotated[str, Quantity("kind of corrector")]
+    ball_material: Annotated[str, Quantity("material of the balls")]
+    housing: Annotated[str, Quantity("housing")]
+    why_not: Annotated[str | None, Quantity("why it was not chosen")] = None
+
+    optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
+
+    @classmethod
+    def of(cls, table: AutobalancerTable, one: Candidate, race: Track, why_not: str | None = None) -> Self:
+        """Of a candidate and its track; `table`: what the file asks of it."""
+        groove = race.groove_radius
+        return cls(
+            ball_count=one.ball_count,
+            ball_diameter_mm=from_si(one.ball_diameter, "mm"),
+            ball_mass_g=from_si(one.ball_mass, "g"),
+            race_radius_mm=from_si(one.race_radius, "mm"),
+            pitch_radius_mm=from_si(one.pitch_radius, "mm"),
+            groove_radius_mm=None if groove is None else from_si(groove, "mm"),
+            capacity_g_mm=from_si(one.capacity, "g_mm"),
+            capacity_ratio=finite(one.capacity_ratio),
+            outer_diameter_mm=from_si(one.housing.outer_diameter, "mm"),
+            width_mm=from_si(one.housing.width, "mm"),
+            mass_g=from_si(one.mass, "g"),
+            mass_fraction=one.mass_fraction,
+            ball_force_N=one.strength.ball_force,
+            contact_pressure_MPa=from_si(one.strength.contact_pressure, "MPa"),
+            hoop_stress_MPa=from_si(one.strength.hoop_stress, "MPa"),
+            optimum_drag_per_s=race.optimum_drag,
+            carry_over_rpm=from_si(race.carry_over, "rpm"),
+            residual_um=_um(one.budget.residual),
+            corrector=table.corrector,
+            ball_material=table.ball_material,
+            housing=RULES[table.design].text,
+            why_not=why_not,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class AccuracyBudget(Record):
+    """Displacements 0–peak at the wheel that stay when the balls have settled; None: without bound."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
+
+    race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction band", "k_r·R_p/r", 3)]
+    plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
+    capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
+    residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
+    worst_um: Annotated[float | None, Quantity("worst residual (plain sum)", "", 3)]
+    permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
+    rolling_friction_reached_um: Annotated[float | None, Quantity("friction band where balls came to rest", "", 3)] = (
+        None
+    )
+
+    @classmethod
+    def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:
+        """Of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
+        one, budget = design.autobalancer, design.autobalancer.budget
+        band = None
+        if reached is not None:
+            band = friction_band(design.case.friction_arm, one.pitch_radius, one.ball_diameter / 2, reached)
+        return cls(
+            race_eccentricity_um=_um(budget.race_eccentricity),
+            rolling_friction_um=_um(budget.rolling_friction),
+            plane_offset_um=_um(budget.plane_offset),
+            capacity_shortfall_um=_um(budget.shortfall),
+            residual_um=_um(budget.residual),
+            worst_um=_um(budget.worst),
+            permitted_um=_um(budget.permitted),
+            rolling_friction_reached_um=None if band is None else _um(band),
+        )
+
+
+def _um(length: float) -> float | None:
+    return finite(from_si(length, "um"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandleLevels(Record):
+    """Levels at one place where the machine is held."""
+
+    name: Annotated[str, Quantity("place")]
+    level_before_db: Annotated[float, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
+
+    @classmethod
+    def of(cls, place: Place) -> Self:
+        """Of one place."""
+        levels = place.levels
+        return cls(
+            name=place.name,
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            reduction_db=levels.reduction,
+            effective_mass_kg=place.effective_mass,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Vibration(Record):
+    """Levels at the loudest place, and at each; None after: balls cannot balance."""
+
+    level_before_db: Annotated[float, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    handles: tuple[HandleLevels, ...]
+
+    @classmethod
+    def of(cls, vibration: Levelled) -> Self:
+        """In the words of the interface."""
+        worst = vibration.worst
+        return cls(
+            level_before_db=worst.before,
+            level_after_db=worst.after,
+            reduction_db=worst.reduction,
+            handles=tuple(map(HandleLevels.of, vibration.places)),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SwingArm(Record):
+    """What stiffness and damping the arm must have."""
+
+    contact_stiffness_limit_N_per_m: Annotated[float, Quantity("contact stiffness limit (series)", "c_n", 5)]
+    contact_stiffness_limit_exact_N_per_m: Annotated[float, Quantity("contact stiffness limit (exact)", "c_n", 5)]
+    worst_contact_angle_deg: Annotated[float, Quantity("worst contact angle", "Z*")]
+    resonance_rpm: Annotated[float, Quantity("highest resonance of the arm", "ω₀*")]
+    damping_limit_N_s_per_m: Annotated[float, Quantity("damping needed", "h_sh", 3)]
+    parametric_growth_rate_per_s: Annotated[float, Quantity("growth rate at Ω = 2ω₀*", "κω₀/2 − h", 3)]
+    pressed_angle_deg: Annotated[float | None, Quantity("resting angle while cutting", "", 3)]
+
+    @classmethod
+    def of(cls, arm: "SwingArmBounds") -> Self:
+        """In user units."""
+        return cls(
+            contact_stiffness_limit_N_per_m=arm.stiffness_limit,
+            contact_stiffness_limit_exact_N_per_m=arm.stiffness_limit_exact,
+            worst_contact_angle_deg=from_si(arm.worst_angle, "deg"),
+            resonance_rpm=from_si(arm.resonance, "rpm"),
+            damping_limit_N_s_per_m=arm.damping_limit,
+            parametric_growth_rate_per_s=arm.growth_rate,
+            pressed_angle_deg=None if arm.pressed_angle is None else from_si(arm.pressed_angle, "deg"),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawingLine(Record):
+    """One requirement for the drawing."""
+
+    feature: Annotated[str, Quantity("feature")]
+    requirement: Annotated[str, Quantity("requirement")]
+    cost_db: Annotated[float | None, Quantity("cost", "", 3, "what the level rises by when the tolerance is used up")]

@@ -1,0 +1,69 @@
+"""Records: the parts a result is made of, whose fields say what they are.
+
+    class Autobalancer(Record):
+        ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
+
+The unit stands in the name of a field; label, symbol, digits and meaning beside its type. Text, JSON, CSV and the JSON
+Schema of results are made of that.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Any, ClassVar, NamedTuple, get_args, get_type_hints
+
+
+class Quantity(NamedTuple):
+    """What a field is called where it is shown, its symbol and significant digits, and what it means."""
+
+    label: str
+    symbol: str = ""
+    digits: int = 4
+    meaning: str = ""
+    percent: bool = False
+    """Shown in hundredths."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Record:
+    """A part of a result. Fields in user units; None: not computed, a check or a warning says why."""
+
+    left_out: ClassVar[frozenset[str]] = frozenset()
+    """Fields that are no entries of the result."""
+    optional: ClassVar[frozenset[str]] = frozenset()
+    """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
+
+    @classmethod
+    def entries(cls) -> tuple[str, ...]:
+        """Names of the fields that are entries of the result, in order."""
+        return tuple(field.name for field in fields(cls) if field.name not in cls.left_out)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The entries as JSON has them."""
+        values = ((name, getattr(self, name)) for name in self.entries())
+        return {name: as_plain(value) for name, value in values if value is not None or name not in self.optional}
+
+
+def as_plain(value: object) -> Any:
+    """Records as dictionaries, tuples as lists, whatever they hold."""
+    if isinstance(value, Record):
+        return value.to_dict()
+    if isinstance(value, Mapping):
+        return {key: as_plain(inner) for key, inner in value.items()}
+    if isinstance(value, (tuple, list)):
+        return [as_plain(inner) for inner in value]
+    return value
+
+
+@cache
+def hints(kind: type[Any]) -> Mapping[str, Any]:
+    """The type of each field, with what is said beside it."""
+    return get_type_hints(kind, include_extras=True)
+
+
+@cache
+def quantities(kind: type[Any]) -> Mapping[str, Quantity]:
+    """What the fields of a record say of themselves; those that hold records say nothing."""
+    found = ((name, next((each for each in get_args(hint)[1:] if isinstance(each, Quantity)), None))
+             for name, hint in hints(kind).items())  # fmt: skip
+    return {name: quantity for name, quantity in found if quantity is not None}

@@ -1,0 +1,87 @@
+"""What all results share: the verdict, what to know, and what is needed to repeat them."""
+
+import datetime
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from abu_calc.checks import Check, Status, overall
+from abu_calc.studies.quantity import Record, as_plain
+from abu_calc.version import __version__
+
+if TYPE_CHECKING:
+    from abu_calc.spec.document import Reading
+
+Progress = Callable[[str], None]
+"""Gets what is being done, in a few words."""
+
+
+def silent(_: str) -> None:
+    """For whom does not watch."""
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a result comes from: the file as it was named, its hash, entries replaced, defaults in force, when, by what.
+
+    `file` None: the input was no file.
+    """
+
+    file: str | None
+    sha256: str | None
+    overrides: tuple[tuple[str, object], ...]
+    defaults: tuple[tuple[str, object], ...]
+    version: str
+    date: str
+
+    @classmethod
+    def of(cls, reading: "Reading") -> "Provenance":
+        """That of a file that was read."""
+        replaced = dict((override.key, override.value) for override in reading.overrides)
+        return cls.today(reading.file, reading.sha256, tuple(replaced.items()), reading.defaults_used)
+
+    @classmethod
+    def today(
+        cls, file: str | None = None, sha256: str | None = None, overrides: tuple[tuple[str, object], ...] = (),
+        defaults: tuple[tuple[str, object], ...] = (),
+    ) -> "Provenance":  # fmt: skip
+        """Of this day and this version."""
+        return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat())
+
+    @property
+    def input(self) -> dict[str, Any] | None:
+        """What the JSON document tells of the input."""
+        if self.file is None:
+            return None
+        return {
+            "file": self.file,
+            "sha256": self.sha256,
+            "overrides": as_plain(dict(self.overrides)),
+            "defaults": as_plain(dict(self.defaults)),
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result(Record):
+    """What a study answers: its own fields, in user units, the checks that judge them, and where they come from."""
+
+    command: ClassVar[str]
+    left_out: ClassVar[frozenset[str]] = frozenset({"title", "checks", "warnings", "model", "provenance"})
+
+    title: str
+    """The machine's name, or the file's."""
+    checks: tuple[Check, ...] = ()
+    warnings: tuple[str, ...] = ()
+    model: Record = Record()
+    """The SI numbers behind the result, for those who check it by hand."""
+    provenance: Provenance
+
+    @property
+    def status(self) -> Status:
+        """The worst of the checks."""
+        return overall(self.checks)
+
+    @property
+    def payload(self) -> Any:
+        """The JSON document's `result`."""
+        return self.to_dict()

@@ -1,0 +1,99 @@
+"""The SI numbers and states of a scene that is integrated."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.studies.quantity import Record
+
+
+@dataclass(frozen=True, kw_only=True)
+class RaceModel(Record):
+    """A race and its balls."""
+
+    pitch_radius_m: float
+    plane_offset_m: float
+    ball_masses_kg: tuple[float, ...]
+    ball_radius_m: float
+    drag_per_s: float
+    inertia_factor: float
+    start_angles_rad: tuple[float, ...]
+    start_speeds_rad_per_s: tuple[float, ...]
+
+    @classmethod
+    def of(cls, race: Race) -> Self:
+        """That of a race."""
+        return cls(
+            pitch_radius_m=race.pitch_radius,
+            plane_offset_m=race.plane_offset,
+            ball_masses_kg=race.ball_masses,
+            ball_radius_m=race.ball_radius,
+            drag_per_s=race.drag,
+            inertia_factor=race.inertia_factor,
+            start_angles_rad=race.start_angles,
+            start_speeds_rad_per_s=race.start_speeds,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SceneModel(Record):
+    """A scene as it is integrated; the numbers of its support stand beside the others."""
+
+    states: tuple[str, ...]
+    support: Mapping[str, object]
+    speed_rad_per_s: float
+    imbalance_kg_m: float
+    imbalance_angle_rad: float
+    couple_kg_m2: float
+    couple_angle_rad: float
+    races: tuple[RaceModel, ...]
+    effects: tuple[str, ...]
+    start_position: tuple[float, ...]
+    start_velocity: tuple[float, ...]
+    duration_s: float
+
+    @classmethod
+    def of(cls, scene: Scene) -> Self:
+        """That of a scene."""
+        return cls(
+            states=assemble(scene).states,
+            support=_support(scene),
+            speed_rad_per_s=scene.speed,
+            imbalance_kg_m=scene.imbalance,
+            imbalance_angle_rad=scene.imbalance_angle,
+            couple_kg_m2=scene.couple,
+            couple_angle_rad=scene.couple_angle,
+            races=tuple(map(RaceModel.of, scene.races)),
+            effects=tuple(effect.name for effect in scene.effects),
+            start_position=scene.start_position,
+            start_velocity=scene.start_velocity,
+            duration_s=scene.duration,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The support's numbers beside the others."""
+        entries = super().to_dict()
+        return {**entries.pop("support"), **entries}
+
+
+def _support(scene: Scene) -> Mapping[str, object]:
+    """The support's own numbers."""
+    support = scene.support
+    if isinstance(support, SwingArm):
+        return {
+            "arm_length_m": support.length,
+            "moment_of_inertia_kg_m2": support.inertia,
+            "stiffness_N_per_m": support.stiffness,
+            "damping_N_s_per_m": support.damping,
+            "moment_N_m": support.moment,
+        }
+    return {
+        "mass_kg": support.mass,
+        "damping_N_s_per_m": support.damping,
+        "stiffness_N_per_m": support.stiffness,
+        "gyroscopic_kg_m2": support.gyroscopic,
+        "race_map": support.race_map,
+    }

@@ -1,0 +1,120 @@
+"""A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from abu_calc.analysis.idle import idle_checks, not_simulated
+from abu_calc.analysis.machine import Run, simulated
+from abu_calc.analysis.region import true_region
+from abu_calc.sizing import size as size_design
+from abu_calc.sizing.design import Design
+from abu_calc.studies.design_records import (
+    AccuracyBudget,
+    Autobalancer,
+    DrawingLine,
+    Frequency,
+    SwingArm,
+    Vibration,
+)
+from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.result import Progress, Provenance, Result, silent
+from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
+from abu_calc.studies.size_model import SizeModel
+from abu_calc.units import from_si
+
+if TYPE_CHECKING:
+    from abu_calc.spec.read import Machine
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeResult(Result):
+    """A design that can be made, its checks, and a simulation that shows it works."""
+
+    command: ClassVar[str] = "size"
+
+    system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
+    effective_mass_kg: Annotated[float, Quantity("mass felt at the wheel", "m_eff")]
+    frequency: Frequency
+    imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
+    required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
+    required_capacity_limit_g_mm: Annotated[float, Quantity("as printed in the source", "m₀e + Mε")]
+    required_capacity_compliant_g_mm: Annotated[float | None, Quantity("for the compliant contact")]
+    autobalancer: Autobalancer
+    alternatives: tuple[Autobalancer, ...]
+    accuracy_budget: AccuracyBudget
+    vibration: Vibration
+    vibration_loaded: Vibration | None
+    simulation: tuple[SimulatedScene, ...]
+    fits: tuple[Any, ...]
+    swing_arm: SwingArm | None
+    drawing: tuple[DrawingLine, ...]
+
+
+def size(machine: "Machine", accuracy: float = 0.01, progress: Progress = silent) -> SizeResult:
+    """Size the autobalancer of a machine, and simulate the scenes its file calls for to `accuracy`.
+
+    Raises InputError with file, line, key and remedy for what is wrong in the file.
+    """
+    tables = machine.whole("size")
+    with machine.located():
+        design = size_design(tables)
+        runs, failures = simulated(design, accuracy, progress)
+        region = true_region(design)
+    checks = (*design.checks, *(not_simulated(failure.scene, failure.reason) for failure in failures))
+    for run in runs:
+        if run.ledger.scene.name == "idle":
+            checks += idle_checks(design, run.simulation.response)
+    told = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
+    need, loaded = design.autobalancer.requirement, design.loaded
+    reached = next((run.simulation.response.final.ball_angles for run in runs), None)
+    return SizeResult(
+        title=tables.machine.name,
+        checks=checks,
+        warnings=(*machine.warnings, *design.warnings, *region.warnings, *told),
+        model=SizeModel.of(design, runs),
+        provenance=Provenance.of(machine),
+        system_mass_kg=design.system_mass,
+        effective_mass_kg=need.effective_mass,
+        frequency=Frequency.of(design, region),
+        imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
+        required_capacity_g_mm=from_si(need.required, "g_mm"),
+        required_capacity_limit_g_mm=from_si(need.printed_limit, "g_mm"),
+        required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
+        autobalancer=Autobalancer.of(design.case.autobalancer, design.autobalancer, design.track),
+        alternatives=tuple(
+            Autobalancer.of(design.case.autobalancer, one, race, why)
+            for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
+        ),
+        accuracy_budget=AccuracyBudget.of(design, reached),
+        vibration=Vibration.of(design.idle),
+        vibration_loaded=None if loaded is None else Vibration.of(loaded),
+        simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
+        fits=_fits(design),
+        swing_arm=None if design.swing_arm is None else SwingArm.of(design.swing_arm),
+        drawing=tuple(
+            DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
+            for line in design.drawing
+        ),
+    )
+
+
+def _other_drags(design: Design, run: Run) -> tuple[SettlingEstimate, ...] | None:
+    """Settling of the idle scene at a third and at three times the drag."""
+    if run.ledger.scene.name != "idle":
+        return None
+    (_, rate), *others = design.track.decay_rates
+    time = run.simulation.response.settling_time
+    return tuple(
+        SettlingEstimate(
+            drag_per_s=drag, settling_time_s=time * rate / other if time and other > 0 and rate > 0 else None
+        )
+        for drag, other in others
+    )
+
+
+def _fits(design: Design) -> tuple[Any, ...]:
+    if not design.seats:
+        return ()
+    from abu_calc.report.fits import seats_result
+
+    return tuple(row for bearing in design.seats for row in seats_result(bearing))

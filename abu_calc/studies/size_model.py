@@ -1,0 +1,62 @@
+"""The SI numbers behind a sized design, for those who check it by hand."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Self
+
+from abu_calc.analysis.machine import Run
+from abu_calc.sizing.design import Design
+from abu_calc.studies.quantity import Record
+from abu_calc.studies.scene_model import SceneModel
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeModel(Record):
+    """What the steps of sizing worked with; complex numbers as real and imaginary part, x before y."""
+
+    speed_rad_per_s: float
+    speed_range_rad_per_s: tuple[float, float]
+    mass_without_autobalancer_kg: float
+    effective_mass_kg: float
+    natural_frequencies_rad_per_s: tuple[float, float]
+    reaction_N_per_m: tuple[tuple[float, float], ...]
+    runout_m: float
+    runout_factor: float
+    runout_part_kg_m: float
+    eccentricity_part_kg_m: float
+    plane_ratio: float
+    inertia_factor: float
+    drag_per_s: float
+    ball_stiffness_per_s2: float | None
+    resting_angles_rad: tuple[float, ...]
+    permitted_pressure_Pa: float
+    candidates: int
+    imbalance_source: str
+    scenes: Mapping[str, SceneModel]
+
+    @classmethod
+    def of(cls, design: Design, runs: Sequence[Run]) -> Self:
+        """That of a design and its simulations."""
+        case, one = design.case, design.autobalancer
+        need, reactions = one.requirement, (case.suspension.reaction(axis, case.speed) for axis in (0, 1))
+        return cls(
+            speed_rad_per_s=case.speed,
+            speed_range_rad_per_s=case.speed_range,
+            mass_without_autobalancer_kg=case.body.mass,
+            effective_mass_kg=need.effective_mass,
+            natural_frequencies_rad_per_s=design.frequency.natural_frequencies,
+            reaction_N_per_m=tuple((force.real, force.imag) for force in reactions),
+            runout_m=case.runout,
+            runout_factor=need.runout_factor,
+            runout_part_kg_m=need.runout_part,
+            eccentricity_part_kg_m=need.eccentricity_part,
+            plane_ratio=need.plane_ratio,
+            inertia_factor=case.inertia_factor,
+            drag_per_s=case.drag,
+            ball_stiffness_per_s2=design.track.ball_stiffness,
+            resting_angles_rad=one.budget.resting_angles,
+            permitted_pressure_Pa=one.strength.permitted_pressure,
+            candidates=design.choice.examined,
+            imbalance_source=design.imbalance.source,
+            scenes={run.ledger.scene.name: SceneModel.of(run.ledger.scene) for run in runs},
+        )
