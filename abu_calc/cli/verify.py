@@ -1,21 +1,21 @@
 """`abu verify [FILE|FOLDER …]`: hold machine files to the results they expect."""
 
-import sys
 import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.checks import Check, overall, verdict
 from abu_calc.cli.command import add_command
 from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
 from abu_calc.errors import InputError, Place
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Paragraph
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
+    from abu_calc.studies.result import Progress
 
 
 def verify(
@@ -28,97 +28,56 @@ def verify(
     ] = False,
 ) -> Outcome:
     """Recompute files that have [expected] and compare; without files, the presets."""
-    from abu_calc.cli.load import load
+    from abu_calc.report.verify import verify_blocks
     from abu_calc.spec.bearing_file import expected_values
+    from abu_calc.spec.read import read_machine
+    from abu_calc.studies.verify import verify as study
 
-    blocks: list[Block] = []
-    checks: list[Check] = []
-    results: list[dict[str, Any]] = []
     named = _named(files)
-    loaded = [load(file) for file in named]
-    for index, each in enumerate(loaded, 1):
-        if sys.stderr.isatty() and not how.quiet:
-            print(f"{index}/{len(loaded)} {each.file}", file=sys.stderr)
-        if not expected_values(each.tables) and not update:
-            if not _asked_for(files, each.file):
-                continue
-            raise InputError(
-                "nothing is expected of this file",
-                place=Place(each.file, key="expected"),
-                remedy=f"`abu verify --update {each.file}` writes its present results.",
-            )
-        found = recompute(each)
+    machines = [read_machine(file) for file in named]
+    with progress(how) as tell:
         if update:
-            results.append(_update(each, found))
-            blocks.append(Paragraph(f"{each.file}: {results[-1]['written']} values written", "pass"))
-        else:
-            _compare(each, found, blocks, checks, results)
-    if not results:
-        raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
-    return Outcome(
-        "verify", {"files": results}, tuple(blocks), checks=tuple(checks), status="pass" if update else overall(checks)
-    )
+            return _updated(machines, tell)
+        # A file named itself must expect something; one found in a folder, or a preset, may pass.
+        asked = [each for each in machines if expected_values(each.tables) or each.file in (files or ())]
+        if not asked:
+            raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
+        result = study(asked, tell)
+    return Outcome.of(result, verify_blocks(result))
 
 
-def recompute(loaded: "Machine") -> dict[str, Any]:
-    """The result of a file as paths in [expected] name it, its status included."""
-    from abu_calc.cli.check_fit import fitted
-    from abu_calc.cli.size import sized
-    from abu_calc.spec.bearing_file import BearingFile
-
-    whole = not isinstance(loaded.tables, BearingFile) and loaded.tables.autobalancer is not None
-    outcome = None
-    result = outcome.result if whole else {"fits": outcome.result}
-    return {"status": outcome.status, **result}
-
-
-def _compare(
-    loaded: "Machine", found: dict[str, Any], blocks: list[Block], checks: list[Check], results: list[dict[str, Any]]
-) -> None:
-    from abu_calc.report.expected import compare, shown_value
-    from abu_calc.spec.bearing_file import expected_tolerances, expected_values
-
-    differences = compare(expected_values(loaded.tables), expected_tolerances(loaded.tables), found)
-    failed = [each for each in differences if not each.passed]
-    passed = not failed
-    message = f"{len(differences)} values, {len(failed)} differ"
-    checks.append(
-        Check("ABU901", loaded.file, verdict(passed), message, float(len(failed)), 0.0, None,
-              None if passed else "If the change is meant, write it with --update.")
-    )  # fmt: skip
-    results.append({"file": loaded.file, "values": [vars(each) for each in differences]})
-    blocks.append(Paragraph(f"{loaded.file}: {message}", "pass" if passed else "fail"))
-    if failed:
-        rows = tuple(
-            (each.path, shown_value(each.expected), shown_value(each.found),
-             "" if each.deviation is None else f"{each.deviation:.2e}", f"{each.tolerance:.0e}")
-            for each in failed
-        )  # fmt: skip
-        blocks += [Heading(loaded.file), Grid(("path", "expected", "found", "deviation", "allowed"), rows)]
+def _updated(machines: "list[Machine]", tell: "Progress") -> Outcome:
+    """All files with their present values written into [expected]."""
+    results, blocks = [], []
+    for index, machine in enumerate(machines, 1):
+        tell(f"{index}/{len(machines)} {machine.file}")
+        written = _update(machine)
+        results.append({"file": machine.file, "written": written})
+        blocks.append(Paragraph(f"{machine.file}: {written} values written", "pass"))
+    return Outcome("verify", {"files": results}, tuple(blocks))
 
 
-def _update(loaded: "Machine", found: dict[str, Any]) -> dict[str, Any]:
-    """Write the values into the file's [expected], its comments and layout kept."""
+def _update(machine: "Machine") -> int:
+    """Write the values into the file's [expected], its comments and layout kept; how many."""
     import tomlkit
 
-    from abu_calc.report.expected import current
     from abu_calc.report.files import write
-    from abu_calc.spec.bearing_file import expected_values
+    from abu_calc.studies.verify import present_values
 
-    path = Path(loaded.file)
+    path = Path(machine.file)
     if not path.is_file():
         raise InputError(
             "a preset cannot be updated by name",
-            place=Place(loaded.file),
+            place=Place(machine.file),
             remedy="Name its file, or `abu init` a copy.",
         )
-    document = tomlkit.parse(loaded.text)
+    document = tomlkit.parse(machine.text)
     table = document.setdefault("expected", tomlkit.table())
-    values = current(tuple(expected_values(loaded.tables)), found)
+    values = present_values(machine)
     for key, value in values.items():
         table[key] = value
     write(path, tomlkit.dumps(document))
-    return {"file": loaded.file, "written": len(values)}
+    return len(values)
 
 
 def _named(files: list[str] | None) -> list[str]:
@@ -146,11 +105,6 @@ def _may_expect(path: Path) -> bool:
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
         return True
     return "machine" in tables and "expected" in tables
-
-
-def _asked_for(files: list[str] | None, file: str) -> bool:
-    """Whether a file was named itself, and not found in a folder or among the presets."""
-    return file in (files or ())
 
 
 def register(app: typer.Typer) -> None:

@@ -4,13 +4,14 @@ import csv
 import io
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from abu_calc.errors import OutputError
 from abu_calc.report.outcome import Outcome, document, to_json
 from abu_calc.report.text import as_text
+from abu_calc.studies.quantity import flattened
 from abu_calc.units import unit_of
 
 
@@ -45,16 +46,6 @@ FORMATS: dict[str, Callable[[Outcome], str]] = {
     ".csv": as_csv,
     ".txt": lambda outcome: as_text(outcome.blocks),
 }
-
-
-def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
-    """Every leaf of a result with its path, `autobalancer.ball_count`, `fits.0.fit`."""
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, (list, tuple)) else None
-    if items is None:
-        yield path, value
-        return
-    for key, inner in items:
-        yield from flattened(inner, f"{path}.{key}" if path else str(key))
 
 
 def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> None:

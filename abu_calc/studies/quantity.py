@@ -7,7 +7,7 @@ The unit stands in the name of a field; label, symbol, digits and meaning beside
 Schema of results are made of that.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cache
 from typing import Any, ClassVar, NamedTuple, get_args, get_type_hints
@@ -53,6 +53,16 @@ def as_plain(value: object) -> Any:
     if isinstance(value, (tuple, list)):
         return [as_plain(inner) for inner in value]
     return value
+
+
+def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Every leaf of a result with its path, `autobalancer.ball_count`, `fits.0.fit`."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, (list, tuple)) else None
+    if items is None:
+        yield path, value
+        return
+    for key, inner in items:
+        yield from flattened(inner, f"{path}.{key}" if path else str(key))
 
 
 @cache

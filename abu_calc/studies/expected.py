@@ -1,12 +1,11 @@
-"""Expected values of a file against its recomputed result."""
+"""Expected values of a file against its recomputed result: paths into the result as JSON has it."""
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
-from abu_calc.report.files import flattened
-from abu_calc.report.numbers import number
+from abu_calc.studies.quantity import Quantity, Record, flattened
 
 DEFAULT_TOLERANCE: Final = 1e-3
 """Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""
@@ -35,29 +34,29 @@ WORTH_KEEPING: Final = (
 SEAT_KEYS: Final = ("fit", "interference_um.0", "interference_um.1", "recommended_fit")
 
 
-@dataclass(frozen=True)
-class Difference:
-    """One expected value and what came out; `deviation` is relative, where both are numbers."""
+@dataclass(frozen=True, kw_only=True)
+class ComparedValue(Record):
+    """One expected value and what came out."""
 
-    path: str
-    expected: Any
-    found: Any
-    tolerance: float
-    deviation: float | None
-    passed: bool
+    path: Annotated[str, Quantity("path in the result")]
+    expected: Annotated[Any, Quantity("expected")]
+    found: Annotated[Any, Quantity("found")]
+    tolerance: Annotated[float, Quantity("allowed deviation", "", 1, "relative")]
+    deviation: Annotated[float | None, Quantity("deviation", "", 3, "relative, where both are numbers")]
+    passed: Annotated[bool, Quantity("passed")]
 
 
 def compare(
     expected: Mapping[str, Any], tolerances: Mapping[str, float], result: Mapping[str, Any]
-) -> list[Difference]:
+) -> tuple[ComparedValue, ...]:
     """Every expected value against the result at its path; a path that is not there has failed."""
     leaves = dict(flattened(result))
-    return [_difference(path, value, tolerances.get(path), result, leaves) for path, value in expected.items()]
+    return tuple(_compared(path, value, tolerances.get(path), result, leaves) for path, value in expected.items())
 
 
-def _difference(
+def _compared(
     path: str, value: Any, tolerance: float | None, result: Mapping[str, Any], leaves: Mapping[str, Any]
-) -> Difference:
+) -> ComparedValue:
     usual = SIMULATED_TOLERANCE if path.startswith("simulation.") else DEFAULT_TOLERANCE
     allowed = usual if tolerance is None else tolerance
     found = leaves[path] if path in leaves else _inner(result, path)
@@ -67,7 +66,9 @@ def _difference(
     else:
         deviation = _deviation(value, found)
     passed = value == found if deviation is None else deviation <= allowed
-    return Difference(path, value, found, allowed, deviation, passed)
+    return ComparedValue(
+        path=path, expected=value, found=found, tolerance=allowed, deviation=deviation, passed=passed
+    )
 
 
 def current(paths: tuple[str, ...], result: Mapping[str, Any]) -> dict[str, Any]:
@@ -104,10 +105,3 @@ def _rounded(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_rounded(each) for each in value]
     return float(f"{value:.6g}") if isinstance(value, float) else value
-
-
-def shown_value(value: Any) -> str:
-    """A value in the table of differences."""
-    if isinstance(value, float):
-        return number(value, 6)
-    return "nothing" if value is None else str(value)

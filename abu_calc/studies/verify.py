@@ -1,0 +1,87 @@
+"""Files held to the results they expect."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from abu_calc.checks import Check, verdict
+from abu_calc.errors import InputError, Place
+from abu_calc.spec.bearing_file import BearingFile, expected_tolerances, expected_values
+from abu_calc.studies.expected import ComparedValue, compare, current
+from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.result import Progress, Provenance, Result, silent
+
+if TYPE_CHECKING:
+    from abu_calc.spec.read import Machine
+
+
+@dataclass(frozen=True, kw_only=True)
+class VerifiedFile(Record):
+    """One file and its values."""
+
+    file: Annotated[str, Quantity("file")]
+    values: tuple[ComparedValue, ...]
+
+    @property
+    def failed(self) -> tuple[ComparedValue, ...]:
+        """Those that differ."""
+        return tuple(each for each in self.values if not each.passed)
+
+
+@dataclass(frozen=True, kw_only=True)
+class VerifyResult(Result):
+    """Every file with its values, a check each."""
+
+    command: ClassVar[str] = "verify"
+
+    files: tuple[VerifiedFile, ...]
+
+
+def verify(machines: "Sequence[Machine]", progress: Progress = silent) -> VerifyResult:
+    """Recompute machine files and compare with what they expect.
+
+    Raises InputError for a file that expects nothing.
+    """
+    files = []
+    for index, machine in enumerate(machines, 1):
+        progress(f"{index}/{len(machines)} {machine.file}")
+        files.append(_verified(machine))
+    checks = tuple(map(_check, files))
+    return VerifyResult(title="verify", checks=checks, provenance=Provenance.today(), files=tuple(files))
+
+
+def present_values(machine: "Machine") -> dict[str, Any]:
+    """What the file should expect now: at its own paths, or a choice where it has none."""
+    return current(tuple(expected_values(machine.tables)), recompute(machine))
+
+
+def recompute(machine: "Machine") -> Mapping[str, Any]:
+    """The result of a file as paths in [expected] name it, its status included."""
+    if isinstance(machine.tables, BearingFile) or machine.tables.autobalancer is None:
+        from abu_calc.studies.check_fit import check_fit
+
+        seats = check_fit(machine)
+        return {"status": seats.status, "fits": seats.payload}
+    from abu_calc.studies.size import size
+
+    result = size(machine)
+    return {"status": result.status, **result.to_dict()}
+
+
+def _verified(machine: "Machine") -> VerifiedFile:
+    expected = expected_values(machine.tables)
+    if not expected:
+        raise InputError(
+            "nothing is expected of this file",
+            place=Place(machine.file, key="expected"),
+            remedy=f"`abu verify --update {machine.file}` writes its present results.",
+        )
+    values = compare(expected, expected_tolerances(machine.tables), recompute(machine))
+    return VerifiedFile(file=machine.file, values=values)
+
+
+def _check(file: VerifiedFile) -> Check:
+    failed = len(file.failed)
+    remedy = "If the change is meant, write it with --update." if failed else None
+    message = f"{len(file.values)} values, {failed} differ"
+    return Check("ABU901", file.file, verdict(not failed), message, float(failed), 0.0, None, remedy)
