@@ -1,39 +1,85 @@
 """abu-calc: design calculator for passive ball autobalancers.
 
-The names below are the public ones; each is imported when it is first used, so that importing the package costs
-nothing.
+    machine = abu_calc.read("avtovaz-707-222")          # a file, or a preset
+    lighter = machine.changed({"wheel.mass_kg": 0.5})   # checked as if the file said so
+    result = abu_calc.size(lighter)                     # what `abu size` prints, typed
+    result.status, result.autobalancer.ball_count, result.checks, result.to_dict()
 
-    machine = read_machine("machine.toml").machine
-    design = size(machine)
-    simulation = simulate(idle_scene(design))
+Each name is imported when it is first used, so that importing the package costs nothing.
 """
 
 import importlib
-from typing import Any
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.version import __version__
 
-_HOMES = {
-    "AbuError": "errors",
-    "InputError": "errors",
-    "NotTrustworthyError": "errors",
-    "Check": "checks",
-    "read_machine": "spec.read",
-    "Machine": "spec.machine",
-    "size": "sizing",
-    "Design": "sizing",
-    "seat_bearing": "fits.seats",
-    "Scene": "dynamics.scene",
-    "Race": "dynamics.scene",
-    "planar": "dynamics.supports.linear",
-    "idle_scene": "scenes.from_design",
-    "simulate": "analysis.simulate",
+if TYPE_CHECKING:
+    from abu_calc.checks import Check
+    from abu_calc.dynamics.scene import Race, Scene
+    from abu_calc.dynamics.supports.linear import planar
+    from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
+    from abu_calc.spec.read import Machine, read
+    from abu_calc.spec.read_scene import SceneDescription, read_scene
+    from abu_calc.studies.accuracy import AccuracyResult, accuracy
+    from abu_calc.studies.check_fit import CheckFitResult, check_fit
+    from abu_calc.studies.effects import EffectsResult, effects
+    from abu_calc.studies.simulate import SimulateResult, simulate
+    from abu_calc.studies.size import SizeResult, size
+    from abu_calc.studies.stability import StabilityResult, stability
+    from abu_calc.studies.verify import VerifyResult, verify
+
+_ROOMS: Final = {
+    "checks": ("Check",),
+    "dynamics.scene": ("Race", "Scene"),
+    "dynamics.supports.linear": ("planar",),
+    "errors": ("AbuError", "InputError", "NotTrustworthyError", "OutputError", "RangeError"),
+    "spec.read": ("Machine", "read"),
+    "spec.read_scene": ("SceneDescription", "read_scene"),
+    "studies.accuracy": ("AccuracyResult", "accuracy"),
+    "studies.check_fit": ("CheckFitResult", "check_fit"),
+    "studies.effects": ("EffectsResult", "effects"),
+    "studies.simulate": ("SimulateResult", "simulate"),
+    "studies.size": ("SizeResult", "size"),
+    "studies.stability": ("StabilityResult", "stability"),
+    "studies.verify": ("VerifyResult", "verify"),
 }
+"""Where each public name lives."""
 
-__all__ = ["__version__", *sorted(_HOMES)]
+__all__ = [
+    "AbuError",
+    "AccuracyResult",
+    "Check",
+    "CheckFitResult",
+    "EffectsResult",
+    "InputError",
+    "Machine",
+    "NotTrustworthyError",
+    "OutputError",
+    "Race",
+    "RangeError",
+    "Scene",
+    "SceneDescription",
+    "SimulateResult",
+    "SizeResult",
+    "StabilityResult",
+    "VerifyResult",
+    "__version__",
+    "accuracy",
+    "check_fit",
+    "effects",
+    "planar",
+    "read",
+    "read_scene",
+    "simulate",
+    "size",
+    "stability",
+    "verify",
+]
 
+if not TYPE_CHECKING:  # a type checker shall find what is there, and nothing else
 
-def __getattr__(name: str) -> Any:
-    if name in _HOMES:
-        return getattr(importlib.import_module(f"abu_calc.{_HOMES[name]}"), name)
-    raise AttributeError(f"module 'abu_calc' has no attribute {name!r}")
+    def __getattr__(name: str) -> object:
+        for room, names in _ROOMS.items():
+            if name in names:
+                return getattr(importlib.import_module(f"abu_calc.{room}"), name)
+        raise AttributeError(f"module 'abu_calc' has no attribute {name!r}")

@@ -1,6 +1,6 @@
-"""`abu schema [machine|scene]`: the JSON Schema of the files, for editors."""
+"""`abu schema [machine|scene|result]`: the JSON Schema of the files, for editors, and of results, for programs."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -8,19 +8,27 @@ from abu_calc.cli.command import add_command
 from abu_calc.errors import InputError
 from abu_calc.report.outcome import Outcome, to_json
 
-KINDS = ("machine", "scene")
+KINDS = ("machine", "scene", "result")
 
 
 def schema(
-    kind: Annotated[str, typer.Argument(metavar="[machine|scene]", help="Which kind of file.")] = "machine",
+    kind: Annotated[str, typer.Argument(metavar="[machine|scene|result]", help="Which kind of file, or what --json prints.")] = "machine",
 ) -> Outcome:
-    """Print the JSON Schema (draft 4) of machine or scene files, as the editor plugin Even Better TOML takes it."""
-    from abu_calc.spec.schema import machine_schema, scene_schema
-
+    """Print the JSON Schema of machine or scene files (draft 4, as editors take it), or of results (2020-12)."""
     if kind not in KINDS:
         raise InputError("no schema of this kind", found=kind, allowed=", ".join(KINDS))
-    found = scene_schema() if kind == "scene" else machine_schema()
+    found = _schema(kind)
     return Outcome("schema", found, (), plain=to_json(found) + "\n")
+
+
+def _schema(kind: str) -> dict[str, Any]:
+    if kind == "result":
+        from abu_calc.report.result_schema import result_schema
+
+        return result_schema()
+    from abu_calc.spec.schema import machine_schema, scene_schema
+
+    return scene_schema() if kind == "scene" else machine_schema()
 
 
 def register(app: typer.Typer) -> None:

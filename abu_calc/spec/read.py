@@ -1,5 +1,6 @@
 """Machine files, read and found right: document → overrides → tables, every fault told with its place."""
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
     from abu_calc.spec.machine import MachineFile
     from abu_calc.spec.overrides import Override
 
-__all__ = ["LARGEST_FILE", "Machine", "machine_from", "read_machine"]
+__all__ = ["LARGEST_FILE", "Machine", "machine_from", "read", "read_machine"]
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,11 @@ class Machine(Reading):
             place=Place(self.file, key="machine"),
             remedy="Use `abu check-fit`, or add [suspension], [wheel] and [autobalancer].",
         )
+
+
+def read(source: str | os.PathLike[str]) -> Machine:
+    """Reads a machine file, or a preset by its name; raises InputError with file, line, key and remedy."""
+    return read_machine(os.fspath(source))
 
 
 def read_machine(source: str, overrides: Sequence[str] = ()) -> Machine:

@@ -1,5 +1,6 @@
 """Reading a scene file, and files that may hold either a scene or a machine."""
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -29,16 +30,16 @@ class SceneDescription(Reading):
         return _scene_from(self.document, (*self.overrides, *overrides_of(values)))
 
 
-def read_scene(source: str, overrides: Sequence[str] = ()) -> SceneDescription:
+def read_scene(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> SceneDescription:
     """Reads a scene file with entries overridden (`scene.key=value`, typed as TOML).
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
-    document = open_document(source)
+    document = open_document(os.fspath(source))
     if not _holds_scene(document):
         for table, kind in (("machine", "a machine"), ("rig", "readings of a rig")):
             if table in document.content:
-                raise InputError(f"this file holds {kind}, not a scene", place=Place(source, key=table))
+                raise InputError(f"this file holds {kind}, not a scene", place=Place(document.file, key=table))
     return _scene_from(document, parsed_overrides(overrides))
 
 

@@ -81,6 +81,11 @@ class Result(Record):
         """The worst of the checks."""
         return overall(self.checks)
 
+    @classmethod
+    def payload_type(cls) -> Any:
+        """The type of the JSON document's `result`."""
+        return cls
+
     @property
     def payload(self) -> Any:
         """The JSON document's `result`."""

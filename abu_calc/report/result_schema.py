@@ -1,0 +1,122 @@
+"""The JSON Schema of results, drawn from their types: what `--json` prints, key by key."""
+
+import types
+from collections.abc import Mapping
+from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin
+
+from abu_calc.studies.accuracy import AccuracyResult
+from abu_calc.studies.check_fit import CheckFitResult
+from abu_calc.studies.effects import EffectsResult
+from abu_calc.studies.quantity import Quantity, Record, hints, quantities
+from abu_calc.studies.result import Result
+from abu_calc.studies.simulate import SimulateResult
+from abu_calc.studies.size import SizeResult
+from abu_calc.studies.stability import StabilityResult
+from abu_calc.studies.verify import VerifyResult
+from abu_calc.units import unit_of
+
+DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
+
+RESULTS: Final[tuple[type[Result], ...]] = (
+    SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, AccuracyResult, VerifyResult,
+)  # fmt: skip
+
+SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
+
+Schema = dict[str, Any]
+
+
+def result_schema() -> Schema:
+    """The schema of the documents that `--json` prints; each command's result under its name among the definitions."""
+    definitions: dict[str, Schema] = {}
+    results = [_of_command(kind, definitions) for kind in RESULTS]
+    return {
+        "$schema": DRAFT,
+        "title": "abu-calc results",
+        "type": "object",
+        "properties": _envelope(),
+        "required": ["abu", "input", "status", "checks", "result", "model", "warnings"],
+        "allOf": results,
+        "$defs": definitions,
+    }
+
+
+def _envelope() -> Schema:
+    """What every document has; a document of an error has `error` and no result."""
+    text, words = {"type": "string"}, {"type": "array", "items": {"type": "string"}}
+    check = {name: {} for name in ("message", "value", "limit", "unit", "remedy", "bound")}
+    return {
+        "abu": {"type": "object", "properties": {"version": text, "command": text, "schema": {"type": "integer"},
+                                                 "date": text}},
+        "input": {"type": ["object", "null"], "properties": {"file": text, "sha256": text, "overrides": {
+            "type": "object"}, "defaults": {"type": "object"}}},
+        "status": {"enum": ["pass", "fail", "not-done"]},
+        "checks": {"type": "array", "items": {"type": "object", "properties": {
+            "code": text, "name": text, "status": {"enum": ["pass", "fail", "not-done"]}, **check},
+            "required": ["code", "name", "status", *check]}},
+        "result": {},
+        "model": {"type": "object"},
+        "warnings": words,
+        "error": {"type": "object"},
+    }  # fmt: skip
+
+
+def _of_command(kind: type[Result], definitions: dict[str, Schema]) -> Schema:
+    """Where this command speaks, this is its result."""
+    command = {"properties": {"abu": {"properties": {"command": {"const": kind.command}}}}}
+    payload = kind.payload_type()
+    definition = _type(payload, definitions)
+    if get_origin(payload) is not None:  # a list: under the command's own name
+        definitions[kind.__name__], definition = definition, {"$ref": f"#/$defs/{kind.__name__}"}
+    good = {"not": {"required": ["error"]}}
+    return {"if": {"allOf": [command, good]}, "then": {"properties": {"result": definition}}}
+
+
+def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
+    """A reference to the definition of a record."""
+    if kind.__name__ not in definitions:
+        definitions[kind.__name__] = {}  # known from here on, should it hold itself
+        names, told = kind.entries(), quantities(kind)
+        properties = {name: _type(hints(kind)[name], definitions) for name in names}
+        for name in names:
+            if name in told:
+                properties[name] = {"description": _description(name, told[name]), **properties[name]}
+        definitions[kind.__name__] = {
+            "type": "object",
+            "description": (kind.__doc__ or "").split("\n\n")[0],
+            "properties": properties,
+            "required": [name for name in names if name not in kind.optional],
+        }
+    return {"$ref": f"#/$defs/{kind.__name__}"}
+
+
+def _description(name: str, quantity: Quantity) -> str:
+    """Label, symbol, unit and meaning in a line."""
+    unit = unit_of(name)
+    head = " ".join(part for part in (quantity.label, quantity.symbol, f"[{unit}]" if unit else "") if part)
+    return f"{head}: {quantity.meaning}" if quantity.meaning else head
+
+
+def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
+    """The schema of a type."""
+    origin, arguments = get_origin(hint), get_args(hint)
+    if hint is Any:
+        return {}
+    if origin is Annotated:
+        return _type(arguments[0], definitions)
+    if origin is Literal:
+        return {"enum": list(arguments)}
+    if origin in (Union, types.UnionType):
+        return {"anyOf": [_type(one, definitions) for one in arguments]}
+    if origin in (tuple, list):
+        return {"type": "array", "items": _items(arguments, definitions)}
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        return {"type": "object", "additionalProperties": _type(arguments[1], definitions)}
+    if isinstance(hint, type) and issubclass(hint, Record):
+        return _record(hint, definitions)
+    return {"type": SIMPLE[hint]}
+
+
+def _items(arguments: tuple[Any, ...], definitions: dict[str, Schema]) -> Schema:
+    kinds = [one for one in dict.fromkeys(arguments) if one is not Ellipsis]
+    return _type(kinds[0], definitions) if len(kinds) == 1 else {"anyOf": [_type(one, definitions) for one in kinds]}

@@ -1,0 +1,117 @@
+"""Use from Python: typed, what the command prints, and errors that say what is wrong."""
+
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+import abu_calc
+from tests.cli.runner import abu
+
+CLOCK = frozenset({"wall_s", "cold_s"})
+
+
+def without_clock(value: object) -> object:
+    """A result but for the times of the clock."""
+    if isinstance(value, dict):
+        return {key: without_clock(inner) for key, inner in value.items() if key not in CLOCK}
+    return [without_clock(inner) for inner in value] if isinstance(value, list) else value
+
+
+def test_sizing_returns_what_the_command_prints() -> None:
+    machine = abu_calc.read("msh-230").changed({"wheel.mass_kg": 0.6, "autobalancer.rolling_drag_per_s": 20.0})
+    result = abu_calc.size(machine)
+    seen = abu(
+        "size", "msh-230", "--set", "wheel.mass_kg=0.6", "--set", "autobalancer.rolling_drag_per_s=20.0", "--json"
+    )
+    document = seen.document
+    assert without_clock(result.to_dict()) == without_clock(document["result"])
+    assert result.status == document["status"]
+    assert [check.code for check in result.checks] == [check["code"] for check in document["checks"]]
+    assert list(result.warnings) == document["warnings"]
+    assert document["input"]["overrides"] == {"wheel.mass_kg": 0.6, "autobalancer.rolling_drag_per_s": 20.0}
+    assert result.provenance.input == document["input"]
+
+
+@pytest.mark.parametrize(
+    ("values", "key", "part"),
+    [
+        ({"wheel.mass_kg": "heavy"}, "wheel.mass_kg", "number"),
+        ({"wheel.mass_kg": float("nan")}, "wheel.mass_kg", "finite"),
+        ({"wheel.mass_kg": True}, "wheel.mass_kg", "number"),
+        ({"wheel.mass_kg": -1.0}, "wheel.mass_kg", "above 0"),
+        ({"wheel.mas_kg": 1.0}, "wheel.mas_kg", "mass_kg"),
+        ({"bearing[7].shaft_fit": "k6"}, "bearing", ""),
+        ({"": 1.0}, "", "not a key path"),
+    ],
+    ids=str,
+)
+def test_a_wrong_change_is_refused_with_its_key(values: dict[str, object], key: str, part: str) -> None:
+    with pytest.raises(abu_calc.InputError) as refused:
+        abu_calc.read("msh-230").changed(values)
+    assert key in str(refused.value) and part in str(refused.value)
+    assert "--set" not in str(refused.value)
+
+
+def test_a_change_leaves_the_machine_as_it_was() -> None:
+    machine = abu_calc.read("msh-230")
+    changed = machine.changed({"wheel.mass_kg": 0.9}).changed({"limits.settling_time_s": 0.5})
+    assert [override.key for override in changed.overrides] == ["wheel.mass_kg", "limits.settling_time_s"]
+    assert machine.overrides == () and machine.tables != changed.tables
+
+
+def test_a_file_may_be_named_by_a_path(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(abu("presets", "msh-230").out, encoding="utf-8")
+    assert abu_calc.read(file).tables == abu_calc.read("msh-230").tables
+    with pytest.raises(abu_calc.InputError, match="no such file"):
+        abu_calc.read(tmp_path / "other.toml")
+
+
+def test_every_public_name_is_there() -> None:
+    assert all(hasattr(abu_calc, name) for name in abu_calc.__all__)
+    named = {name for names in abu_calc._ROOMS.values() for name in names}
+    assert {*named, "__version__"} == set(abu_calc.__all__)
+    with pytest.raises(AttributeError, match="no attribute 'sise'"):
+        _ = abu_calc.sise  # type: ignore[attr-defined]
+
+
+def test_importing_loads_nothing() -> None:
+    code = "import sys, abu_calc; print(sorted({'numpy', 'pydantic', 'scipy', 'rich'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_a_type_checker_sees_real_types(tmp_path: Path) -> None:
+    script = tmp_path / "use.py"
+    script.write_text(
+        textwrap.dedent("""
+        import abu_calc
+        machine = abu_calc.read("msh-230").changed({"wheel.mass_kg": 0.5})
+        result = abu_calc.size(machine)
+        reveal_type(machine)
+        reveal_type(result.autobalancer.ball_count)
+        reveal_type(result.simulation[0].settling_time_s)
+        reveal_type(abu_calc.check_fit(machine).seats)
+        reveal_type(abu_calc.stability(machine).stable)
+        result.autobalancer.ball_cont
+        abu_calc.sise(machine)
+        """),
+        encoding="utf-8",
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", str(script)],
+        capture_output=True, text=True, check=False, cwd=Path(abu_calc.__file__).parents[1],
+    )  # fmt: skip
+    said = [line.split(": ", 1)[1] for line in done.stdout.splitlines() if line.startswith(str(script))]
+    assert [line.split('"')[1] for line in said if "Revealed type" in line] == [
+        "abu_calc.spec.read.Machine",
+        "builtins.int",
+        "builtins.float | None",
+        "builtins.tuple[abu_calc.studies.seat_records.SeatResult, ...]",
+        "builtins.bool | None",
+    ]
+    errors = [line for line in said if line.startswith("error")]
+    assert len(errors) == 2 and "ball_cont" in errors[0] and "sise" in errors[1]

@@ -1,0 +1,72 @@
+"""What `--json` prints is what `abu schema result` says."""
+
+import json
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from tests.cli.runner import abu
+
+SCENE = """
+[scene]
+support = "planar"
+mass_kg = 1.0
+stiffness_N_per_m = [1.0, 1.0]
+damping_N_s_per_m = [0.2, 0.2]
+speed_rpm = 60.0
+imbalance_g_mm = 10000.0
+duration_s = 20.0
+
+[[scene.race]]
+pitch_radius_mm = 1000.0
+ball_masses_g = [50.0, 50.0]
+rolling_drag_per_s = 1.0
+start_angles_deg = [90.0, -90.0]
+
+[scene.effects]
+race_eccentricity = { magnitude_mm = 0.1 }
+"""
+
+COMMANDS = (
+    *(("size", "msh-230"), ("size", "swing-arm-grinder"), ("check-fit", "mmg-3200k-knife-shaft")),
+    *(("simulate", "scene.toml"), ("simulate", "msh-230", "--audit"), ("stability", "scene.toml", "--speeds", "50:90")),
+    *(("effects", "scene.toml"), ("effects",), ("accuracy", "scene.toml", "--budget", "0.5"), ("verify", "msh-230")),
+    ("size", "no-such-machine"),
+)
+
+
+@pytest.fixture(scope="module")
+def schema() -> dict[str, object]:
+    """The schema of results."""
+    found: dict[str, object] = json.loads(abu("schema", "result").out)
+    jsonschema.Draft202012Validator.check_schema(found)
+    return found
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+def test_every_document_is_as_the_schema_says(
+    schema: dict[str, object], command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("scene.toml").write_text(SCENE, encoding="utf-8")
+    document = abu(*command, "--json").document
+    jsonschema.Draft202012Validator(schema).validate(document)
+
+
+def test_the_schema_refuses_what_is_not_so(schema: dict[str, object]) -> None:
+    document = abu("size", "msh-230", "--json").document
+    document["result"]["autobalancer"]["ball_count"] = "four"
+    with pytest.raises(jsonschema.ValidationError, match="four"):
+        jsonschema.Draft202012Validator(schema).validate(document)
+    document["result"]["autobalancer"].pop("ball_count")
+    with pytest.raises(jsonschema.ValidationError, match="ball_count"):
+        jsonschema.Draft202012Validator(schema).validate(document)
+
+
+def test_numbers_say_what_they_are(schema: dict[str, object]) -> None:
+    """Label, symbol and unit stand in the schema."""
+    definitions = schema["$defs"]
+    assert isinstance(definitions, dict)
+    described = definitions["Autobalancer"]["properties"]["ball_diameter_mm"]["description"]
+    assert described == "ball diameter 2r [mm]"
