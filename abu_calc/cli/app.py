@@ -4,7 +4,6 @@ import codecs
 import importlib
 import os
 import sys
-from typing import Any
 
 import typer
 
@@ -75,15 +74,11 @@ def main(arguments: list[str] | None = None) -> None:
 
 def run(arguments: list[str]) -> int:
     """Run `abu` with these arguments and return its exit status; every error is told in a line or two."""
-    usage_error: Any = typer.BadParameter.__mro__[1]
     command = next((word for word in arguments if not word.startswith("-")), "")
     as_json = "--json" in arguments
     try:
         names = (command,) if command in COMMANDS else COMMANDS
         status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
-    except usage_error as error:
-        asked = f"Try `abu {command} --help`." if command in COMMANDS else "Try `abu --help`."
-        return fail(command, InputError(error.format_message(), remedy=asked), as_json)
     except AbuError as error:
         return fail(command, error, as_json)
     except (KeyboardInterrupt, typer.Abort):
@@ -93,6 +88,10 @@ def run(arguments: list[str]) -> int:
     except OSError as error:
         return fail(command, OutputError(f"cannot be written: {error.strerror}"), as_json=False)
     except Exception as error:
+        # Errors of the parser of command lines, whichever Typer brings along, word themselves so.
+        if worded := getattr(error, "format_message", None):
+            asked = f"Try `abu {command} --help`." if command in COMMANDS else "Try `abu --help`."
+            return fail(command, InputError(worded(), remedy=asked), as_json)
         if os.environ.get("ABU_DEBUG"):
             raise
         return fail(command, error, as_json)

@@ -12,7 +12,9 @@ KINDS = ("machine", "scene", "result")
 
 
 def schema(
-    kind: Annotated[str, typer.Argument(metavar="[machine|scene|result]", help="Which kind of file, or what --json prints.")] = "machine",
+    kind: Annotated[
+        str, typer.Argument(metavar="[machine|scene|result]", help="Which kind of file, or what --json prints.")
+    ] = "machine",
 ) -> Outcome:
     """Print the JSON Schema of machine or scene files (draft 4, as editors take it), or of results (2020-12)."""
     if kind not in KINDS:

@@ -6,8 +6,8 @@ from typing import Any, Final
 from abu_calc.analysis.accuracy import Point, Reference, Study
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import of_scene
-from abu_calc.report.outcome import finite
 from abu_calc.report.numbers import number
+from abu_calc.report.outcome import finite
 
 MARKS: Final = {
     "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",

@@ -8,8 +8,8 @@ from abu_calc.analysis.ledger import Entry, Ledger
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import of_scene
-from abu_calc.report.outcome import finite
 from abu_calc.report.numbers import number
+from abu_calc.report.outcome import finite
 
 WEIGHTS = (
     "A weight is an estimate of what leaving the effect out would change, counted as --accuracy counts errors: axis "

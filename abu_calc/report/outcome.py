@@ -68,8 +68,8 @@ def error_document(command: str, error: BaseException) -> dict[str, Any]:
             "allowed": error.allowed,
             "remedy": error.remedy,
         }
-    return {"abu": _head(command, Provenance.today()), "input": None, "status": "not-done", "checks": [], "result": None, "model": {},
-            "warnings": [], "error": facts}  # fmt: skip
+    return {"abu": _head(command, Provenance.today()), "input": None, "status": "not-done", "checks": [],
+            "result": None, "model": {}, "warnings": [], "error": facts}  # fmt: skip
 
 
 def _head(command: str, provenance: Provenance) -> dict[str, Any]:

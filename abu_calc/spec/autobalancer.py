@@ -1,4 +1,3 @@
-# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """The autobalancer: the room there is for it, how it is made, and what may be pinned."""
 
 from typing import Literal, Self

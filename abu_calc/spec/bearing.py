@@ -1,4 +1,3 @@
-# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """A rolling bearing and its two seats."""
 
 import itertools

@@ -1,4 +1,3 @@
-# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """The machine itself, what it hangs on, and what is asked of it."""
 
 from typing import Annotated, ClassVar, Literal, Self

@@ -1,4 +1,3 @@
-# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """What the machine does besides idling: grinding, running up, hanging on a motor or on a swing arm."""
 
 from typing import Annotated, Final, Literal

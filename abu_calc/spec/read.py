@@ -78,7 +78,7 @@ def _refuse_other_files(document: Mapping[str, object], source: str) -> None:
     """A scene or a set of readings is a good file, only not a machine's."""
     for table, kind in (("scene", "a scene"), ("rig", "readings of a rig")):
         if table in document and "machine" not in document:
-            remedy = "`abu simulate` takes scenes" if table == "scene" else "`abu balance` takes readings"
+            remedy = "`abu simulate` takes scenes" if table == "scene" else None
             raise InputError(f"this file holds {kind}, not a machine", place=Place(source, key=table), remedy=remedy)
 
 

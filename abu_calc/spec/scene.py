@@ -1,4 +1,3 @@
-# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """A scene file: one simulation given outright, and the rules between its tables."""
 
 from typing import Annotated, ClassVar, Final, Literal, Self

@@ -1,4 +1,3 @@
-# ruff: noqa: N815 - the fields are the keys of the file, and units keep their capital letters.
 """What the rotor of a scene hangs on, where that is more than springs in the plane."""
 
 from typing import Annotated, ClassVar, Final, Self

@@ -66,9 +66,7 @@ def _compared(
     else:
         deviation = _deviation(value, found)
     passed = value == found if deviation is None else deviation <= allowed
-    return ComparedValue(
-        path=path, expected=value, found=found, tolerance=allowed, deviation=deviation, passed=passed
-    )
+    return ComparedValue(path=path, expected=value, found=found, tolerance=allowed, deviation=deviation, passed=passed)
 
 
 def current(paths: tuple[str, ...], result: Mapping[str, Any]) -> dict[str, Any]:

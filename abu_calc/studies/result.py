@@ -3,7 +3,7 @@
 import datetime
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from abu_calc.checks import Check, Status, overall
 from abu_calc.studies.quantity import Record, as_plain
@@ -16,13 +16,17 @@ Progress = Callable[[str], None]
 """Gets what is being done, in a few words."""
 
 
+NOTHING: Final = Record()
+"""A model of results that stand on no equations."""
+
+
 def silent(_: str) -> None:
     """For whom does not watch."""
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a result comes from: the file as it was named, its hash, entries replaced, defaults in force, when, by what.
+    """Where a result comes from: the file as named, its hash, entries replaced, defaults in force, when, by what.
 
     `file` None: the input was no file.
     """
@@ -37,7 +41,7 @@ class Provenance:
     @classmethod
     def of(cls, reading: "Reading") -> "Provenance":
         """That of a file that was read."""
-        replaced = dict((override.key, override.value) for override in reading.overrides)
+        replaced = {override.key: override.value for override in reading.overrides}
         return cls.today(reading.file, reading.sha256, tuple(replaced.items()), reading.defaults_used)
 
     @classmethod
@@ -72,7 +76,7 @@ class Result(Record):
     """The machine's name, or the file's."""
     checks: tuple[Check, ...] = ()
     warnings: tuple[str, ...] = ()
-    model: Record = Record()
+    model: Record = NOTHING
     """The SI numbers behind the result, for those who check it by hand."""
     provenance: Provenance
 

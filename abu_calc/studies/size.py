@@ -16,7 +16,7 @@ from abu_calc.studies.design_records import (
     SwingArm,
     Vibration,
 )
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity
 from abu_calc.studies.result import Progress, Provenance, Result, silent
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
