@@ -114,6 +114,7 @@ class BallContact(Effect):
 
     name: ClassVar[str] = "ball_contact"
     kind: ClassVar[Kind] = "dissipative"
+    about: ClassVar[str] = "Balls of one race cannot pass each other: they meet, press and part"
     switches: ClassVar[bool] = True
 
     def __post_init__(self) -> None:

@@ -44,6 +44,10 @@ class DryRollingFriction(Effect):
 
     name: ClassVar[str] = "dry_rolling_friction"
     kind: ClassVar[Kind] = "dissipative"
+    about: ClassVar[str] = (
+        "Dry rolling friction: a ball stands still in its race until it is pulled harder than f "
+        "times its normal force"
+    )
     switches: ClassVar[bool] = True
 
     def __post_init__(self) -> None:

@@ -32,6 +32,8 @@ class Effect:
 
     name: ClassVar[str]
     kind: ClassVar[Kind]
+    about: ClassVar[str]
+    """What it is, in a line, where people choose effects."""
     ball_states: ClassVar[tuple[str, ...]] = ()
     """Names of the states it adds for each ball."""
     switches: ClassVar[bool] = False

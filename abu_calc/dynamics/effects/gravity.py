@@ -36,6 +36,7 @@ class Gravity(Effect):
 
     name: ClassVar[str] = "gravity"
     kind: ClassVar[Kind] = "conservative"
+    about: ClassVar[str] = "Gravity on the balls of a horizontal spindle, toward −y"
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """−g along y on each ball, and its moment about the rotor where that turns freely."""

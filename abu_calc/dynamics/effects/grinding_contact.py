@@ -75,6 +75,7 @@ class GrindingContact(Effect):
 
     name: ClassVar[str] = "grinding_contact"
     kind: ClassVar[Kind] = "driven"
+    about: ClassVar[str] = "Grinding contact: the wheel is pressed to the work on the −y side, where it cuts"
 
     def __post_init__(self) -> None:
         Range("press force", 0, _LARGEST, "N").check(self.press_force)

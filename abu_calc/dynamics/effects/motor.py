@@ -28,6 +28,7 @@ class Motor(Effect):
 
     name: ClassVar[str] = "motor"
     kind: ClassVar[Kind] = "driven"
+    about: ClassVar[str] = "A motor of limited power, whose torque falls linearly from stall to its no-load speed"
 
     @property
     def rotor(self) -> Rotor:

@@ -57,6 +57,7 @@ class TransverseMotion(Effect):
 
     name: ClassVar[str] = "transverse_motion"
     kind: ClassVar[Kind] = "driven"
+    about: ClassVar[str] = "Transverse motion: balls roll across the race too, in its groove, by w along the spindle"
     switches: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
