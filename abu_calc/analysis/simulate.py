@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 Tell = Callable[[str], None]
 """Gets what is being done, in a few words."""
 
-ACCURACY = Range("accuracy", 1e-8, 0.5, key="--accuracy")
+ACCURACY = Range("accuracy", 1e-8, 0.5, key="accuracy")
 
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but

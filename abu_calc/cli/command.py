@@ -1,13 +1,18 @@
-"""A command is a function that returns an Outcome; this adds the options that all commands share."""
+"""A command is a function that returns an Outcome; this adds the options that all commands share.
+
+Its parameters are called like the arguments of the study it asks, so that an error about an argument names the option.
+"""
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import typer
 
 from abu_calc.cli.deliver import Delivery, deliver
+from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
 
 Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="A machine file, or the name of a preset.")]
@@ -35,12 +40,15 @@ def add_command(app: typer.Typer, name: str, function: Callable[..., Outcome]) -
     """Register a command whose function returns an Outcome, with the shared options behind its own."""
     own = inspect.signature(function, eval_str=True).parameters
     shared = inspect.signature(_shared, eval_str=True).parameters
+    options = dict(_options(own))
 
     def run(**given: Any) -> None:
         how = _shared(**{key: given[key] for key in shared})
         how.check()
         wanted = {"how": how} if "how" in own else {}
-        status = deliver(function(**{key: given[key] for key in own if key != "how"}, **wanted), how)
+        with _told_by_option(options):
+            outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
+        status = deliver(outcome, how)
         if status:
             raise typer.Exit(status)
 
@@ -53,3 +61,24 @@ def add_command(app: typer.Typer, name: str, function: Callable[..., Outcome]) -
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     run.__doc__ = function.__doc__
     app.command(name)(run)
+
+
+def _options(parameters: Mapping[str, inspect.Parameter]) -> Iterator[tuple[str, str]]:
+    """Parameters, and the options that set them."""
+    for name, parameter in parameters.items():
+        for extra in get_args(parameter.annotation)[1:]:
+            # What is declared first stands where typer puts a default, as long as it has not looked at it.
+            declared = (getattr(extra, "default", None), *(getattr(extra, "param_decls", None) or ()))
+            yield from ((name, each) for each in declared if isinstance(each, str) and each.startswith("--"))
+
+
+@contextmanager
+def _told_by_option(options: Mapping[str, str]) -> Iterator[None]:
+    """Errors about an argument name its option; those about entries of a file stay as they are."""
+    try:
+        yield
+    except InputError as error:
+        option = options.get(error.place.key or "")
+        if option is None or error.place.file is not None:
+            raise
+        raise error.at(Place(key=option)) from None

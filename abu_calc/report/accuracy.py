@@ -1,13 +1,12 @@
-"""The price list of a scene as a result, as a table, and as a picture in plain characters."""
+"""The price list of a scene as a table, and as a picture in plain characters."""
 
 import math
-from typing import Any, Final
+from typing import Final
 
-from abu_calc.analysis.accuracy import Point, Reference, Study
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.report.common import of_scene
 from abu_calc.report.numbers import number
-from abu_calc.report.outcome import finite
+from abu_calc.report.parts import notices, of_scene, provenance_blocks
+from abu_calc.studies.accuracy import AccuracyResult, MeasuredPoint
 
 MARKS: Final = {
     "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
@@ -24,63 +23,29 @@ ABOUT: Final = (
 )
 
 
-def study_result(study: Study) -> dict[str, Any]:
-    """The study under the keys of the interface."""
-    return {
-        "quantity": study.quantity,
-        "accuracy": study.accuracy,
-        "reference": _reference(study.reference),
-        "points": [point_result(point) for point in study.points],
-        "chosen": None if study.chosen is None else point_result(study.chosen),
-        "skipped": list(study.skipped),
-    }
-
-
-def point_result(point: Point) -> dict[str, Any]:
-    """One point; what could not be computed is null, with a note."""
-    return {
-        "rung": point.rung,
-        "integrator": point.integrator,
-        "tolerance": point.tolerance,
-        "error": finite(point.error),
-        "evaluations": point.evaluations,
-        "steps": point.steps,
-        "wall_s": finite(point.wall_s),
-        "cold_s": finite(point.cold_s),
-        "note": point.note,
-    }
-
-
-def _reference(reference: Reference) -> dict[str, Any]:
-    return {
-        "integrators": list(reference.integrators),
-        "tolerances": list(reference.tolerances),
-        "disagreement": reference.disagreement,
-        "wall_s": reference.wall_s,
-    }
-
-
-def study_blocks(title: str, scene: str, study: Study) -> tuple[Block, ...]:
+def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
     """The whole report."""
-    reference = study.reference
+    reference = result.reference
     sure = (
         f"Reference: {reference.integrators[0]} at {reference.tolerances[0]:g} and {reference.integrators[1]} at "
         f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}; {reference.wall_s:.1f} s."
     )
-    skipped = [Paragraph(f"Not measured in the time allowed (--budget): {', '.join(_grouped(study.skipped))}.")]
+    skipped = [Paragraph(f"Not measured in the time allowed (--budget): {', '.join(_grouped(result.skipped))}.")]
     return (
-        Heading(f"{title}: what accuracy costs, the {study.quantity}{of_scene(scene)}"),
-        Paragraph(_chosen(study), "fail" if study.chosen is None else "pass"),
+        Heading(f"{result.title}: what accuracy costs, the {result.quantity}{of_scene(result.scene)}"),
+        Paragraph(_chosen(result), "fail" if result.chosen is None else "pass"),
         Paragraph(sure),
         Heading("Points"),
-        _grid(study),
-        *(Paragraph(line) for line in _not_computed(study.points)),
-        *(skipped if study.skipped else []),
+        _grid(result),
+        *(Paragraph(line) for line in _not_computed(result.points)),
+        *(skipped if result.skipped else []),
         Heading("Error against time"),
-        *(Paragraph(line, indent=0) for line in picture(study.points)),
+        *(Paragraph(line, indent=0) for line in picture(result.points)),
         Paragraph(", ".join(f"{mark} {name}" for name, mark in MARKS.items()) + "; small letters: everything."),
         Heading("Conventions"),
         Paragraph(ABOUT),
+        *notices(result),
+        *provenance_blocks(result.provenance),
     )
 
 
@@ -93,7 +58,7 @@ def _grouped(names: tuple[str, ...]) -> list[str]:
     return [f"{method} {'/'.join(tolerances)}".rstrip() for method, tolerances in groups.items()]
 
 
-def _not_computed(points: tuple[Point, ...]) -> list[str]:
+def _not_computed(points: tuple[MeasuredPoint, ...]) -> list[str]:
     """Why points have no error, each reason once with those it holds for."""
     groups: dict[str, dict[str, None]] = {}
     for point in points:
@@ -103,22 +68,22 @@ def _not_computed(points: tuple[Point, ...]) -> list[str]:
     return [f"Not computed by {', '.join(methods)}: {reason}." for reason, methods in groups.items()]
 
 
-def _chosen(study: Study) -> str:
-    one = study.chosen
+def _chosen(result: AccuracyResult) -> str:
+    one = result.chosen
     if one is None or one.error is None or one.wall_s is None:
-        return f"Nothing measured reaches an error of {study.accuracy:g}."
+        return f"Nothing measured reaches an error of {result.accuracy:g}."
     tolerance = "" if one.tolerance is None else f" at tolerance {one.tolerance:g}"
     method = one.rung if one.integrator is None else f"{one.rung}, {one.integrator}{tolerance}"
-    return f"For an error of {study.accuracy:g}: {method}; error {number(one.error, 2)}, {_time(one.wall_s)}."
+    return f"For an error of {result.accuracy:g}: {method}; error {number(one.error, 2)}, {_time(one.wall_s)}."
 
 
-def _grid(study: Study) -> Grid:
+def _grid(result: AccuracyResult) -> Grid:
     rows = tuple(
         (point.rung, (point.integrator or "").removeprefix("scipy-"),
          "" if point.tolerance is None else f"{point.tolerance:.0e}",
          "-" if point.error is None else f"{point.error:.1e}", str(point.evaluations or ""),
          _time(point.wall_s), _time(point.cold_s))
-        for point in study.points
+        for point in result.points
     )  # fmt: skip
     return Grid(("rung", "by", "tolerance", "error", "evaluations", "warm", "cold"), rows, frozenset({2, 3, 4, 5, 6}))
 
@@ -129,7 +94,7 @@ def _time(seconds: float | None) -> str:
     return f"{seconds:.3g} s" if seconds >= 1 else f"{1000 * seconds:.3g} ms"
 
 
-def picture(points: tuple[Point, ...]) -> list[str]:
+def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
     """Error upward, time to the right, both in decades."""
     known = [(math.log10(point.wall_s), math.log10(max(point.error, 1e-16)), _mark(point))
              for point in points if point.wall_s and point.error is not None]  # fmt: skip
@@ -154,6 +119,6 @@ def picture(points: tuple[Point, ...]) -> list[str]:
     return [*lines, f"{'error':>8} +{'-' * WIDTH}", f"{'':8}  {''.join(axis).rstrip()} s"]
 
 
-def _mark(point: Point) -> str:
+def _mark(point: MeasuredPoint) -> str:
     mark = MARKS[point.rung if point.rung in MARKS else point.integrator or ""]
     return mark.lower() if point.rung == "everything" else mark

@@ -1,4 +1,4 @@
-"""The SI numbers and states of a scene that is integrated."""
+"""The SI numbers and states of a scene that is integrated, and what it is in words."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -97,3 +97,21 @@ def _support(scene: Scene) -> Mapping[str, object]:
         "gyroscopic_kg_m2": support.gyroscopic,
         "race_map": support.race_map,
     }
+
+
+def in_words(scene: Scene) -> str:
+    """Support, races and balls in a sentence."""
+    races, balls = len(scene.races), len(scene.ball_masses)
+    contact = "" if scene.effect("ball_contact") or balls < 2 else "; balls pass through each other"
+    where = "one race" if races == 1 else f"{races} races"
+    return f"{_support_in_words(scene)}, {where} with {balls} balls in all, viscous rolling drag{contact}."
+
+
+def _support_in_words(scene: Scene) -> str:
+    support = scene.support
+    if isinstance(support, SwingArm):
+        return "Rotor on a swing arm"
+    if support.tilts:
+        return "Rigid rotor that moves in its plane and tilts"
+    more = len(support.names) - 2
+    return "Planar support" + (f" with {more} more coordinates" if more else "")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from abu_calc.analysis.idle import idle_checks, not_simulated
 from abu_calc.analysis.machine import Run, simulated
 from abu_calc.analysis.region import true_region
+from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 from abu_calc.studies.design_records import (
@@ -55,6 +56,7 @@ def size(machine: "Machine", accuracy: float = 0.01, progress: Progress = silent
 
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
+    ACCURACY.check(accuracy)
     tables = machine.whole("size")
     with machine.located():
         design = size_design(tables)

@@ -1,73 +1,107 @@
-"""What a study of a scene works on: the scene of a scene file, or one of a machine that is sized."""
+"""What a study of a scene works on: a scene of a machine that is sized, that of a scene file, or one made in a script.
 
-from dataclasses import dataclass
+All keep every effect there is data for: which of them are simulated is decided by their weights, see `Subject.ledger`.
+"""
+
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
-from abu_calc.scenes.from_design import STARTS, contact_half_angle, scene_of_design
-from abu_calc.scenes.from_scene import scene_from
+from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scene_of_design
+from abu_calc.scenes.from_scene import lasting, scene_from
 from abu_calc.sizing import size
+from abu_calc.spec.document import Reading
 from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import SceneDescription
+from abu_calc.studies.arguments import check_effects, one_of
+from abu_calc.studies.result import Provenance
+
+Source = Machine | SceneDescription | Scene
+"""A machine's file, a scene file, or a scene in SI."""
 
 
 @dataclass(frozen=True)
 class Subject:
     """A scene with all effects there is data for, and where it comes from.
 
-    `half_angle` of touching balls [rad], 0 without size; `start`: how the balls start, in words.
+    `half_angle` of touching balls [rad], 0 without size; `start`: how the balls start, in words; `reading`: the file,
+    if there is one.
     """
 
     title: str
-    source: Machine | SceneDescription
+    reading: Reading | None
     scene: Scene
     start: str
-    half_angle: float
-    warnings: tuple[str, ...]
+    half_angle: float = 0.0
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def provenance(self) -> Provenance:
+        """Where a result about it comes from."""
+        return Provenance.today() if self.reading is None else Provenance.of(self.reading)
+
+    def located(self) -> AbstractContextManager[None]:
+        """Gives errors that know only a key the file and the line they come from."""
+        return nullcontext() if self.reading is None else self.reading.located()
+
+    def lasting(self, duration_s: float | None) -> "Subject":
+        """With another duration, if one is given; refused where it is longer than can be integrated."""
+        if duration_s is not None:
+            return replace(self, scene=lasting(self.scene, duration_s, "duration_s"))
+        with self.located():
+            return replace(self, scene=lasting(self.scene, None, "scene.duration_s"))
+
+    def ledger(self, accuracy: float, with_effects: Sequence[str] = (), without_effects: Sequence[str] = ()) -> Ledger:
+        """The scene with the effects it calls for, and why."""
+        check_effects([effect.name for effect in self.scene.effects], with_effects, without_effects)
+        with self.located():
+            return chosen(self.scene, accuracy, with_effects, without_effects)
 
 
-def subject_of(source: Machine | SceneDescription, scene: str | None = None, start: str | None = None) -> Subject:
-    """The scene of a file; which one (`idle` unless said) and how the balls start are asked of machines only."""
+def subject_of(source: Source, scene: str | None = None, start: str | None = None) -> Subject:
+    """What a source is about; which scene (`idle` unless said) and how the balls start are asked of machines only."""
     if isinstance(source, Machine):
         return _of_machine(source, scene or "idle", start or "bunched")
-    for option, value in (("--scene", scene), ("--start", start)):
+    subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
+    for argument, value in (("scene", scene), ("start", start)):
         if value is not None:
             raise InputError(
-                f"{option} is for machines; {source.file} holds one scene, given outright",
-                remedy=f"Leave {option} out.",
+                f"for machines only; {subject.title} is one scene, given outright",
+                place=Place(key=argument),
+                found=value,
+                remedy="Leave it out.",
             )
-    return _of_scene(source)
+    return subject
 
 
 def _of_machine(machine: Machine, scene: str, start: str) -> Subject:
+    one_of("scene", scene, SCENES)
+    one_of("start", start, STARTS)
     tables = machine.whole("simulate")
-    if start not in STARTS:
-        raise InputError(
-            "not one of the known starts", place=Place(key="start"), found=start, allowed=", ".join(STARTS)
-        )
-    chosen = next(each for each in STARTS if each == start)
+    chosen_start = next(each for each in STARTS if each == start)
     with machine.located():
         design = size(tables)
-        full = scene_of_design(design, scene, chosen)
+        full = scene_of_design(design, scene, chosen_start)
     return Subject(
         title=tables.machine.name,
-        source=machine,
+        reading=machine,
         scene=full,
-        start=STARTS[chosen],
+        start=STARTS[chosen_start],
         half_angle=contact_half_angle(design),
         warnings=(*machine.warnings, *design.warnings),
     )
 
 
-def _of_scene(description: SceneDescription) -> Subject:
+def _of_file(description: SceneDescription) -> Subject:
     with description.located():
         scene = scene_from(description.scene)
-    return Subject(
-        title=Path(description.file).name,
-        source=description,
-        scene=scene,
-        start="as the file says",
-        half_angle=0.0,
-        warnings=description.warnings,
-    )
+    title, start = Path(description.file).name, "as the file says"
+    return Subject(title, description, scene, start, warnings=description.warnings)
+
+
+def _of_script(scene: Scene) -> Subject:
+    return Subject(scene.name, None, scene, "as the scene says")

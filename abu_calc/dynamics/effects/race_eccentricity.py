@@ -25,8 +25,7 @@ class RaceEccentricity(Effect):
     name: ClassVar[str] = "race_eccentricity"
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = (
-        "Race eccentricity: the races' centres stand off the axis of rotation by Δ at the angle φ "
-        "in the rotor"
+        "Race eccentricity: the races' centres stand off the axis of rotation by Δ at the angle φ in the rotor"
     )
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:

@@ -27,8 +27,7 @@ class RunUp(Effect):
     name: ClassVar[str] = "run_up"
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = (
-        "Run-up and run-down: the rotor's speed rises from 0 to Ω at an even pace, and falls to 0 "
-        "at the end of the run"
+        "Run-up and run-down: the rotor's speed rises from 0 to Ω at an even pace, and falls to 0 at the end of the run"
     )
 
     @property

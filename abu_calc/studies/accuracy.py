@@ -1,0 +1,124 @@
+"""What accuracy costs: every way to compute a scene, its error and its time."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Final, Self
+
+from abu_calc.analysis.accuracy import Point, Study
+from abu_calc.analysis.accuracy import Reference as ReferenceRun
+from abu_calc.analysis.accuracy import study as measured
+from abu_calc.analysis.differences import QUANTITIES
+from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.checks import Check, verdict
+from abu_calc.studies.arguments import one_of
+from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.result import Progress, Result, silent
+from abu_calc.studies.scene_model import SceneModel
+from abu_calc.studies.simulated_scene import finite
+from abu_calc.studies.subject import Source, subject_of
+from abu_calc.validity import Range
+
+BUDGET: Final = Range("budget", 0.1, 3600.0, "s", key="budget_s")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredPoint(Record):
+    """One way to compute; without a number of it, `note` says why."""
+
+    rung: Annotated[str, Quantity("rung", "", 4, "closed-form, envelope, equations, or everything: with all effects")]
+    integrator: Annotated[str | None, Quantity("by")]
+    tolerance: Annotated[float | None, Quantity("tolerance", "", 1)]
+    error: Annotated[float | None, Quantity("error", "", 2, "against the reference")]
+    evaluations: Annotated[int, Quantity("evaluations")]
+    steps: Annotated[int, Quantity("steps")]
+    wall_s: Annotated[float | None, Quantity("warm", "", 3, "median of repeats, everything loaded")]
+    cold_s: Annotated[float | None, Quantity("cold", "", 3, "the first run, with import and compilation")]
+    note: Annotated[str, Quantity("note")]
+
+    @classmethod
+    def of(cls, point: Point) -> Self:
+        """That of a measurement."""
+        return cls(
+            rung=point.rung, integrator=point.integrator, tolerance=point.tolerance, error=finite(point.error),
+            evaluations=point.evaluations, steps=point.steps, wall_s=finite(point.wall_s), cold_s=finite(point.cold_s),
+            note=point.note,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference(Record):
+    """What errors are counted from: two methods; how far they are apart, and errors are no surer."""
+
+    integrators: Annotated[tuple[str, ...], Quantity("integrators")]
+    tolerances: Annotated[tuple[float, ...], Quantity("tolerances", "", 1)]
+    disagreement: Annotated[float, Quantity("disagreement", "", 2)]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)]
+
+    @classmethod
+    def of(cls, run: ReferenceRun) -> Self:
+        """That of a study."""
+        return cls(
+            integrators=run.integrators, tolerances=run.tolerances, disagreement=run.disagreement, wall_s=run.wall_s
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class AccuracyResult(Result):
+    """The price list of a scene."""
+
+    command: ClassVar[str] = "accuracy"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"scene"}
+
+    scene: str
+    quantity: Annotated[str, Quantity("quantity", "", 4, "amplitude, level, settling or angles")]
+    accuracy: Annotated[float, Quantity("accuracy asked for", "", 2)]
+    reference: Reference
+    points: tuple[MeasuredPoint, ...]
+    chosen: MeasuredPoint | None
+    """The quickest whose error is below the accuracy."""
+    skipped: Annotated[tuple[str, ...], Quantity("not measured in the time allowed")]
+
+
+def accuracy(
+    source: Source,
+    scene: str | None = None,
+    start: str | None = None,
+    *,
+    quantity: str = "amplitude",
+    accuracy: float = 0.01,
+    budget_s: float = 20.0,
+    duration_s: float | None = None,
+    progress: Progress = silent,
+) -> AccuracyResult:
+    """Measure what the accuracy of a quantity of a scene costs, within a budget of time.
+
+    `scene` and `start` choose among those of a machine. Raises InputError for what is wrong in file or arguments,
+    NotTrustworthyError where two methods do not agree on a reference.
+    """
+    ACCURACY.check(accuracy)
+    one_of("quantity", quantity, QUANTITIES)
+    BUDGET.check(budget_s)
+    subject = subject_of(source, scene, start).lasting(duration_s)
+    ledger = subject.ledger(accuracy)
+    found = measured(subject.scene, ledger, quantity, accuracy, budget_s, progress)
+    return AccuracyResult(
+        title=subject.title,
+        checks=(_affordable(found),),
+        warnings=subject.warnings,
+        model=SceneModel.of(ledger.scene),
+        provenance=subject.provenance,
+        scene=subject.scene.name,
+        quantity=found.quantity,
+        accuracy=found.accuracy,
+        reference=Reference.of(found.reference),
+        points=tuple(map(MeasuredPoint.of, found.points)),
+        chosen=None if found.chosen is None else MeasuredPoint.of(found.chosen),
+        skipped=found.skipped,
+    )
+
+
+def _affordable(found: Study) -> Check:
+    best = found.chosen
+    message = "a way to compute was measured whose error is below the accuracy"
+    return Check("ABU811", "accuracy affordable", verdict(best is not None), message,
+                 None if best is None else best.error, found.accuracy, None,
+                 None if best else "More time (--budget), or less accuracy.")  # fmt: skip

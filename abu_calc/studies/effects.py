@@ -1,0 +1,92 @@
+"""The effects there are; of a scene: which are simulated, what each weighs, and why."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.checks import Status
+from abu_calc.dynamics.effects.registry import REGISTRY
+from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.result import Provenance, Result
+from abu_calc.studies.scene_model import SceneModel
+from abu_calc.studies.simulated_scene import EffectEntry, effect_entries
+from abu_calc.studies.subject import Source, subject_of
+
+
+@dataclass(frozen=True, kw_only=True)
+class KnownEffect(Record):
+    """An effect this version knows."""
+
+    name: Annotated[str, Quantity("effect")]
+    kind: Annotated[str, Quantity("kind", "", 4, "conservative, dissipative or driven")]
+    about: Annotated[str, Quantity("what it is")]
+    table: Annotated[str, Quantity("table of a scene file")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class KnownEffectsResult(Result):
+    """All effects there are."""
+
+    command: ClassVar[str] = "effects"
+
+    effects: tuple[KnownEffect, ...]
+
+    @property
+    def status(self) -> Status:
+        """A list cannot fail."""
+        return "pass"
+
+
+@dataclass(frozen=True, kw_only=True)
+class EffectsResult(Result):
+    """The effects a scene has data for."""
+
+    command: ClassVar[str] = "effects"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"promise"}
+
+    scene: Annotated[str, Quantity("scene")]
+    accuracy: Annotated[float, Quantity("accuracy asked for", "", 2)]
+    effects: tuple[EffectEntry, ...]
+    promise: Annotated[float, Quantity("weights of what is left out, together", "", 2)]
+
+    @property
+    def status(self) -> Status:
+        """A list cannot fail."""
+        return "pass"
+
+
+def known_effects() -> KnownEffectsResult:
+    """Every effect, in the order in which scenes hold them."""
+    return KnownEffectsResult(
+        title="Effects",
+        provenance=Provenance.today(),
+        effects=tuple(
+            KnownEffect(name=name, kind=kind.kind, about=kind.about, table=f"scene.effects.{name}")
+            for name, kind in REGISTRY
+        ),
+    )
+
+
+def effects(
+    source: Source,
+    scene: str | None = None,
+    *,
+    accuracy: float = 0.01,
+    with_effects: Sequence[str] = (),
+    without_effects: Sequence[str] = (),
+) -> EffectsResult:
+    """Which effects of a scene `simulate` takes in at an accuracy, and why. Raises InputError."""
+    ACCURACY.check(accuracy)
+    subject = subject_of(source, scene)
+    ledger = subject.ledger(accuracy, with_effects, without_effects)
+    return EffectsResult(
+        title=subject.title,
+        warnings=subject.warnings,
+        model=SceneModel.of(ledger.scene),
+        provenance=subject.provenance,
+        scene=ledger.scene.name,
+        accuracy=accuracy,
+        effects=effect_entries(ledger),
+        promise=ledger.promise,
+    )

@@ -1,0 +1,96 @@
+"""One scene integrated: amplitude, level, settling time, where the balls end, and how sure that is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar, Final
+
+from abu_calc.analysis.audit import Audit
+from abu_calc.analysis.audit import audit as with_all_effects
+from abu_calc.analysis.simulate import ACCURACY, Simulation
+from abu_calc.analysis.simulate import simulate as integrated
+from abu_calc.checks import Check, verdict
+from abu_calc.studies.arguments import one_of
+from abu_calc.studies.motion import Motion, equally_spaced
+from abu_calc.studies.result import Progress, Result, silent
+from abu_calc.studies.scene_model import SceneModel, in_words
+from abu_calc.studies.simulated_scene import SimulatedScene
+from abu_calc.studies.subject import Source, subject_of
+
+INTEGRATORS: Final = ("auto", "scipy", "heyoka")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimulateResult(SimulatedScene, Result):
+    """One scene that was simulated; beside what is printed, how it moved."""
+
+    command: ClassVar[str] = "simulate"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "run"}
+
+    description: str
+    """Support, races and balls, in a sentence."""
+    start: str
+    """How it starts, in words."""
+    motion: Motion | None = field(compare=False, repr=False)
+    """Axis and balls at the times asked for; None where none were."""
+    run: Simulation = field(compare=False, repr=False)
+    """The run itself, in SI: scene, response, trajectory with all its states."""
+
+
+def simulate(
+    source: Source,
+    scene: str | None = None,
+    start: str | None = None,
+    *,
+    accuracy: float = 0.01,
+    duration_s: float | None = None,
+    with_effects: Sequence[str] = (),
+    without_effects: Sequence[str] = (),
+    integrator: str = "auto",
+    audit: bool = False,
+    samples: int | None = None,
+    progress: Progress = silent,
+) -> SimulateResult:
+    """Integrate one scene to `accuracy`: of amplitude and settling time relative, of ball angles in rad.
+
+    `scene` and `start` choose among those of a machine (idle; balls bunched). The effects there is data for are in as
+    far as their weights ask for it, and as `with_effects` and `without_effects` say; with `audit` all of them once
+    more. `samples`: equally spaced times to keep the motion at. Raises InputError for what is wrong in file or
+    arguments, NotTrustworthyError where the accuracy is not reached.
+    """
+    ACCURACY.check(accuracy)
+    one_of("integrator", integrator, INTEGRATORS)
+    subject = subject_of(source, scene, start).lasting(duration_s)
+    times = equally_spaced(subject.scene, samples)
+    ledger = subject.ledger(accuracy, with_effects, without_effects)
+    run = integrated(ledger.scene, accuracy - ledger.spared, times, integrator=integrator, tell=progress)
+    audited = with_all_effects(subject.scene, ledger, run, accuracy, integrator, progress) if audit else None
+    checks = (_reached(run, ledger.spared, accuracy), *((_left_out(audited, accuracy),) if audited else ()))
+    return SimulateResult(
+        **vars(SimulatedScene.of(run, ledger, audit=audited)),
+        title=subject.title,
+        checks=checks,
+        warnings=(*subject.warnings, *run.warnings),
+        model=SceneModel.of(run.scene),
+        provenance=subject.provenance,
+        description=in_words(run.scene),
+        start=subject.start,
+        motion=Motion.of(run, times) if times else None,
+        run=run,
+    )
+
+
+def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
+    message = "two runs, a decade of tolerance apart, agree in amplitude, settling time and ball angles"
+    if run.rung == "envelope":
+        message = "averages of two orders, and what both leave out, agree in amplitude, settling time and ball angles"
+    message += f"; the effects left out may change {spared:.2g} of it" if spared else ""
+    error = run.error_estimate + spared
+    return Check("ABU801", "accuracy reached", verdict(error <= accuracy), message, error, accuracy, None, None)
+
+
+def _left_out(audited: Audit, accuracy: float) -> Check:
+    message = "with every effect in, amplitude, settling time and ball angles differ by no more than the accuracy"
+    remedy = "Ask for more accuracy, or take effects in: --with EFFECT."
+    held = audited.difference <= accuracy
+    return Check("ABU803", "effects left out", verdict(held), message, audited.difference, accuracy, None,
+                 None if held else remedy)  # fmt: skip

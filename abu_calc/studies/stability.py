@@ -1,0 +1,115 @@
+"""Whether the balanced state of a scene is stable, and at which speeds that changes."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Final
+
+from abu_calc.checks import Check, verdict
+from abu_calc.dynamics.balanced.stability import Boundary, Stability, boundaries, critical_damping
+from abu_calc.dynamics.balanced.stability import stability as judged
+from abu_calc.errors import InputError, Place
+from abu_calc.studies.arguments import one_of
+from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
+from abu_calc.studies.quantity import Quantity
+from abu_calc.studies.result import Result
+from abu_calc.studies.scene_model import SceneModel
+from abu_calc.studies.simulated_scene import finite
+from abu_calc.studies.stability_warnings import stability_warnings
+from abu_calc.studies.subject import Source, Subject, subject_of
+from abu_calc.units import from_si, to_si, wrapped_deg
+
+SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
+"""Those of a machine with a balanced state; a run-up passes through all speeds, and a wheel at work is held."""
+
+FASTEST_RPM: Final = 1e6
+SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
+"""The range of speeds that can be asked for, in words."""
+
+Pairs = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StabilityResult(Result):
+    """The balanced state of a scene at its speed; complex numbers as real and imaginary part."""
+
+    command: ClassVar[str] = "stability"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    state: Annotated[str | None, Quantity("state judged", "", 4, "balanced, race still or arm alone")]
+    stable: Annotated[bool | None, Quantity("stable")]
+    growth_rate_per_s: Annotated[float | None, Quantity("growth rate of a disturbance", "max Re λ")]
+    eigenvalues: Annotated[Pairs | None, Quantity("eigenvalues", "λ", 5, "1/s")]
+    floquet_multipliers: Annotated[Pairs | None, Quantity("Floquet multipliers of one revolution", "μ", 5)]
+    critical_damping_N_s_per_m: Annotated[float | None, Quantity("damping against parametric resonance", "h_sh")]
+    resting_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
+    effects_left_out: Annotated[tuple[str, ...], Quantity("effects left out of the linear motion")]
+    boundaries_rpm: tuple[StabilityBoundary, ...] | None
+    searched_rpm: tuple[float, float] | None
+    """The range of speeds that boundaries were looked for in."""
+
+
+def stability(
+    source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None
+) -> StabilityResult:
+    """Judge the balanced state of a scene by eigenvalues or Floquet multipliers.
+
+    `scene`: of a machine, see `SCENES`. With `speeds_rpm`, low and high, also every speed between them where stability
+    changes. Raises InputError, and NotTrustworthyError where multipliers do not settle.
+    """
+    one_of("scene", scene, SCENES)
+    _check_speeds(speeds_rpm)
+    subject = subject_of(source, scene)
+    found = judged(subject.scene, subject.half_angle)
+    # Where nothing can be said of one speed, nothing can be said of others.
+    limits = _limits(subject, speeds_rpm) if speeds_rpm and found.reason is None else None
+    return StabilityResult(
+        title=subject.title,
+        checks=(_check(found),),
+        warnings=(*subject.warnings, *stability_warnings(found, subject.scene)),
+        model=SceneModel.of(subject.scene),
+        provenance=subject.provenance,
+        speed_rpm=from_si(found.speed, "rpm"),
+        state=found.state,
+        stable=found.stable,
+        growth_rate_per_s=finite(found.growth_rate),
+        eigenvalues=_pairs(found.eigenvalues),
+        floquet_multipliers=_pairs(found.multipliers),
+        critical_damping_N_s_per_m=critical_damping(subject.scene),
+        resting_angles_deg=None if found.angles is None else tuple(map(wrapped_deg, found.angles)),
+        effects_left_out=found.left_out,
+        boundaries_rpm=None if limits is None else stability_boundaries(limits),
+        searched_rpm=speeds_rpm,
+    )
+
+
+def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
+    if speeds_rpm is None or 0 < speeds_rpm[0] < speeds_rpm[1] <= FASTEST_RPM:
+        return
+    found = ":".join(f"{speed:g}" for speed in speeds_rpm)
+    raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=found, allowed=SPEEDS)
+
+
+def _limits(subject: Subject, speeds_rpm: tuple[float, float]) -> tuple[Boundary, ...]:
+    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    return boundaries(subject.scene, low, high, subject.half_angle)
+
+
+def _pairs(values: tuple[complex, ...] | None) -> Pairs | None:
+    return None if values is None else tuple((value.real, value.imag) for value in values)
+
+
+def _check(found: Stability) -> Check:
+    name = ("ABU802", "stability of the balanced state")
+    if found.reason is not None:
+        return Check(*name, "not-done", found.reason, unit="1/s",
+                     remedy="A second race in another plane, or bearings alike along x and y.")  # fmt: skip
+    if found.angles is None:
+        return Check(
+            *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
+            remedy="Heavier or more balls, a larger race, or a better balanced rotor.",
+        )  # fmt: skip
+    message = "every small disturbance dies out"
+    if not found.stable:
+        message = "not every small disturbance dies out, although the balls could balance here"
+    remedy = None if found.stable else "Leave the forbidden speeds (--speeds finds them), or change drag and damping."
+    return Check(*name, verdict(bool(found.stable)), message, finite(found.growth_rate), 0.0, "1/s", remedy)

@@ -1,0 +1,45 @@
+"""What to know of how the stability of a balanced state was found."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from abu_calc.dynamics.balanced.stability import Stability
+from abu_calc.dynamics.scene import Scene
+
+BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})
+"""Effects that leave the balanced state as it is, to the first order."""
+
+
+def stability_warnings(found: Stability, scene: Scene) -> Iterator[str]:
+    """Each a sentence or two."""
+    yield from _state_judged(found, scene)
+    if found.multipliers is not None:
+        yield (
+            "What is felt of the support changes as the rotor turns: Floquet multipliers of one revolution stand in "
+            "place of eigenvalues."
+        )
+    most = max((len(race.ball_masses) for race in scene.races), default=0)
+    if found.angles is not None and most > 2:
+        yield (
+            f"{most} balls of a race can balance in many arrangements; judged is the one spread about the light "
+            "side with even gaps between equal balls. The neutral motions from one arrangement to another do not count."
+        )
+    others = [name for name in found.left_out if name not in BALANCED_TO_FIRST_ORDER]
+    if others:
+        yield f"Left out of the linear motion, at steady speed: {', '.join(others)}."
+
+
+def _state_judged(found: Stability, scene: Scene) -> Iterator[str]:
+    """Where it is not the balls opposite the imbalance, the axis still."""
+    if found.reason:
+        yield f"No eigenvalues: {found.reason}."
+    elif found.state is None:
+        yield "No eigenvalues: there is no balanced state at this speed."
+    if found.state == "race still":
+        yield (
+            "The race is not in the plane of the imbalance: its balls hold the race itself still, the axis keeps "
+            "moving elsewhere. That state is judged."
+        )
+    if found.state == "arm alone":
+        why = "the balls cannot carry the imbalance" if scene.ball_masses else "there are no balls"
+        yield f"Judged is the forced motion of the arm alone with its imbalance: {why}."
