@@ -1,6 +1,5 @@
 """The price list of a scene: what is measured, chosen, skipped and refused."""
 
-import json
 import math
 from dataclasses import replace
 
@@ -10,7 +9,8 @@ from abu_calc.analysis import accuracy as module
 from abu_calc.analysis.accuracy import Point, Reference, cheapest, study
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.report.accuracy import picture, study_blocks, study_result
+from abu_calc.report.accuracy import picture
+from abu_calc.studies.accuracy import MeasuredPoint
 from tests.dynamics.scenes import dimensionless
 
 
@@ -51,29 +51,23 @@ def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
     assert cheapest(list(measured.points), 0.01, vague) is None
 
 
-def test_the_result_is_json_and_the_report_has_every_point(measured):
-    result = json.loads(json.dumps(study_result(measured), allow_nan=False))
-    assert len(result["points"]) == len(measured.points)
-    assert set(result["points"][0]) >= {"rung", "integrator", "tolerance", "error", "evaluations", "wall_s", "cold_s"}
-    assert study_blocks("a scene", "scene", measured)
-
-
 def test_the_picture_stays_within_eighty_columns(measured):
-    lines = picture(measured.points)
+    lines = picture(tuple(map(MeasuredPoint.of, measured.points)))
     assert max(map(len, lines)) <= 80
     assert any("D" in line for line in lines)
 
 
 def test_each_decade_stands_once_in_the_picture():
     """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
-    points = tuple(Point("equations", "heyoka", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3) for k in range(10))
+    points = tuple(MeasuredPoint.of(Point("equations", "heyoka", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3)) for k in range(10))
     labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
     decades = [int(label.removeprefix("1e")) for label in labels if label]
     assert decades == list(range(0, -10, -1))
 
 
 def test_a_picture_of_nothing():
-    assert picture((Point("closed-form", None, None, None, 0, 0, None, None),)) == ["nothing to draw"]
+    nothing = MeasuredPoint.of(Point("closed-form", None, None, None, 0, 0, None, None))
+    assert picture((nothing,)) == ["nothing to draw"]
 
 
 def test_no_time_is_told_beforehand():

@@ -12,13 +12,14 @@ from abu_calc.analysis.audit import audit
 from abu_calc.analysis.differences import amplitude, angles, difference, settling
 from abu_calc.analysis.ledger import SHARE, chosen
 from abu_calc.analysis.simulate import simulate
-from abu_calc.cli.subject import subject_of
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import planar
+from abu_calc.spec.read import read_machine
+from abu_calc.studies.subject import subject_of
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
 
@@ -129,7 +130,7 @@ def test_race_eccentricity_weighs_what_it_changes(magnitude: float) -> None:
 @pytest.mark.parametrize("name", PRESETS)
 def test_what_is_left_out_of_a_machine_changes_no_more_than_promised(name: str) -> None:
     """Idle, friction aside: at an accuracy that lets something pass, and with everything that can be weighed out."""
-    full = subject_of(name, None, "idle").scene
+    full = subject_of(read_machine(name), "idle").scene
     smooth = tuple(effect for effect in full.effects if effect.name in ("gravity", "race_eccentricity"))
     full = replace(full, effects=smooth)
     names = [effect.name for effect in smooth]

@@ -222,10 +222,11 @@ def test_size_tells_the_true_region() -> None:
 def test_where_the_true_region_contradicts_the_simple_rule(hertz: float) -> None:
     """On a stiff, heavily damped suspension, whose phase lag makes the balls flutter; a warning says so."""
     from abu_calc.analysis.region import true_region
-    from abu_calc.cli.load import load
     from abu_calc.sizing import size
+    from abu_calc.spec.read import read_machine
 
-    design = size(load("avtovaz-707-222", [f"suspension.natural_frequencies_hz=[{hertz}, {hertz * 1.5}]"]).machine)
+    frequencies = f"suspension.natural_frequencies_hz=[{hertz}, {hertz * 1.5}]"
+    design = size(read_machine("avtovaz-707-222", [frequencies]).whole("size"))
     region = true_region(design)
     assert design.frequency.balancing_possible and region.boundaries is not None
     assert region.stable is (hertz == 2.5)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from abu_calc.errors import InputError
-from abu_calc.spec.read_scene import LoadedScene, read_scene
+from abu_calc.spec.read_scene import SceneDescription, read_scene
 
 SCENE = """\
 # two balls on a planar rotor
@@ -124,7 +124,7 @@ cutting = true
 """
 
 
-def read(folder: Path, text: str, overrides: Sequence[str] = ()) -> LoadedScene:
+def read(folder: Path, text: str, overrides: Sequence[str] = ()) -> SceneDescription:
     file = folder / "scene.toml"
     file.write_text(text, encoding="utf-8")
     return read_scene(str(file), overrides)

@@ -8,7 +8,7 @@ import pytest
 from abu_calc.errors import InputError
 from abu_calc.spec.errors import SpecErrors
 from abu_calc.spec.read import Machine
-from abu_calc.spec.read_scene import LoadedScene, read_any, read_scene
+from abu_calc.spec.read_scene import SceneDescription, read_any, read_scene
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.scene_effects import Effects
 from abu_calc.spec.table import all_tables
@@ -234,7 +234,7 @@ def test_overrides_are_told_by_their_option(tmp_path: Path) -> None:
 def test_either_kind_of_file_is_read_by_its_tables(tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     (tmp_path / "machine.toml").write_text(BASIC, encoding="utf-8")
-    assert isinstance(read_any(str(tmp_path / "scene.toml")), LoadedScene)
+    assert isinstance(read_any(str(tmp_path / "scene.toml")), SceneDescription)
     assert isinstance(read_any(str(tmp_path / "machine.toml")), Machine)
     assert isinstance(read_any("msh-230"), Machine)
     with pytest.raises(InputError, match="a machine, not a scene"):

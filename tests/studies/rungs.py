@@ -14,12 +14,13 @@ from typing import Any
 from abu_calc.analysis.differences import Told, amplitude, angles, level, settling
 from abu_calc.analysis.response import evaluate, needed_moments
 from abu_calc.analysis.rungs import WIDEST, Estimate, averaged, closed_form, offer
-from abu_calc.cli.subject import subject_of
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.errors import InputError
 from abu_calc.spec import presets
+from abu_calc.spec.read import read_machine
+from abu_calc.studies.subject import subject_of
 from abu_calc.units import level_from_velocity
 
 ACCURACY = 0.01
@@ -47,7 +48,7 @@ def machines() -> list[str]:
     found = []
     for name in presets.names():
         try:
-            subject_of(name, None)
+            subject_of(read_machine(name))
         except InputError:
             continue
         found.append(name)
@@ -56,7 +57,7 @@ def machines() -> list[str]:
 
 def smooth(name: str) -> Scene:
     """The idle scene of a preset with what averages know of."""
-    return with_parted_balls(only(subject_of(name, None).scene, ["race_eccentricity"]))[0]
+    return with_parted_balls(only(subject_of(read_machine(name)).scene, ["race_eccentricity"]))[0]
 
 
 def integrated(scene: Scene, tolerance: float) -> Told:
