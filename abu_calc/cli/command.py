@@ -1,7 +1,7 @@
 """A command is a function that returns an Outcome; this adds the options that all commands share."""
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -31,9 +31,15 @@ def _shared(
     return Delivery(json, output, force, quiet, not no_color)
 
 
-def add_command(app: typer.Typer, name: str, function: Callable[..., Outcome]) -> None:
-    """Register a command whose function returns an Outcome, with the shared options behind its own."""
-    own = inspect.signature(function, eval_str=True).parameters
+def add_command(
+    app: typer.Typer, name: str, function: Callable[..., Outcome], more: Iterable[inspect.Parameter] = ()
+) -> None:
+    """Register a command whose function returns an Outcome, with the shared options behind its own.
+
+    `more`: options from a table, which the function takes as `**` keywords.
+    """
+    named = inspect.signature(function, eval_str=True).parameters.values()
+    own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
     shared = inspect.signature(_shared, eval_str=True).parameters
 
     def run(**given: Any) -> None:
