@@ -4,7 +4,7 @@ Its parameters are called like the arguments of the study it asks, so that an er
 """
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, get_args
@@ -36,9 +36,15 @@ def _shared(
     return Delivery(json, output, force, quiet, not no_color)
 
 
-def add_command(app: typer.Typer, name: str, function: Callable[..., Outcome]) -> None:
-    """Register a command whose function returns an Outcome, with the shared options behind its own."""
-    own = inspect.signature(function, eval_str=True).parameters
+def add_command(
+    app: typer.Typer, name: str, function: Callable[..., Outcome], more: Iterable[inspect.Parameter] = ()
+) -> None:
+    """Register a command whose function returns an Outcome, with the shared options behind its own.
+
+    `more`: options from a table, which the function takes as `**` keywords.
+    """
+    named = inspect.signature(function, eval_str=True).parameters.values()
+    own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
     shared = inspect.signature(_shared, eval_str=True).parameters
     options = dict(_options(own))
 
@@ -46,7 +52,7 @@ def add_command(app: typer.Typer, name: str, function: Callable[..., Outcome]) -
         how = _shared(**{key: given[key] for key in shared})
         how.check()
         wanted = {"how": how} if "how" in own else {}
-        with _told_by_option(options):
+        with _naming_options(options):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
         status = deliver(outcome, how)
         if status:
@@ -73,7 +79,7 @@ def _options(parameters: Mapping[str, inspect.Parameter]) -> Iterator[tuple[str,
 
 
 @contextmanager
-def _told_by_option(options: Mapping[str, str]) -> Iterator[None]:
+def _naming_options(options: Mapping[str, str]) -> Iterator[None]:
     """Errors about an argument name its option; those about entries of a file stay as they are."""
     try:
         yield

@@ -19,14 +19,14 @@ def init(
     scene: Annotated[bool, typer.Option("--scene", help="Write a scene file, for `abu simulate`.")] = False,
 ) -> Outcome:
     """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
-    from abu_calc.cli.load import load
     from abu_calc.report.files import check_target, write
+    from abu_calc.spec.read import read_machine
     from abu_calc.spec.template import scene_template, template
 
     check_target(file, force=how.force, suffixes=(".toml",))
     if scene and preset is not None:
         raise InputError("--scene and --preset exclude each other", remedy="Presets are machines.")
-    write(file, load(preset).text if preset is not None else scene_template() if scene else template())
+    write(file, read_machine(preset).text if preset is not None else scene_template() if scene else template())
     told = Paragraph(f"{file} is written. Edit it, then: abu {'simulate' if scene else 'size'} {file}", "pass")
     return Outcome("init", {"file": str(file), "preset": preset}, (told,))
 

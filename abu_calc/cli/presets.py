@@ -11,13 +11,13 @@ from abu_calc.report.outcome import Outcome
 
 def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Print this preset.")] = None) -> Outcome:
     """List the machine files that come with abu-calc, or print one."""
-    from abu_calc.cli.load import load
     from abu_calc.spec.presets import names
+    from abu_calc.spec.read import read_machine
 
     if name is not None:
-        text = load(name).text
+        text = read_machine(name).text
         return Outcome("presets", {"name": name, "text": text}, (), plain=text)
-    listed = [{"name": each, "machine": load(each).tables.machine.name} for each in names()]
+    listed = [{"name": each, "machine": read_machine(each).tables.machine.name} for each in names()]
     blocks = (
         Heading("Presets"),
         Grid(("name", "machine"), tuple((each["name"], each["machine"]) for each in listed)),

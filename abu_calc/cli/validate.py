@@ -14,12 +14,13 @@ def validate(
     files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine or scene files, or names of presets.")],
 ) -> Outcome:
     """Check machine and scene files: keys, types, ranges, rules between keys. Computes nothing."""
-    from abu_calc.cli.load import load_any
+
+    from abu_calc.spec.read_scene import read_any
 
     results, blocks, faults = [], list[Block](), list[InputError]()
     for file in files:
         try:
-            loaded = load_any(file)
+            loaded = read_any(file)
         except InputError as error:
             faults.append(error)
             continue

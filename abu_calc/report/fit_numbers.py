@@ -1,102 +1,113 @@
 """The formulas of both seats with the numbers of a bearing put in."""
 
-from abu_calc.fits.advice import SHOCK_FACTOR
-from abu_calc.fits.bearing import Bearing
+from collections.abc import Sequence
+
 from abu_calc.fits.joint import CENTRIFUGAL
-from abu_calc.fits.seats import BearingSeats, SeatFit
-from abu_calc.fits.stress import inner_ring_diameter
-from abu_calc.report.fits import um
-from abu_calc.standards.balls import seat_material
+from abu_calc.studies.seat_model import BearingModel, SeatModel
+from abu_calc.studies.seat_records import Clearance, SeatResult, um
 from abu_calc.units import from_si
 
 
-def seat_numbers(found: BearingSeats) -> tuple[str, ...]:
-    """A line a formula, the shaft's before the housing's; those the file has no data for are left out."""
-    lines = [f"{found.bearing.name}:"]
-    for seat in found.seats:
-        lines += [
-            f"{seat.seat}: {line}" for line in (*_fit(seat), *_load(found.bearing, seat), *_losses(found.bearing, seat))
-        ]
-        lines += [f"{seat.seat}: {line}" for line in (*_stress(seat), *_moment(found.bearing, seat))]
-    return (*lines, *_clearance(found))
+def seat_numbers(models: Sequence[BearingModel], seats: Sequence[SeatResult]) -> tuple[str, ...]:
+    """A line a formula, bearing after bearing, the shaft's before the housing's, which alternate in `seats`."""
+    lines: list[str] = []
+    for bearing, shaft, housing in zip(models, seats[::2], seats[1::2], strict=True):
+        lines.append(f"{shaft.name}:")
+        for seat, model in ((shaft, bearing.shaft), (housing, bearing.housing)):
+            lines += [f"{seat.seat}: {line}" for line in _seat(bearing, model, seat)]
+        lines += _clearance(bearing, shaft.internal_clearance)
+    return tuple(lines)
 
 
-def _fit(seat: SeatFit) -> tuple[str, ...]:
-    male, female = seat.joint.male_and_female
-    mean, halves = um(male.middle - female.middle), (um(male.tolerance) / 2, um(female.tolerance) / 2)
-    sigma = (halves[0] ** 2 + halves[1] ** 2) ** 0.5 / 3
-    spread = f"√({_g(halves[0])}² + {_g(halves[1])}²)"
-    extreme, probable = seat.interference, seat.probable_interference
+def _seat(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+    """Lines of one seat; those the file has no data for are left out."""
     return (
-        f"ei − ES … es − EI = {_g(um(male.lower))} − ({_g(um(female.upper))}) … {_g(um(male.upper))} − "
-        f"({_g(um(female.lower))}) = {_g(um(extreme.smallest))} … {_g(um(extreme.largest))} µm",
-        f"probable: {_g(mean)} ∓ {spread} = {_g(um(probable.smallest))} … {_g(um(probable.largest))} µm, outward",
-        f"P(clearance) = Φ(−mean/σ) = Φ(−({_g(mean)})/{_g(sigma)}) = {_g(seat.clearance_probability)}, "
-        f"σ = {spread}/3; truncated {_g(seat.truncated_probability)}",
+        *_fit(model, seat),
+        *_load(model, seat),
+        *_losses(bearing, model, seat),
+        _stress(model, seat),
+        *_moment(bearing, model, seat),
     )
 
 
-def _load(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
-    joint = seat.joint
-    if bearing.radial_load is None or joint.length is None or seat.load_intensity is None:
-        return ()
-    kilonewtons, length = _g(from_si(bearing.radial_load, "kN")), _mm(joint.length)
-    source, catalogue = (_g(um(bound.value)) for bound in joint.criteria)
-    under = f"{_mm(joint.diameter)}·{_g(bearing.radial_load)}/{_mm(joint.width)}"
+def _fit(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+    (ei, es), (EI, ES) = map(_um_pair, (model.male_limits_m, model.female_limits_m))
+    mean, sigma = _g(um(model.mean_interference_m)), _g(um(model.sigma_m))
+    spread = "√({}² + {}²)".format(*_um_pair(model.half_tolerances_m))
     return (
-        f"13·R·k/b = 13·{kilonewtons}·{_g(joint.factor)}/{length} = {source} µm",
+        f"ei − ES … es − EI = {ei} − ({ES}) … {es} − ({EI}) = {_span(seat.interference_um)} µm",
+        f"probable: {mean} ∓ {spread} = {_span(seat.probable_interference_um)} µm, outward",
+        f"P(clearance) = Φ(−mean/σ) = Φ(−({mean})/{sigma}) = {_g(seat.clearance_probability)}, "
+        f"σ = {spread}/3; truncated {_g(seat.clearance_probability_truncated)}",
+    )
+
+
+def _load(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+    intensity = seat.load_intensity_kN_per_m
+    if model.radial_load_N is None or model.length_m is None or intensity is None:
+        return ()
+    kilonewtons = _g(from_si(model.radial_load_N, "kN"))
+    source, catalogue = (_g(loss.amount_um) for loss in seat.losses if loss.name == "load")
+    under = f"{_mm(model.diameter_m)}·{_g(model.radial_load_N)}/{_mm(model.width_m)}"
+    return (
+        f"13·R·k/b = 13·{kilonewtons}·{_g(model.load_factor)}/{_mm(model.length_m)} = {source} µm",
         f"0.08·√(d·F_r/B) = 0.08·√({under}) = {catalogue} µm",
-        f"P_R = k₁·R/b = {SHOCK_FACTOR:g}·{kilonewtons}/{_g(joint.length)} = "
-        f"{_g(from_si(seat.load_intensity, 'kN_per_m'))} kN/m",
+        f"P_R = k₁·R/b = {model.shock_factor:g}·{kilonewtons}/{_g(model.length_m)} = {_g(intensity)} kN/m",
     )
 
 
-def _losses(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
-    steel = seat_material("steel")
-    rough = bearing.shaft_roughness if seat.seat == "shaft" else bearing.housing_roughness
+def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+    bore = _mm(bearing.bore_m)
     numbers = {
-        "smoothing": f"0.4·{_g(um(rough or 0.0))} µm",
-        "temperature": f"{_g(steel.expansion)}·{_mm(bearing.bore)} mm·{_g(bearing.temperature_difference or 0.0)} K",
-        CENTRIFUGAL: f"Ω = {_g(bearing.speed or 0.0)} rad/s, d = {_mm(bearing.bore)}, d₁ = "
-        f"{_mm(inner_ring_diameter(bearing.bore, bearing.outer))}, d₀ = {_mm(bearing.shaft_bore)} mm",
+        "smoothing": f"0.4·{_g(um(model.roughness_m or 0.0))} µm",
+        "temperature": f"{_g(bearing.expansion_per_K)}·{bore} mm·{_g(bearing.ring_temperature_difference_K or 0.0)} K",
+        CENTRIFUGAL: f"Ω = {_g(bearing.speed_rad_per_s or 0.0)} rad/s, d = {bore}, d₁ = "
+        f"{_mm(bearing.inner_ring_diameter_m)}, d₀ = {_mm(bearing.shaft_bore_m)} mm",
     }
-    told = tuple(f"{loss.name}: {loss.formula}: {numbers[loss.name]} = {_g(um(loss.value))} µm" for loss in seat.losses)
-    if seat.required_interference is None:
-        return told
-    return (*told, f"required with the losses: {_g(um(seat.required_interference))} µm")
+    lines = tuple(
+        f"{loss.name}: {loss.formula}: {numbers[loss.name]} = {_g(loss.amount_um)} µm"
+        for loss in seat.losses
+        if loss.counted and loss.name in numbers
+    )
+    if seat.required_interference_um is None:
+        return lines
+    return (*lines, f"required with the losses: {_g(seat.required_interference_um)} µm")
 
 
-def _stress(seat: SeatFit) -> tuple[str, ...]:
-    largest, rate = max(seat.interference.largest, 0.0), seat.joint.pressure_rate
+def _stress(model: SeatModel, seat: SeatResult) -> str:
     return (
-        f"Lamé at {_g(um(largest))} µm: p = {_g(from_si(rate * largest, 'MPa'))} MPa, hoop stress of the ring "
-        f"{_g(from_si(seat.hoop_stress, 'MPa'))} MPa; permitted {_g(um(seat.permitted_interference))} µm by "
-        f"{seat.permitted_by}",
+        f"Lamé at {_g(max(seat.interference_um[1], 0.0))} µm: p = {_g(from_si(model.tightest_pressure_Pa, 'MPa'))} "
+        f"MPa, hoop stress of the ring {_g(seat.hoop_stress_MPa)} MPa; permitted "
+        f"{_g(seat.permitted_interference_um)} µm by {seat.permitted_by}"
     )
 
 
-def _moment(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
-    joint, moment = seat.joint, seat.creep.least_moment
-    if joint.length is None or moment is None:
+def _moment(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+    moments, diameter = seat.creep.friction_moment_N_m, _g(model.diameter_m)
+    if model.length_m is None or moments is None:
         return ()
-    pressure = joint.pressure_rate * max(seat.interference.smallest - joint.lasting_losses, 0.0)
-    diameter = _g(joint.diameter)
     return (
-        f"μ·p·π·d·b·d/2 = {_g(bearing.seat_friction)}·{_g(pressure)}·π·{diameter}·{_g(joint.length)}·{diameter}/2 = "
-        f"{_g(moment)} N·m",
+        f"μ·p·π·d·b·d/2 = {_g(bearing.seat_friction)}·{_g(model.starting_pressure_Pa)}·π·{diameter}·"
+        f"{_g(model.length_m)}·{diameter}/2 = {_g(moments[0])} N·m",
     )
 
 
-def _clearance(found: BearingSeats) -> tuple[str, ...]:
-    left = found.clearance
+def _clearance(bearing: BearingModel, left: Clearance | None) -> tuple[str, ...]:
     if left is None:
         return ()
-    rates = " and ".join(_g(seat.joint.raceway_rate) for seat in found.seats)
+    rates = f"{_g(bearing.shaft.raceway_rate)} and {_g(bearing.housing.raceway_rate)}"
     return (
-        f"clearance of group {left.group}: {_g(um(left.initial.smallest))} … {_g(um(left.initial.largest))} µm less "
-        f"{rates} of the interferences and {_g(um(left.warmth))} µm of temperature = {_g(um(left.mounted.smallest))} … "
-        f"{_g(um(left.mounted.largest))} µm",
+        f"clearance of group {left.group}: {_span(left.initial_um)} µm less {rates} of the interferences and "
+        f"{_g(left.by_temperature_um)} µm of temperature = {_span(left.mounted_um)} µm",
     )
+
+
+def _span(interval: tuple[float, float]) -> str:
+    return " … ".join(map(_g, interval))
+
+
+def _um_pair(pair: tuple[float, float]) -> tuple[str, str]:
+    return _g(um(pair[0])), _g(um(pair[1]))
 
 
 def _mm(length: float) -> str:

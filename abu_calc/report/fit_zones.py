@@ -1,7 +1,9 @@
 """The zones of both seats as the textbook draws them, in plain characters that every console has."""
 
 import math
-from typing import Any, Final
+from typing import Final
+
+from abu_calc.studies.seat_records import Pair, SeatResult
 
 ROWS_WANTED: Final = 14
 STEPS: Final = (1, 2, 5, 10, 20, 50, 100, 200, 500)
@@ -10,9 +12,9 @@ WIDTH: Final = 26
 """Columns of one seat: with the scale both take 60."""
 
 
-def zone_lines(shaft: dict[str, Any], housing: dict[str, Any]) -> list[str]:
+def zone_lines(shaft: SeatResult, housing: SeatResult) -> list[str]:
     """Zero line, ring zone and part zone of both seats over one scale in µm; a row is a step of the scale."""
-    seats = [(row["ring_limits_um"], row["part_limits_um"], row["fit"]) for row in (shaft, housing)]
+    seats = [(each.ring_limits_um, each.part_limits_um, each.fit) for each in (shaft, housing)]
     deviations = [0.0, *(limit for ring, part, _ in seats for limit in (*ring, *part))]
     low, high = min(deviations), max(deviations)
     step = next((one for one in STEPS if (high - low) / one <= ROWS_WANTED), STEPS[-1])
@@ -38,12 +40,12 @@ def legend() -> str:
     )
 
 
-def _cell(row: int, step: int, ring: list[float], part: list[float], fit: str) -> str:
+def _cell(row: int, step: int, ring: Pair, part: Pair, fit: str) -> str:
     """One row of one seat: both zones side by side, each with its limits and its name."""
     return f"  {_zone(row, step, ring, RING, 'ring')}{_zone(row, step, part, PART, fit)}".ljust(WIDTH)
 
 
-def _zone(row: int, step: int, limits: list[float], mark: str, name: str) -> str:
+def _zone(row: int, step: int, limits: Pair, mark: str, name: str) -> str:
     lower, upper = limits
     rows = [
         one for one in range(math.floor(lower / step), math.ceil(upper / step)) if lower < (one + 0.5) * step < upper

@@ -44,7 +44,7 @@ def result_schema() -> Schema:
 def _envelope() -> Schema:
     """What every document has; a document of an error has `error` and no result."""
     text, words = {"type": "string"}, {"type": "array", "items": {"type": "string"}}
-    check = {name: {} for name in ("message", "value", "limit", "unit", "remedy", "bound")}
+    check: dict[str, Schema] = {name: {} for name in ("message", "value", "limit", "unit", "remedy", "bound")}
     return {
         "abu": {"type": "object", "properties": {"version": text, "command": text, "schema": {"type": "integer"},
                                                  "date": text}},

@@ -31,7 +31,7 @@ class Document(NamedTuple):
     """A file whose TOML is right; its tables are not looked at yet."""
 
     file: str
-    """As it was named: a path, or a preset."""
+    """As it was named: a path, or a preset; empty when there is none."""
     text: str
     sha256: str
     content: dict[str, object]
@@ -69,7 +69,7 @@ class Reading:
             yield
         except InputError as error:
             key = error.place.key
-            if error.place.file is not None or (key or "").startswith("--"):
+            if error.place.file is not None or not self.file or (key or "").startswith("--"):
                 raise
             raise error.at(Place(self.file, self.lines.get(key) if key else None, key)) from None
 

@@ -19,11 +19,11 @@ EXAMPLE: Final = "--set machine.mass_kg=5.6"
 
 @dataclass(frozen=True)
 class Override:
-    """One entry replaced: the path and the value, typed as TOML; `option_name`: the option that gave it."""
+    """One entry replaced: the path and the value, typed as TOML; `given_as`: what gave it, {} the path."""
 
     path: tuple[Part, ...]
     value: object
-    option_name: str = "--set "
+    given_as: str = "--set {}"
 
     @property
     def key(self) -> str:
@@ -33,13 +33,13 @@ class Override:
     @property
     def option(self) -> str:
         """How messages name it."""
-        return f"{self.option_name}{self.key}"
+        return self.given_as.format(self.key)
 
 
 def overrides_of(values: Mapping[str, object]) -> list[Override]:
     """Overrides by key path, as Python gives them: values as they are, tuples as lists."""
     return [
-        Override(_path(key.strip()), list(value) if isinstance(value, tuple) else value, "")
+        Override(_path(key.strip()), list(value) if isinstance(value, tuple) else value, "{}")
         for key, value in values.items()
     ]
 
@@ -48,7 +48,7 @@ def parse_override(text: str) -> Override:
     """An override as written on the command line; a bare word is text, since shells strip quotes.
 
     >>> parse_override("bearing.0.shaft_fit=m6")
-    Override(path=('bearing', 0, 'shaft_fit'), value='m6', option_name='--set ')
+    Override(path=('bearing', 0, 'shaft_fit'), value='m6', given_as='--set {}')
     """
     key, equals, value = _split(text)
     if not equals or not key.strip():

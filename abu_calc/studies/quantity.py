@@ -9,8 +9,7 @@ Schema of results are made of that.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
-from functools import cache
-from typing import Any, ClassVar, NamedTuple, get_args, get_type_hints
+from typing import Any, ClassVar, Final, NamedTuple, get_args, get_type_hints
 
 
 class Quantity(NamedTuple):
@@ -65,15 +64,19 @@ def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
         yield from flattened(inner, f"{path}.{key}" if path else str(key))
 
 
-@cache
-def hints(kind: type[Any]) -> Mapping[str, Any]:
+def hints(kind: type[Record]) -> Mapping[str, Any]:
     """The type of each field, with what is said beside it."""
     return get_type_hints(kind, include_extras=True)
 
 
-@cache
-def quantities(kind: type[Any]) -> Mapping[str, Quantity]:
+def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
     """What the fields of a record say of themselves; those that hold records say nothing."""
-    found = ((name, next((each for each in get_args(hint)[1:] if isinstance(each, Quantity)), None))
-             for name, hint in hints(kind).items())  # fmt: skip
-    return {name: quantity for name, quantity in found if quantity is not None}
+    if kind not in _QUANTITIES:
+        said = {name: get_args(hint)[1:] for name, hint in hints(kind).items()}
+        found = ((name, next((each for each in one if isinstance(each, Quantity)), None)) for name, one in said.items())
+        _QUANTITIES[kind] = {name: quantity for name, quantity in found if quantity is not None}
+    return _QUANTITIES[kind]
+
+
+_QUANTITIES: Final[dict[type[Record], Mapping[str, Quantity]]] = {}
+"""Read from the types once."""

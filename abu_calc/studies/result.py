@@ -42,7 +42,7 @@ class Provenance:
     def of(cls, reading: "Reading") -> "Provenance":
         """That of a file that was read."""
         replaced = {override.key: override.value for override in reading.overrides}
-        return cls.today(reading.file, reading.sha256, tuple(replaced.items()), reading.defaults_used)
+        return cls.today(reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used)
 
     @classmethod
     def today(

@@ -1,7 +1,7 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from abu_calc.analysis.idle import idle_checks, not_simulated
 from abu_calc.analysis.machine import Run, simulated
@@ -19,6 +19,7 @@ from abu_calc.studies.design_records import (
 )
 from abu_calc.studies.quantity import Quantity
 from abu_calc.studies.result import Progress, Provenance, Result, silent
+from abu_calc.studies.seat_records import SeatResult, seat_results
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
 from abu_calc.units import from_si
@@ -46,7 +47,7 @@ class SizeResult(Result):
     vibration: Vibration
     vibration_loaded: Vibration | None
     simulation: tuple[SimulatedScene, ...]
-    fits: tuple[Any, ...]
+    fits: tuple[SeatResult, ...]
     swing_arm: SwingArm | None
     drawing: tuple[DrawingLine, ...]
 
@@ -91,7 +92,7 @@ def size(machine: "Machine", accuracy: float = 0.01, progress: Progress = silent
         vibration=Vibration.of(design.idle),
         vibration_loaded=None if loaded is None else Vibration.of(loaded),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
-        fits=_fits(design),
+        fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
         swing_arm=None if design.swing_arm is None else SwingArm.of(design.swing_arm),
         drawing=tuple(
             DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
@@ -112,11 +113,3 @@ def _other_drags(design: Design, run: Run) -> tuple[SettlingEstimate, ...] | Non
         )
         for drag, other in others
     )
-
-
-def _fits(design: Design) -> tuple[Any, ...]:
-    if not design.seats:
-        return ()
-    from abu_calc.report.fits import seats_result
-
-    return tuple(row for bearing in design.seats for row in seats_result(bearing))

@@ -1,0 +1,93 @@
+"""The options of `abu check-fit` that give one bearing: one for each key of [[bearing]].
+
+Typed here and not read from the model, which takes longer to load than the help of all commands.
+"""
+
+import inspect
+from collections.abc import Iterable
+from typing import Annotated, Final, NamedTuple
+
+import typer
+
+from abu_calc.errors import InputError, Place
+
+
+class BearingOption(NamedTuple):
+    """One option: the key it gives, its name, the type of its value, and what helps say of it."""
+
+    key: str
+    name: str
+    type: type[float] | type[str]
+    help: str
+    metavar: str | None = None
+
+    @property
+    def parameter(self) -> inspect.Parameter:
+        """The option as a parameter of a command, None when it is not given."""
+        option = typer.Option(self.name, help=self.help, metavar=self.metavar)
+        return inspect.Parameter(
+            self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[self.type | None, option]
+        )
+
+
+LOADS: Final = "rotating, stationary or indeterminate."
+OPTIONS: Final = (
+    BearingOption("designation", "--designation", str, "Such as 6203 or 7516."),
+    BearingOption("bore_mm", "--bore", float, "Bore of the inner ring, mm."),
+    BearingOption("outer_mm", "--outer", float, "Outer diameter, mm."),
+    BearingOption("width_mm", "--width", float, "Width of the ring, mm."),
+    BearingOption("chamfer_mm", "--chamfer", float, "Chamfer of one edge, mm."),
+    BearingOption("radial_load_kN", "--radial-load-kN", float, "Radial load, kN."),
+    BearingOption("series", "--series", str, "light, medium or heavy."),
+    BearingOption("inner_ring_load", "--inner-ring-load", str, LOADS),
+    BearingOption("outer_ring_load", "--outer-ring-load", str, LOADS),
+    BearingOption("bearing_class", "--bearing-class", str, "0, 6, 5, 4 or 2."),
+    BearingOption("shaft_fit", "--shaft", str, "Tolerance class of the shaft, such as k6."),
+    BearingOption("housing_fit", "--housing", str, "Tolerance class of the housing, such as H7."),
+    BearingOption("shaft_rz_um", "--shaft-rz", float, "Roughness Rz of the shaft, µm."),
+    BearingOption("housing_rz_um", "--housing-rz", float, "Roughness Rz of the housing, µm."),
+    BearingOption(
+        "ring_temperature_difference_K",
+        "--ring-temperature-difference",
+        float,
+        "Inner ring warmer than its shaft, K.",
+    ),
+    BearingOption("speed_rpm", "--speed", float, "Speed of the shaft, rpm."),
+    BearingOption("shaft_bore_mm", "--shaft-bore", float, "Bore of a hollow shaft, mm."),
+    BearingOption("housing_outer_mm", "--housing-outer", float, "Outer diameter of the housing, mm."),
+    BearingOption("housing_material", "--housing-material", str, "steel, cast-iron or aluminium."),
+    BearingOption("internal_clearance", "--internal-clearance", str, "Group C2, CN, C3 or C4."),
+    BearingOption(
+        "raceway_temperature_difference_K",
+        "--raceway-temperature-difference",
+        float,
+        "Inner ring warmer than the outer one, K.",
+    ),
+    BearingOption("starting_torque_N_m", "--starting-torque", float, "Torque the seat must pass on, N·m."),
+    BearingOption("seat_friction", "--seat-friction", float, "Friction coefficient of the seat."),
+    BearingOption(
+        "asked_interference_um", "--asked-interference", str, "Interference asked of every pair, µm.", "LEAST:MOST"
+    ),
+    BearingOption("name", "--name", str, "What to call the bearing."),
+)
+NAMES: Final = {option.key: option.name for option in OPTIONS}
+"""The option of each key."""
+
+SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
+FITS: Final = ("shaft_fit", "housing_fit")
+
+
+def missing(given: Iterable[str]) -> list[str]:
+    """The options that a bearing cannot do without beside the keys given."""
+    needed = FITS if "designation" in given else (*SIZES, *FITS)
+    return [NAMES[key] for key in needed if key not in given]
+
+
+def band(text: str) -> list[float]:
+    """The two numbers of LEAST:MOST."""
+    try:
+        least, most = (float(part) for part in text.split(":"))
+    except ValueError:
+        option = Place(key=NAMES["asked_interference_um"])
+        raise InputError("two numbers are expected", place=option, found=text, allowed="LEAST:MOST, 10:28") from None
+    return [least, most]

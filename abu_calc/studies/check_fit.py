@@ -1,0 +1,54 @@
+"""Bearing seats judged: interference, probability of clearance, what is required, what is permitted."""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from abu_calc.errors import InputError, Place
+from abu_calc.fits.seats import BearingSeats, seat_bearing
+from abu_calc.studies.result import Provenance, Result
+from abu_calc.studies.seat_records import SeatResult, seat_results
+
+if TYPE_CHECKING:
+    from abu_calc.spec.read import Machine
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckFitResult(Result):
+    """The seats of every bearing, in the order of the file: the shaft's, then the housing's."""
+
+    command: ClassVar[str] = "check-fit"
+
+    seats: tuple[SeatResult, ...]
+
+    def to_dict(self) -> list[dict[str, Any]]:  # type: ignore[override]
+        """The seats as JSON has them: check-fit answers a list."""
+        return [seat.to_dict() for seat in self.seats]
+
+
+def check_fit(machine: "Machine") -> CheckFitResult:
+    """Judge the seats of the bearings of a machine.
+
+    Raises InputError with file, line, key and remedy for what is wrong in the file, and for one without bearings.
+    """
+    judged = judged_seats(machine)
+    provenance = Provenance.of(machine)
+    return CheckFitResult(
+        title=machine.tables.machine.name,
+        checks=tuple(check for bearing in judged for check in bearing.checks),
+        warnings=machine.warnings,
+        # The other tables of a whole machine play no part here.
+        provenance=replace(
+            provenance, defaults=tuple(one for one in provenance.defaults if one[0].startswith("bearing["))
+        ),
+        seats=tuple(seat for bearing in judged for seat in seat_results(bearing)),
+    )
+
+
+def judged_seats(machine: "Machine") -> tuple[BearingSeats, ...]:
+    """The bearings of a machine with their seats, in SI. Raises as `check_fit` does."""
+    if not machine.tables.bearing:
+        raise InputError(
+            "the file has no bearings", place=Place(machine.file, key="bearing"), remedy="Add a table [[bearing]]."
+        )
+    with machine.located():
+        return tuple(map(seat_bearing, machine.tables.bearing))

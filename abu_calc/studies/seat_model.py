@@ -1,0 +1,100 @@
+"""The SI numbers behind bearing seats, for those who check them by hand."""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+from abu_calc.fits.advice import SHOCK_FACTOR
+from abu_calc.fits.seats import BearingSeats, SeatFit
+from abu_calc.fits.stress import inner_ring_diameter
+from abu_calc.standards.balls import seat_material
+from abu_calc.studies.check_fit import judged_seats
+from abu_calc.studies.quantity import Record
+from abu_calc.studies.seat_records import Pair
+
+if TYPE_CHECKING:
+    from abu_calc.spec.read import Machine
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeatModel(Record):
+    """One seat; male is the part inside (shaft, or outer ring), female the part around it (inner ring, or housing)."""
+
+    male_limits_m: Pair
+    female_limits_m: Pair
+    mean_interference_m: float
+    half_tolerances_m: Pair
+    sigma_m: float
+    diameter_m: float
+    width_m: float
+    length_m: float | None
+    radial_load_N: float | None
+    load_factor: float
+    shock_factor: float
+    roughness_m: float | None
+    tightest_pressure_Pa: float
+    starting_pressure_Pa: float
+    """At the least interference, what it loses before the shaft turns taken off."""
+    raceway_rate: float
+
+    @classmethod
+    def of(cls, seat: SeatFit, roughness: float | None) -> Self:
+        """Of a seat and the roughness Rz [m] of its part."""
+        joint = seat.joint
+        male, female = joint.male_and_female
+        halves = male.tolerance / 2, female.tolerance / 2
+        tightest, loosest = joint.interference.largest, joint.interference.smallest - joint.lasting_losses
+        return cls(
+            male_limits_m=(male.lower, male.upper),
+            female_limits_m=(female.lower, female.upper),
+            mean_interference_m=male.middle - female.middle,
+            half_tolerances_m=halves,
+            sigma_m=math.hypot(*halves) / 3,
+            diameter_m=joint.diameter,
+            width_m=joint.width,
+            length_m=joint.length,
+            radial_load_N=joint.radial_load,
+            load_factor=joint.factor,
+            shock_factor=SHOCK_FACTOR,
+            roughness_m=roughness,
+            tightest_pressure_Pa=joint.pressure_rate * max(tightest, 0.0),
+            starting_pressure_Pa=joint.pressure_rate * max(loosest, 0.0),
+            raceway_rate=joint.raceway_rate,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingModel(Record):
+    """One bearing with its two seats."""
+
+    bore_m: float
+    inner_ring_diameter_m: float
+    """Of the inner ring as a plain tube."""
+    shaft_bore_m: float
+    speed_rad_per_s: float | None
+    ring_temperature_difference_K: float | None
+    expansion_per_K: float
+    seat_friction: float
+    shaft: SeatModel
+    housing: SeatModel
+
+    @classmethod
+    def of(cls, found: BearingSeats) -> Self:
+        """Of a bearing that was judged."""
+        bearing = found.bearing
+        return cls(
+            bore_m=bearing.bore,
+            inner_ring_diameter_m=inner_ring_diameter(bearing.bore, bearing.outer),
+            shaft_bore_m=bearing.shaft_bore,
+            speed_rad_per_s=bearing.speed,
+            ring_temperature_difference_K=bearing.temperature_difference,
+            expansion_per_K=seat_material("steel").expansion,
+            seat_friction=bearing.seat_friction,
+            shaft=SeatModel.of(found.shaft, bearing.shaft_roughness),
+            housing=SeatModel.of(found.housing, bearing.housing_roughness),
+        )
+
+
+def bearing_models(machine: "Machine") -> tuple[BearingModel, ...]:
+    """What the seats of every bearing were judged with; raises as `check_fit` does."""
+    return tuple(map(BearingModel.of, judged_seats(machine)))
