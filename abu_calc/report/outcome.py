@@ -32,7 +32,7 @@ class Outcome:
     def of(cls, result: Result, blocks: tuple[Block, ...]) -> "Outcome":
         """That of a study, and how it is shown."""
         return cls(
-            result.command, result.payload, blocks, result.provenance, result.checks, result.model.to_dict(),
+            result.command, result.to_dict(), blocks, result.provenance, result.checks, result.model.to_dict(),
             result.warnings, result.status,
         )  # fmt: skip
 

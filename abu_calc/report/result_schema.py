@@ -6,7 +6,7 @@ from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin
 
 from abu_calc.studies.accuracy import AccuracyResult
 from abu_calc.studies.check_fit import CheckFitResult
-from abu_calc.studies.effects import EffectsResult
+from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
 from abu_calc.studies.quantity import Quantity, Record, hints, quantities
 from abu_calc.studies.result import Result
 from abu_calc.studies.simulate import SimulateResult
@@ -18,7 +18,8 @@ from abu_calc.units import unit_of
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
-    SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, AccuracyResult, VerifyResult,
+    SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, KnownEffectsResult, AccuracyResult,
+    VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
@@ -29,7 +30,7 @@ Schema = dict[str, Any]
 def result_schema() -> Schema:
     """The schema of the documents that `--json` prints; each command's result under its name among the definitions."""
     definitions: dict[str, Schema] = {}
-    results = [_of_command(kind, definitions) for kind in RESULTS]
+    results = [_of_command(command, definitions) for command in dict.fromkeys(kind.command for kind in RESULTS)]
     return {
         "$schema": DRAFT,
         "title": "abu-calc results",
@@ -61,15 +62,13 @@ def _envelope() -> Schema:
     }  # fmt: skip
 
 
-def _of_command(kind: type[Result], definitions: dict[str, Schema]) -> Schema:
+def _of_command(name: str, definitions: dict[str, Schema]) -> Schema:
     """Where this command speaks, this is its result."""
-    command = {"properties": {"abu": {"properties": {"command": {"const": kind.command}}}}}
-    payload = kind.payload_type()
-    definition = _type(payload, definitions)
-    if get_origin(payload) is not None:  # a list: under the command's own name
-        definitions[kind.__name__], definition = definition, {"$ref": f"#/$defs/{kind.__name__}"}
+    command = {"properties": {"abu": {"properties": {"command": {"const": name}}}}}
+    kinds = [_type(kind.json_type(), definitions) for kind in RESULTS if kind.command == name]
+    found = kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
     good = {"not": {"required": ["error"]}}
-    return {"if": {"allOf": [command, good]}, "then": {"properties": {"result": definition}}}
+    return {"if": {"allOf": [command, good]}, "then": {"properties": {"result": found}}}
 
 
 def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:

@@ -39,7 +39,7 @@ class Override:
 def overrides_of(values: Mapping[str, object]) -> list[Override]:
     """Overrides by key path, as Python gives them: values as they are, tuples as lists."""
     return [
-        Override(_path(key.strip()), list(value) if isinstance(value, tuple) else value, "{}")
+        Override(_path(key.strip(), "changed"), list(value) if isinstance(value, tuple) else value, "{}")
         for key, value in values.items()
     ]
 
@@ -82,14 +82,14 @@ def _split(text: str) -> tuple[str, str, str]:
     return (parted[1], parted[2], parted[3]) if parted else (text, "", "")
 
 
-def _path(key: str) -> tuple[Part, ...]:
+def _path(key: str, given_by: str = "--set") -> tuple[Part, ...]:
     path: list[Part] = []
     place = 0
-    while place < len(key):
+    while place < len(key) or not path:
         step = _STEP.match(key, place)
         if step is None or (place == 0 and key[0] in ".["):
             raise InputError(
-                "not a key path", place=Place(key="--set"), found=key, allowed="machine.mass_kg, bearing[0].name"
+                "not a key path", place=Place(key=given_by), found=key, allowed="machine.mass_kg, bearing[0].name"
             )
         word, index, dotted_index, double, single = step.groups()
         number = index or dotted_index

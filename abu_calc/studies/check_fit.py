@@ -20,6 +20,11 @@ class CheckFitResult(Result):
 
     seats: tuple[SeatResult, ...]
 
+    @classmethod
+    def json_type(cls) -> Any:
+        """A list of seats."""
+        return tuple[SeatResult, ...]
+
     def to_dict(self) -> list[dict[str, Any]]:  # type: ignore[override]
         """The seats as JSON has them: check-fit answers a list."""
         return [seat.to_dict() for seat in self.seats]

@@ -86,11 +86,6 @@ class Result(Record):
         return overall(self.checks)
 
     @classmethod
-    def payload_type(cls) -> Any:
-        """The type of the JSON document's `result`."""
+    def json_type(cls) -> Any:
+        """The type of what `to_dict` returns, the JSON document's `result`."""
         return cls
-
-    @property
-    def payload(self) -> Any:
-        """The JSON document's `result`."""
-        return self.to_dict()

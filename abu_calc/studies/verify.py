@@ -61,7 +61,7 @@ def recompute(machine: "Machine") -> Mapping[str, Any]:
         from abu_calc.studies.check_fit import check_fit
 
         seats = check_fit(machine)
-        return {"status": seats.status, "fits": seats.payload}
+        return {"status": seats.status, "fits": seats.to_dict()}
     from abu_calc.studies.size import size
 
     result = size(machine)

@@ -12,7 +12,7 @@ from tests.spec.samples import BASIC, BEARINGS, FULL, document, full_text, read
 
 
 def machine(folder: Path, text: str) -> MachineFile:
-    loaded = read(folder, text).machine
+    loaded = read(folder, text).tables
     assert isinstance(loaded, MachineFile)
     return loaded
 

@@ -66,7 +66,7 @@ def test_wrong_overrides_name_the_option(tmp_path: Path, override: str, key: str
 
 
 def machine(folder: Path, overrides: list[str], text: str = BASIC) -> MachineFile:
-    loaded = read(folder, text, overrides).machine
+    loaded = read(folder, text, overrides).tables
     assert isinstance(loaded, MachineFile)
     return loaded
 
@@ -118,5 +118,5 @@ def test_other_keys_that_exclude_each_other(tmp_path: Path) -> None:
 
 
 def test_bearings_alone_take_overrides_too(tmp_path: Path) -> None:
-    loaded = read(tmp_path, BEARINGS, ["bearing[1].housing_fit=M7"]).machine
+    loaded = read(tmp_path, BEARINGS, ["bearing[1].housing_fit=M7"]).tables
     assert isinstance(loaded, BearingFile) and loaded.bearing[1].housing_fit == "M7"
