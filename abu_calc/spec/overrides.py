@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.errors import InputError, Place
-from abu_calc.spec.syntax import DECIMAL_COMMA
 from abu_calc.spec.table import Table, table_at
 from abu_calc.spec.text import Part, key_path
 
@@ -99,6 +98,8 @@ def _path(key: str, given_by: str = "--set") -> tuple[Part, ...]:
 
 
 def _value(text: str, place: Place) -> object:
+    from abu_calc.spec.syntax import DECIMAL_COMMA
+
     if not text:
         raise InputError("the value is missing", place=place, remedy=f"write {place.key}=…")
     if comma := DECIMAL_COMMA.fullmatch(text):

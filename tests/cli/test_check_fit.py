@@ -1,18 +1,29 @@
 """`abu check-fit`: the report, its drawing, the options."""
 
+from dataclasses import replace
+from types import NoneType
+from typing import get_args
+
 import pytest
 
-from abu_calc.cli.check_fit import OPTIONS
+from abu_calc.cli.bearing_options import OPTIONS
 from abu_calc.report.fit_zones import zone_lines
 from abu_calc.spec.bearing import Bearing
+from abu_calc.spec.read import read_machine
+from abu_calc.studies.check_fit import check_fit
 from tests.cli.runner import abu
 
 BARE = ("check-fit", "--bore", "80", "--outer", "140", "--width", "33", "--shaft", "m6", "--housing", "K7")
 FLESHING = ("check-fit", "mmg-3200k-knife-shaft")
 
 
-def seat(ring, part, fit):
-    return {"ring_limits_um": ring, "part_limits_um": part, "fit": fit}
+def zones(*seats):
+    """The drawing of a shaft and a housing whose ring, part and field are these."""
+    known = check_fit(read_machine(FLESHING[1])).seats
+    return zone_lines(*(
+        replace(row, ring_limits_um=tuple(ring), part_limits_um=tuple(part), fit=fit)
+        for row, (ring, part, fit) in zip(known, seats, strict=True)
+    ))  # fmt: skip
 
 
 def test_bare_options_give_a_whole_result():
@@ -26,7 +37,7 @@ def test_bare_options_give_a_whole_result():
 
 
 def test_every_key_has_an_option_that_is_taken():
-    assert set(OPTIONS) == set(Bearing.model_fields)
+    assert {option.key for option in OPTIONS} == set(Bearing.model_fields)
     given = {"--designation": "6203", "--shaft": "m5", "--housing": "H7", "--radial-load-kN": "0.3",
              "--series": "light", "--inner-ring-load": "rotating", "--outer-ring-load": "stationary",
              "--bearing-class": "6", "--chamfer": "0.5", "--shaft-rz": "2", "--housing-rz": "3",
@@ -34,12 +45,37 @@ def test_every_key_has_an_option_that_is_taken():
              "--housing-material": "aluminium", "--internal-clearance": "C3",
              "--raceway-temperature-difference": "5", "--starting-torque": "0.5", "--seat-friction": "0.1",
              "--asked-interference": "3:18", "--name": "spindle"}  # fmt: skip
-    assert set(given) | {"--bore", "--outer", "--width"} == set(OPTIONS.values())
+    assert set(given) | {"--bore", "--outer", "--width"} == {option.name for option in OPTIONS}
     seen = abu("check-fit", *(word for pair in given.items() for word in pair), "--json")
     shaft = seen.document["result"][0]
     assert shaft["name"] == "spindle" and shaft["asked_interference_um"] == [3, 18]
     assert {loss["name"] for loss in shaft["losses"]} == {"load", "smoothing", "temperature", "centrifugal growth"}
     assert shaft["internal_clearance"]["group"] == "C3" and shaft["creep"]["holds_at_start"] is not None
+
+
+def test_options_take_what_their_keys_take():
+    for option in OPTIONS:
+        if option.key != "asked_interference_um":  # two numbers, LEAST:MOST
+            annotation = Bearing.model_fields[option.key].annotation
+            assert (float in {annotation, *get_args(annotation)} - {NoneType}) == (option.type is float), option.key
+
+
+def test_options_and_a_file_of_the_same_bearing_agree(tmp_path):
+    file = tmp_path / "seats.toml"
+    file.write_text(
+        "[machine]\nname = 'm'\n[[bearing]]\nbore_mm = 80.0\nouter_mm = 140.0\nwidth_mm = 33.0\n"
+        "shaft_fit = 'm6'\nhousing_fit = 'K7'\nasked_interference_um = [3.0, 40.0]\n",
+        encoding="utf-8",
+    )
+    by_file, by_options = abu("check-fit", str(file), "--json"), abu(*BARE, "--asked-interference", "3:40", "--json")
+    assert by_file.document["result"] == by_options.document["result"]
+    assert by_file.document["checks"] == by_options.document["checks"]
+    assert by_options.document["input"] is None and by_file.document["input"]["file"] == str(file)
+
+
+def test_what_plays_no_part_is_told():
+    seen = abu(*BARE, "--seat-friction", "0.2", "--json")
+    assert "seat_friction plays no part" in seen.document["warnings"][0] and seen.status == 0
 
 
 @pytest.mark.parametrize(
@@ -72,7 +108,7 @@ def test_explain_puts_the_numbers_in():
 
 
 def test_the_drawing_of_the_source():
-    lines = zone_lines(seat([-15, 0], [2, 21], "k6"), seat([-18, 0], [-28, 12], "K7"))
+    lines = zones(([-15, 0], [2, 21], "k6"), ([-18, 0], [-28, 12], "K7"))
     zero = next(i for i, line in enumerate(lines) if "+---" in line)
     assert all(ord(character) < 128 for line in lines for character in line)
     assert max(map(len, lines)) <= 58
@@ -85,7 +121,7 @@ def test_the_drawing_of_the_source():
 @pytest.mark.parametrize("part", [[-33, -20], [0, 9], [-9.5, 9.5], [-6, 0], [63, 131], [0, 4]])
 def test_zones_stand_where_their_limits_are(part):
     """Rows that hold the part's mark, by the scale at their left, against the limits."""
-    lines = zone_lines(seat([-8, 0], part, "x1"), seat([-8, 0], part, "x1"))
+    lines = zones(*[([-8, 0], part, "x1")] * 2)
     zero = next(i for i, line in enumerate(lines) if "+---" in line)
     scale = abs(int(lines[zero + 1].split("|")[0]))
     for number, line in enumerate(lines[1:], 1):
