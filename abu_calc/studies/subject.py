@@ -64,6 +64,8 @@ class Subject:
 
 def subject_of(source: Source, scene: str | None = None, start: str | None = None) -> Subject:
     """What a source is about; which scene (`idle` unless said) and how the balls start are asked of machines only."""
+    one_of("scene", scene, SCENES)
+    one_of("start", start, STARTS)
     if isinstance(source, Machine):
         return _of_machine(source, scene or "idle", start or "bunched")
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
@@ -79,8 +81,6 @@ def subject_of(source: Source, scene: str | None = None, start: str | None = Non
 
 
 def _of_machine(machine: Machine, scene: str, start: str) -> Subject:
-    one_of("scene", scene, SCENES)
-    one_of("start", start, STARTS)
     tables = machine.whole("simulate")
     chosen_start = next(each for each in STARTS if each == start)
     with machine.located():

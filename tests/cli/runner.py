@@ -22,6 +22,11 @@ class Seen:
         """The one JSON document on standard output."""
         return json.loads(self.out, parse_constant=_refuse)
 
+    @property
+    def width(self) -> int:
+        """Length of the longest line but those of one word: names of files are not broken."""
+        return max(len(line) for line in self.out.splitlines() if len(line.split()) > 1)
+
 
 def abu(*arguments: str) -> Seen:
     """What `abu arguments…` does."""

@@ -41,7 +41,7 @@ def test_all_effects_there_are() -> None:
     assert all(entry["about"][0].isupper() and "\n" not in entry["about"] for entry in found.values())
     assert found["gravity"]["table"] == "scene.effects.gravity"
     seen = abu("effects")
-    assert all(name in seen.out for name in ALL) and max(map(len, seen.out.splitlines())) <= 80
+    assert all(name in seen.out for name in ALL) and seen.width <= 80
 
 
 def test_of_a_scene(file: str) -> None:
@@ -83,7 +83,7 @@ def test_all_at_once_as_a_scene_and_as_text(tmp_path: Path) -> None:
         found[name]["weight"] is None and found[name]["included"] for name in ("run_up", "motor", "ball_contact")
     )
     seen = abu("effects", str(path))
-    assert seen.status == 0 and max(map(len, seen.out.splitlines())) <= 80
+    assert seen.status == 0 and seen.width <= 80
     assert "half the accuracy" in " ".join(seen.out.split())
     assert "has data for none" in abu("effects", _without_effects(tmp_path)).out
 
