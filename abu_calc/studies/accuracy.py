@@ -1,6 +1,5 @@
 """What accuracy costs: every way to compute a scene, its error and its time."""
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Final, Self
 
 from abu_calc.analysis.accuracy import Point, Study
@@ -10,7 +9,7 @@ from abu_calc.analysis.differences import QUANTITIES
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check, verdict
 from abu_calc.studies.arguments import one_of
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Progress, Result, silent
 from abu_calc.studies.scene_model import SceneModel
 from abu_calc.studies.simulated_scene import finite
@@ -20,7 +19,7 @@ from abu_calc.validity import Range
 BUDGET: Final = Range("budget", 0.1, 3600.0, "s", key="budget_s")
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class MeasuredPoint(Record):
     """One way to compute; without a number of it, `note` says why."""
 
@@ -44,7 +43,7 @@ class MeasuredPoint(Record):
         )  # fmt: skip
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Reference(Record):
     """What errors are counted from: two methods; how far they are apart, and errors are no surer."""
 
@@ -61,7 +60,7 @@ class Reference(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class AccuracyResult(Result):
     """The price list of a scene."""
 

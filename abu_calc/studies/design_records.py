@@ -1,7 +1,6 @@
 """The parts of a sized design, as results tell them: SI in, user units out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.analysis.region import TrueRegion
@@ -14,7 +13,7 @@ from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import Place
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.simulated_scene import finite
 from abu_calc.units import from_si
 
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class StabilityBoundary(Record):
     """A speed at which the balanced state gains or loses its stability."""
 
@@ -36,7 +35,7 @@ def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundar
                  for one in limits)  # fmt: skip
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Frequency(Record):
     """Where the working speeds lie, by the simple rule and by the eigenvalues."""
 
@@ -63,7 +62,7 @@ class Frequency(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Autobalancer(Record):
     """One candidate."""
 
@@ -122,7 +121,7 @@ class Autobalancer(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class AccuracyBudget(Record):
     """Displacements 0–peak at the wheel that stay when the balls have settled; None: without bound."""
 
@@ -162,7 +161,7 @@ def _um(length: float) -> float | None:
     return finite(from_si(length, "um"))
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class HandleLevels(Record):
     """Levels at one place where the machine is held."""
 
@@ -185,7 +184,7 @@ class HandleLevels(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Vibration(Record):
     """Levels at the loudest place, and at each; None after: balls cannot balance."""
 
@@ -206,7 +205,7 @@ class Vibration(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class SwingArm(Record):
     """What stiffness and damping the arm must have."""
 
@@ -232,7 +231,7 @@ class SwingArm(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class DrawingLine(Record):
     """One requirement for the drawing."""
 

@@ -1,5 +1,6 @@
 """Records: the parts a result is made of, whose fields say what they are.
 
+    @record
     class Autobalancer(Record):
         ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
 
@@ -9,7 +10,9 @@ Schema of results are made of that.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Final, NamedTuple, get_args, get_type_hints
+from typing import Any, ClassVar, Final, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints
+
+T = TypeVar("T")
 
 
 class Quantity(NamedTuple):
@@ -23,7 +26,16 @@ class Quantity(NamedTuple):
     """Shown in hundredths."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass_transform(frozen_default=True, kw_only_default=True)
+def record(kind: type[T]) -> type[T]:
+    """Makes a class a record: a frozen dataclass whose fields are given by name.
+
+    Comparison and text are those of `Record`: to write them for each class would take a good part of a command's start.
+    """
+    return dataclass(frozen=True, kw_only=True, eq=False, repr=False)(kind)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Record:
     """A part of a result. Fields in user units; None: not computed, a check or a warning says why."""
 
@@ -31,6 +43,19 @@ class Record:
     """Fields that are no entries of the result."""
     optional: ClassVar[frozenset[str]] = frozenset()
     """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        names = [field.name for field in fields(self) if field.compare]
+        return all(getattr(self, name) == getattr(other, name) for name in names)
+
+    def __hash__(self) -> int:
+        return hash(type(self))  # what it holds need not be hashable
+
+    def __repr__(self) -> str:
+        values = (f"{field.name}={getattr(self, field.name)!r}" for field in fields(self) if field.repr)
+        return f"{type(self).__name__}({', '.join(values)})"
 
     @classmethod
     def entries(cls) -> tuple[str, ...]:

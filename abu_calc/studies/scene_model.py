@@ -1,16 +1,15 @@
 """The SI numbers and states of a scene that is integrated, and what it is in words."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.kinds import SwingArm
-from abu_calc.studies.quantity import Record
+from abu_calc.studies.quantity import Record, record
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class RaceModel(Record):
     """A race and its balls."""
 
@@ -38,7 +37,7 @@ class RaceModel(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class SceneModel(Record):
     """A scene as it is integrated; the numbers of its support stand beside the others."""
 

@@ -1,12 +1,11 @@
 """Bearing seats as results tell them: SI in, user units out; a seat is one ring on its shaft or in its housing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 
 from abu_calc.spec.bearing import RingLoad
 from abu_calc.standards.limits import Seat
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
@@ -32,7 +31,7 @@ def _um(length: float | None) -> float | None:
     return None if length is None else um(length)
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Loss(Record):
     """What takes from the interference: the load by both rules, of which the larger counts, then the losses given."""
 
@@ -48,7 +47,7 @@ class Loss(Record):
         return cls(name=loss.name, amount_um=um(loss.value), formula=loss.formula, counted=item.counted)
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class AdmissibleFit(Record):
     """A tolerance class that passes all checks."""
 
@@ -64,7 +63,7 @@ class AdmissibleFit(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Creep(Record):
     """Whether the ring creeps on its seat under its load, and whether it holds when the machine starts."""
 
@@ -92,7 +91,7 @@ class Creep(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Requirements(Record):
     """What the drawing of the seat must ask for."""
 
@@ -122,7 +121,7 @@ class Requirements(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class Clearance(Record):
     """Radial clearance in the bearing; it belongs to both seats."""
 
@@ -146,7 +145,7 @@ class Clearance(Record):
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class SeatResult(Record):
     """One seat, judged; interference is positive when tight, limits count from the nominal size."""
 

@@ -1,7 +1,7 @@
 """One scene integrated: amplitude, level, settling time, where the balls end, and how sure that is."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import ClassVar, Final
 
 from abu_calc.analysis.audit import Audit
@@ -11,6 +11,7 @@ from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.studies.arguments import one_of
 from abu_calc.studies.motion import Motion, equally_spaced
+from abu_calc.studies.quantity import record
 from abu_calc.studies.result import Progress, Result, silent
 from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.simulated_scene import SimulatedScene
@@ -19,7 +20,7 @@ from abu_calc.studies.subject import Source, subject_of
 INTEGRATORS: Final = ("auto", "scipy", "heyoka")
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class SimulateResult(SimulatedScene, Result):
     """One scene that was simulated; beside what is printed, how it moved."""
 

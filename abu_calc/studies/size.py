@@ -1,6 +1,5 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from abu_calc.analysis.idle import idle_checks, not_simulated
@@ -17,7 +16,7 @@ from abu_calc.studies.design_records import (
     SwingArm,
     Vibration,
 )
-from abu_calc.studies.quantity import Quantity
+from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Progress, Provenance, Result, silent
 from abu_calc.studies.seat_records import SeatResult, seat_results
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 

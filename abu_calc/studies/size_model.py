@@ -1,16 +1,15 @@
 """The SI numbers behind a sized design, for those who check it by hand."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Self
 
 from abu_calc.analysis.machine import Run
 from abu_calc.sizing.design import Design
-from abu_calc.studies.quantity import Record
+from abu_calc.studies.quantity import Record, record
 from abu_calc.studies.scene_model import SceneModel
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class SizeModel(Record):
     """What the steps of sizing worked with; complex numbers as real and imaginary part, x before y."""
 

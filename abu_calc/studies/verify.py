@@ -1,21 +1,20 @@
 """Files held to the results they expect."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from abu_calc.checks import Check, verdict
 from abu_calc.errors import InputError, Place
 from abu_calc.spec.bearing_file import BearingFile, expected_tolerances, expected_values
 from abu_calc.studies.expected import ComparedValue, compare, current
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Progress, Provenance, Result, silent
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class VerifiedFile(Record):
     """One file and its values."""
 
@@ -28,7 +27,7 @@ class VerifiedFile(Record):
         return tuple(each for each in self.values if not each.passed)
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class VerifyResult(Result):
     """Every file with its values, a check each."""
 

@@ -25,7 +25,7 @@ from tests.spec.samples import BASIC, refused
         ('[machine]\nname = "станок"\n'.encode("cp1251"), 2, "0xf1"),
         (b"#" * (LARGEST_FILE + 1), None, "too large"),
         (b"[scene]\nsupport = 'planar'\n", None, "abu simulate"),
-        (b"[rig]\n[rotor]\n", None, "abu balance"),
+        (b"[rig]\n[rotor]\n", None, "readings of a rig"),
     ],
 )
 def test_files_that_hold_no_machine(tmp_path: Path, raw: bytes, line: int | None, word: str) -> None:
