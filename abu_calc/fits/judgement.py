@@ -29,13 +29,13 @@ def start_checks(
     if torque is None or not joint.must_grip:
         return ()
     code, name = _CODES[joint.seat][2], f"hold of the {_NAMES[joint.seat]} at the start, {bearing}"
-    if creep.least_moment is None:
+    if creep.least_torque is None:
         said = "no chamfer is given, so the length of the seat is not known"
         return (Check(code, name, "not-done", said, None, torque, "N·m", "Give chamfer_mm.", "least"),)
     passed = bool(creep.holds_at_start)
     return (Check(
-        code, name, verdict(passed), f"friction moment of {joint.tolerance_class} at its least "
-        "interference, losses taken off, against the starting torque", creep.least_moment, torque, "N·m",
+        code, name, verdict(passed), f"friction torque of {joint.tolerance_class} at its least "
+        "interference, losses taken off, against the starting torque", creep.least_torque, torque, "N·m",
         None if passed else _remedy(recommended), "least",
     ),)  # fmt: skip
 
@@ -66,7 +66,7 @@ def _grip(bearing: str, joint: Joint, recommended: str | None) -> Check:
     passed = bool(joint.grips)
     return Check(
         code, name, verdict(passed), f"least interference of {joint.tolerance_class} against what the ring "
-        f"needs under a {joint.ring_load} load by {required.by}{_losses(joint)}", smallest, _um(required.value), "µm",
+        f"needs under a {joint.ring.load} load by {required.by}{_losses(joint)}", smallest, _um(required.value), "µm",
         None if passed else _remedy(recommended), "least",
     )  # fmt: skip
 

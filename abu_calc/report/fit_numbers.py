@@ -17,7 +17,7 @@ def seat_numbers(found: BearingSeats) -> tuple[str, ...]:
         lines += [
             f"{seat.seat}: {line}" for line in (*_fit(seat), *_load(found.bearing, seat), *_losses(found.bearing, seat))
         ]
-        lines += [f"{seat.seat}: {line}" for line in (*_stress(seat), *_moment(found.bearing, seat))]
+        lines += [f"{seat.seat}: {line}" for line in (*_stress(seat), *_torque(found.bearing, seat))]
     return (*lines, *_clearance(found))
 
 
@@ -38,11 +38,11 @@ def _fit(seat: SeatFit) -> tuple[str, ...]:
 
 def _load(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
     joint = seat.joint
-    if bearing.radial_load is None or joint.length is None or seat.load_intensity is None:
+    if joint.radial_load is None or joint.length is None or seat.load_intensity is None:
         return ()
-    kilonewtons, length = _g(from_si(bearing.radial_load, "kN")), _mm(joint.length)
+    kilonewtons, length = _g(from_si(joint.radial_load, "kN")), _mm(joint.length)
     source, catalogue = (_g(um(bound.value)) for bound in joint.criteria)
-    under = f"{_mm(joint.diameter)}·{_g(bearing.radial_load)}/{_mm(joint.width)}"
+    under = f"{_mm(joint.diameter)}·{_g(joint.radial_load)}/{_mm(joint.ring.width)}"
     return (
         f"13·R·k/b = 13·{kilonewtons}·{_g(joint.factor)}/{length} = {source} µm",
         f"0.08·√(d·F_r/B) = 0.08·√({under}) = {catalogue} µm",
@@ -53,12 +53,13 @@ def _load(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
 
 def _losses(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
     steel = seat_material("steel")
-    rough = bearing.shaft_roughness if seat.seat == "shaft" else bearing.housing_roughness
+    rough = bearing.shaft.roughness if seat.seat == "shaft" else bearing.housing.roughness
+    service, bore, outer = bearing.service, bearing.inner.diameter, bearing.outer.diameter
     numbers = {
         "smoothing": f"0.4·{_g(um(rough or 0.0))} µm",
-        "temperature": f"{_g(steel.expansion)}·{_mm(bearing.bore)} mm·{_g(bearing.temperature_difference or 0.0)} K",
-        CENTRIFUGAL: f"Ω = {_g(bearing.speed or 0.0)} rad/s, d = {_mm(bearing.bore)}, d₁ = "
-        f"{_mm(inner_ring_diameter(bearing.bore, bearing.outer))}, d₀ = {_mm(bearing.shaft_bore)} mm",
+        "temperature": f"{_g(steel.expansion)}·{_mm(bore)} mm·{_g(service.ring_over_shaft or 0.0)} K",
+        CENTRIFUGAL: f"Ω = {_g(service.speed or 0.0)} rad/s, d = {_mm(bore)}, d₁ = "
+        f"{_mm(inner_ring_diameter(bore, outer))}, d₀ = {_mm(bearing.shaft.bore)} mm",
     }
     told = tuple(f"{loss.name}: {loss.formula}: {numbers[loss.name]} = {_g(um(loss.value))} µm" for loss in seat.losses)
     if seat.required_interference is None:
@@ -75,15 +76,14 @@ def _stress(seat: SeatFit) -> tuple[str, ...]:
     )
 
 
-def _moment(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
-    joint, moment = seat.joint, seat.creep.least_moment
-    if joint.length is None or moment is None:
+def _torque(bearing: Bearing, seat: SeatFit) -> tuple[str, ...]:
+    joint, torque = seat.joint, seat.creep.least_torque
+    if joint.length is None or torque is None:
         return ()
     pressure = joint.pressure_rate * max(seat.interference.smallest - joint.lasting_losses, 0.0)
-    diameter = _g(joint.diameter)
+    friction, diameter = _g(bearing.service.seat_friction), _g(joint.diameter)
     return (
-        f"μ·p·π·d·b·d/2 = {_g(bearing.seat_friction)}·{_g(pressure)}·π·{diameter}·{_g(joint.length)}·{diameter}/2 = "
-        f"{_g(moment)} N·m",
+        f"μ·p·π·d·b·d/2 = {friction}·{_g(pressure)}·π·{diameter}·{_g(joint.length)}·{diameter}/2 = {_g(torque)} N·m",
     )
 
 

@@ -76,11 +76,11 @@ def _seat(seat: SeatFit) -> dict[str, Any]:
 def _creep(seat: SeatFit) -> dict[str, Any]:
     found = seat.creep
     return {
-        "ring_load": seat.joint.ring_load,
+        "ring_load": seat.joint.ring.load,
         "verdict": found.verdict,
         "why": found.why,
         "probability": found.probability,
-        "friction_moment_N_m": None if found.least_moment is None else [found.least_moment, found.probable_moment],
+        "friction_moment_N_m": None if found.least_torque is None else [found.least_torque, found.probable_torque],
         "holds_at_start": found.holds_at_start,
     }
 

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from abu_calc.checks import Check, verdict
+from abu_calc.formula import formula
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
@@ -29,11 +30,16 @@ class Track:
     decay_rates: tuple[tuple[float, float], ...]
 
 
+@formula(
+    "Least speed that carries balls round a horizontal axis",
+    "√(g/R_p)",
+    "rad/s",
+    where="Below it balls rattle in the bottom of the race.",
+    assumed="horizontal spindle",
+    source="derived",
+)
 def carry_over_speed(pitch_radius: float) -> float:
-    """Least speed [rad/s] that carries balls round a horizontal axis: √(g/R_p).
-
-    Range: horizontal spindle; below it balls rattle in the bottom of the race. Source: derived.
-
+    """
     >>> round(from_si(carry_over_speed(23e-3), "rpm"))
     197
     """

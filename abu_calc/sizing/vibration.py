@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass
 
 from abu_calc.checks import Check, verdict
+from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import displacement_level
@@ -46,26 +47,36 @@ class Vibration:
     lowered: bool
 
 
+@formula(
+    "Idle levels: before, the whole imbalance without autobalancer; after, what the accuracy budget leaves",
+    "v = Ω·w/√2",
+    "dB",
+    where=(
+        "v rms of the displacement w at the wheel, times the motion of the place per motion of the wheel; in the "
+        "louder of x and y; the background added as energy. Where balls cannot balance there is no level after."
+    ),
+    assumed="steady state at the rated speed",
+    source="Kladiev 1996 (level and limit); the rigid body and the budget are ours",
+)
 def idle_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration:
-    """Idle levels: before, the whole imbalance without autobalancer; after, what the accuracy budget leaves.
-
-    v = Ω·w/√2 rms of the displacement w at the wheel, times the motion of the place per motion of the wheel; in the
-    louder of x and y; the background added as energy.
-    Range: steady state at the rated speed, where balls can balance (`possible`), else there is no level after.
-    Source: Kladiev 1996 (level and limit); the rigid body and the budget are ours.
-    """
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
     return _vibration(case, before, one.budget.residual if possible else None, one.mass)
 
 
+@formula(
+    "Levels under load by steady contact without separation: information, the contact's stiffness is uncertain",
+    "",
+    "dB",
+    where=(
+        "Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the "
+        "forward whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, "
+        "or where the contact asks for more than they carry. A face contact does not press radially: idle."
+    ),
+    assumed="no separation of wheel and work",
+    source="derived",
+)
 def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration | None:
-    """Levels under load by steady contact without separation: information, the contact's stiffness is uncertain.
-
-    Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the forward
-    whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, or where the
-    contact asks for more than they carry. A face contact does not press radially: idle.
-    """
     if case.contact is None:
         return None
     bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, one.mass, damped=True)
