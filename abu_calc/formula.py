@@ -51,7 +51,7 @@ class Formula:
         ranges = [f"{', '.join(limits)} (checked)"] if limits else []
         ranges += [f"{self.assumed} (not checked)"] if self.assumed else []
         told = (("Range", "; ".join(ranges)), ("Source", self.source), ("Printed", self.printed))
-        parts = (f"{self.gives}{unit}{equation}.", *self.where.splitlines())
+        parts = (f"{self.gives}{equation}{unit}.", *self.where.splitlines())
         return (*parts, *(f"{name}: {text}." for name, text in told if text))
 
     @property
@@ -59,14 +59,15 @@ class Formula:
         """The same in one piece.
 
         >>> print(Formula("a:b", "Time", "2·k", "s", checked=(Range("k", 0, 1),), source="derived").text)
-        Time [s]: 2·k.
+        Time: 2·k [s].
         Range: k 0 … 1 (checked).
         Source: derived.
         """
         return "\n".join(self.paragraphs)
 
 
-_REGISTERED: Final[dict[str, Formula]] = {}
+REGISTERED: Final[dict[str, Formula]] = {}
+"""By key; a module registers its formulas when it is imported."""
 
 
 def formula(
@@ -86,11 +87,11 @@ def formula(
 
 def register(found: Formula) -> Formula:
     """Registers a formula that no function of its module computes."""
-    _REGISTERED[found.key] = found
+    REGISTERED[found.key] = found
     return found
 
 
 def formula_of(key: str) -> Formula:
     """The formula registered by a key, `module:function`; its module is imported for it."""
     importlib.import_module(f"{_PACKAGE}{key.partition(':')[0]}")
-    return _REGISTERED[key]
+    return REGISTERED[key]

@@ -1,9 +1,13 @@
-"""Balls side by side in a race: their half angle, their mass, and the imbalance they can hold."""
+"""Balls side by side in a race: their half angle, their mass and rolling inertia, and the imbalance they can hold."""
 
 import math
+from typing import Final
 
 from abu_calc.formula import formula
 from abu_calc.validity import Range
+
+INERTIA_FACTORS: Final = {"ball": 7 / 5, "roller": 3 / 2}
+"""J: rolling inertia of a solid ball or roller (translation 1 + rotation 2/5 or 1/2)."""
 
 HALF_ANGLE_SINE = Range("ball radius over pitch radius", 0.0, 1.0, open_low=True)
 

@@ -79,19 +79,6 @@ def decay_rate(stiffnesses: Sequence[float], angles: Sequence[float], drag: floa
     return min(-slow_rates(k, drag, inertia_factor)[0].real for k in slow_stiffness(stiffnesses, angles))
 
 
-def settling_estimate(rate: float, remainder: float = 0.1) -> float:
-    """Time [s] in which a disturbance dies down to a remainder: ln(1/remainder)/rate. Raises InputError if rate ≤ 0.
-
-    >>> round(settling_estimate(5.0), 4)
-    0.4605
-    """
-    if not rate > 0:
-        raise InputError(
-            "balls do not settle: the slow motion does not decay", found=f"{rate:g} 1/s", allowed="above 0"
-        )
-    return math.log(1 / remainder) / rate
-
-
 @formula(
     "Drag that damps one slow mode critically: less lets it swing, more lets it creep",
     "h₀ = 2√(J k)",

@@ -4,14 +4,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formulas.ball_ring import INERTIA_FACTORS
 from abu_calc.formulas.suspension import Hands, Springs, Suspension
 from abu_calc.sizing.body import Body
 from abu_calc.spec.machine import Autobalancer, Grinding, Machine
 from abu_calc.standards.hands import hand
 from abu_calc.units import to_si
-
-INERTIA_FACTORS = {"ball": 7 / 5, "roller": 3 / 2}
-"""J: rolling inertia of a solid ball or roller (translation 1 + rotation 2/5 or 1/2)."""
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.sizing.case import Case
@@ -115,6 +115,4 @@ def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
     else:
         message = "at some speed of the range the balls go to the heavy side or stay restless, and make things worse"
         remedy = f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm), or hold the machine more softly."
-    return Check(
-        "ABU101", "frequency region", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least"
-    )
+    return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least")

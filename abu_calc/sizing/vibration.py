@@ -4,7 +4,7 @@ import cmath
 import math
 from dataclasses import dataclass
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.balls import Candidate
@@ -112,18 +112,15 @@ def _level(case: Case, displacement: float) -> float:
 def vibration_checks(case: Case, idle: Vibration) -> tuple[Check, ...]:
     """The idle level against the limit, and that the autobalancer lowers it."""
     limit, before, after = case.table.limits.vibration_level_db, idle.worst.before, idle.worst.after
-    names = ("ABU401", "idle vibration level"), ("ABU402", "level lowered")
     if after is None:
         reason = "not known, since the balls cannot balance at these speeds"
-        return tuple(
-            Check(*name, "not-done", reason, None, allowed, "dB")
-            for name, allowed in zip(names, (limit, before), strict=True)
-        )
+        allowed = {"ABU401": limit, "ABU402": before}
+        return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     lower = idle.lowered
     return (
-        Check(*names[0], verdict(after <= limit), "expected with the autobalancer at the worst handle, limit of the "
+        coded("ABU401", verdict(after <= limit), "expected with the autobalancer at the worst handle, limit of the "
               "file", after, limit, "dB",
               None if after <= limit else "Smaller race eccentricity, a harder and cleaner race, larger balls."),
-        Check(*names[1], verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
+        coded("ABU402", verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
               None if lower else "The wheel is balanced better than balls can do: no autobalancer is needed."),
     )  # fmt: skip
