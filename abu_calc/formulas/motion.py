@@ -11,8 +11,8 @@ ACCURACY: Final = Range("accuracy", 1e-8, 0.5, key="--accuracy")
 SETTLED: Final = 0.1
 """Share of the rotor's own imbalance below which what balls leave of it counts as settled, and as balanced."""
 
-RIGHT_HAND_SIDE = register(Formula(
-    "formulas.motion:right_hand_side",
+EQUATIONS = register(Formula(
+    "formulas.motion:equations",
     "The one set of equations of motion, composed of a support, races of balls, and the effects of a scene",
     where="A support is felt by the balls as a frame of d accelerations A. Ball k of mass m stands at the angle θ_k in "
     "the rotor, γ_k = θ_k + (turn of the rotor), e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). With T_k and N_k the "

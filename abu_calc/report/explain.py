@@ -164,7 +164,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "simulation": Step(
         "Simulation",
-        ("formulas.motion:right_hand_side", "formulas.motion:settling_time", "formulas.motion:simulate"),
+        ("formulas.motion:equations", "formulas.motion:settling_time", "formulas.motion:simulate"),
     ),
 }
 """Steps in the order of the pipeline."""

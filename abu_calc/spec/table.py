@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict
 from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from abu_calc.spec.text import Part
+from abu_calc.spec.wording import described
 
 RULE = "rule"
 """Type of the errors that `problem` makes, among those of pydantic."""
@@ -20,6 +21,12 @@ class Table(BaseModel):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset()
     """Keys without a default that a new file should nevertheless show live."""
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: object) -> None:
+        """Bounds and defaults stand in the fields alone: their descriptions are made of them."""
+        for field in cls.model_fields.values():
+            field.description = described(field)
 
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
