@@ -120,7 +120,7 @@ def _from_options(given: dict[str, Any]) -> tuple["Bearing", tuple[tuple[str, ob
     from pydantic import ValidationError
 
     from abu_calc.spec.bearing_file import BearingFile
-    from abu_calc.spec.errors import Origin, told
+    from abu_calc.spec.errors import Origin, input_error
 
     missing = [option for key, option in (("shaft_fit", "--shaft"), ("housing_fit", "--housing")) if key not in given]
     if "designation" not in given:
@@ -134,7 +134,7 @@ def _from_options(given: dict[str, Any]) -> tuple["Bearing", tuple[tuple[str, ob
         bearing = BearingFile.model_validate(document).bearing[0]
     except ValidationError as error:
         places: dict[tuple[str | int, ...], str] = {("bearing", 0, key): option for key, option in OPTIONS.items()}
-        raise told(error, Origin("", document, {}, places, BearingFile)) from None
+        raise input_error(error, Origin("", document, {}, places, BearingFile)) from None
     return bearing, tuple(bearing.own_defaults().items())
 
 

@@ -197,7 +197,7 @@ def _by_sizes(table: "BearingTable") -> Dimensions:
 
 
 def _chamfers(table: "BearingTable", like: Dimensions | None) -> tuple[float | None, float | None]:
-    """Of the inner and the outer ring; not known where neither the table nor a tabulated bearing tells."""
+    """Of the inner and the outer ring; not known where neither the table nor a tabulated bearing has them."""
     if table.chamfer_mm is not None or like is None:
         given = _si(table.chamfer_mm, "mm")
         return given, given

@@ -116,7 +116,7 @@ class Joint:
 
     @property
     def grips(self) -> bool | None:
-        """Whether the loosest pair holds a ring that must be held; None when that cannot be said."""
+        """Whether the loosest pair holds a ring that must be held; None when what it needs is not known."""
         if not self.must_grip:
             return True
         return None if self.required is None else self.interference.smallest >= self.required.value

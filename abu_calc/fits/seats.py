@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Item(NamedTuple):
-    """An entry of the ledger of losses; `counted` in the required interference, or told beside it."""
+    """An entry of the ledger of losses; `counted` in the required interference, or shown beside it."""
 
     loss: Loss
     counted: bool

@@ -1,45 +1,17 @@
-"""The checks of a design in the order a reader wants them, and what he must be warned of."""
-
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+"""The checks of the chosen autobalancer, and what a reader must be warned of."""
 
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.frequency import FrequencyRegion
-from abu_calc.sizing.track import Track, track_checks
-from abu_calc.sizing.vibration import Vibration, vibration_checks
+from abu_calc.sizing.vibration import Vibration
 from abu_calc.standards.balls import stock_diameter
 from abu_calc.units import from_si, to_si
 
-if TYPE_CHECKING:
-    from abu_calc.fits.seats import BearingSeats
-    from abu_calc.sizing.swing_arm import SwingArmBounds
 
-
-def design_checks(
-    case: Case,
-    frequency: FrequencyRegion,
-    one: Candidate,
-    track: Track,
-    idle: Vibration,
-    seats: "Iterable[BearingSeats]",
-    arm: "SwingArmBounds | None",
-) -> tuple[Check, ...]:
-    """All checks of the design itself; the simulation adds its own."""
-    return (
-        frequency.check,
-        _capacity(case, one),
-        _budget(one),
-        _mass(case, one),
-        *_plane(case, one),
-        *track_checks(case, one, track),
-        *vibration_checks(case, idle),
-        *_power(case),
-        *(arm.checks if arm else ()),
-        *(check for bearing in seats for check in bearing.checks),
-    )
+def candidate_checks(case: Case, one: Candidate) -> tuple[Check, ...]:
+    """What the chosen autobalancer must hold: capacity, accuracy, mass, and that its race is near the wheel."""
+    return _capacity(case, one), _budget(one), _mass(case, one), *_plane(case, one)
 
 
 def _capacity(case: Case, one: Candidate) -> Check:
@@ -91,7 +63,8 @@ def _plane(case: Case, one: Candidate) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def _power(case: Case) -> tuple[Check, ...]:
+def power_checks(case: Case) -> tuple[Check, ...]:
+    """Whether the motor has the power that cutting takes; no check where either is not given."""
     power, contact = case.table.machine.power_W, case.contact
     if power is None or contact is None:
         return ()

@@ -34,7 +34,7 @@ class Table(BaseModel):
         return ()
 
     def unused(self) -> frozenset[str]:
-        """Keys that play no part, given the other keys: no default of theirs is told, and whoever gives one is."""
+        """Keys that play no part, given the other keys: not listed as defaults in force, warned of where given."""
         return frozenset()
 
     def own_defaults(self) -> dict[str, object]:
@@ -108,7 +108,7 @@ def all_tables(model: type[Table], path: tuple[str, ...] = ()) -> Iterator[tuple
 def problem(
     message: str, *key: Part, found: str | None = None, allowed: str | None = None, remedy: str | None = None
 ) -> PydanticCustomError:
-    """A broken rule between keys, told of `key` (a path below the table that raises it)."""
+    """A broken rule between keys, placed at `key` (a path below the table that raises it)."""
     facts = {"message": message, "key": key, "found": found, "allowed": allowed, "remedy": remedy}
     return PydanticCustomError(RULE, "{message}", facts)
 
