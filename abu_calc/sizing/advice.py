@@ -6,7 +6,7 @@ from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.vibration import Vibration
 from abu_calc.standards.balls import stock_diameter
-from abu_calc.units import from_si, to_si
+from abu_calc.units import from_si
 
 
 def candidate_checks(case: Case, one: Candidate) -> tuple[Check, ...]:
@@ -68,7 +68,7 @@ def power_checks(case: Case) -> tuple[Check, ...]:
     power, contact = case.table.machine.power_W, case.contact
     if power is None or contact is None:
         return ()
-    rim = case.speed * to_si(case.table.wheel.diameter_mm, "mm") / 2
+    rim = case.speed * case.wheel_radius
     cutting = contact.cutting_coefficient * contact.press_force * rim
     enough = cutting <= power
     return (

@@ -72,8 +72,8 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
     source="Kladiev 1996 (limit)",
 )
 def permitted_displacement(case: Case, added_mass: float) -> float:
-    allowed = velocity_from_level(case.table.limits.vibration_level_db) ** 2
-    background = case.table.machine.background_level_db
+    allowed = velocity_from_level(case.level_limit) ** 2
+    background = case.background_level
     if background is not None:
         allowed -= velocity_from_level(background) ** 2
     places = [handle.place for handle in case.handles] or [case.body.wheel]

@@ -68,7 +68,7 @@ def find_imbalance(case: Case) -> Imbalance:
 def _measured(case: Case) -> Imbalance:
     levels = case.table.wheel.measured_level_db or ()
     velocity = velocity_from_level(mean_level(levels))
-    background = case.table.machine.background_level_db
+    background = case.background_level
     if background is not None:
         velocity = _without_background(velocity, background)
     place = next((h.place for h in case.handles if h.name == case.table.wheel.measured_at), case.body.wheel)

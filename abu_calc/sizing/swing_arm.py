@@ -65,7 +65,7 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
         joint_damping=table.joint_damping_N_s_per_m,
         contact_stiffness=table.contact_stiffness_N_per_m,
         friction=table.cutting_coefficient,
-        disk_radius=to_si(case.table.wheel.diameter_mm, "mm") / 2,
+        disk_radius=case.wheel_radius,
         contact_angle=to_si(table.contact_angle_deg, "deg"),
         touch_angle=to_si(table.touch_angle_deg, "deg"),
         pressing_moment=table.pressing_moment_N_m,

@@ -106,12 +106,12 @@ def _vibration(case: Case, before: float, after: float | None, added_mass: float
 
 
 def _level(case: Case, displacement: float) -> float:
-    return displacement_level(displacement, case.speed, case.table.machine.background_level_db)
+    return displacement_level(displacement, case.speed, case.background_level)
 
 
 def vibration_checks(case: Case, idle: Vibration) -> tuple[Check, ...]:
     """The idle level against the limit, and that the autobalancer lowers it."""
-    limit, before, after = case.table.limits.vibration_level_db, idle.worst.before, idle.worst.after
+    limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None:
         reason = "not known, since the balls cannot balance at these speeds"
         allowed = {"ABU401": limit, "ABU402": before}
