@@ -14,15 +14,12 @@ SERIES_FACTORS: Final[dict[Series, float]] = {"light": 2.8, "medium": 2.3, "heav
 
 @formula(
     "Least interference that keeps a ring under a rotating load from creeping",
-    "N'min = 13·R·k/b µm",
-    "m",
-    where=(
-        "R radial load [N] (kN in the formula's micrometre form), b = B − 2r length of the seat [m] (mm there), k the "
-        "factor of the series."
-    ),
+    "N'min = 13·R·k/b",
+    "µm",
+    where="R radial load [kN], b = B − 2r length of the seat [mm], k the factor of the series; computed in SI.",
     checked=(RADIAL_LOAD, SEAT_LENGTH),
     source="Afanasiev 2015",
-    printed="13·R·k/(10⁶·b) with R in kN and b in m, which is in millimetres, labelled µm",
+    printed="13·R·k/(10⁶·b) with R in kN and b in m, which gives millimetres, labelled µm",
 )
 def creep_interference(load: float, seat_length: float, factor: float) -> float:
     """
@@ -34,9 +31,9 @@ def creep_interference(load: float, seat_length: float, factor: float) -> float:
 
 @formula(
     "Interference that a radial load takes from a seat",
-    "0.08·√(d·F_r/B) µm",
-    "m",
-    where="F_r load [N], d diameter of the seat and B width of the ring [m].",
+    "0.08·√(d·F_r/B)",
+    "µm",
+    where="F_r load [N], d diameter of the seat and B width of the ring [m]; computed in SI.",
     checked=(RADIAL_LOAD, SEAT_DIAMETER, SEAT_LENGTH),
     assumed=(
         "F_r up to a quarter of the static load rating (catalogues go over to 0.02·F_r/B beyond), inner rings on solid "

@@ -1,4 +1,4 @@
-"""Reading a machine file: document → overrides → model, every fault with its place."""
+"""Reading a machine file: document → overrides → model, every fault told with its place."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

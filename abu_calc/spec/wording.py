@@ -9,6 +9,7 @@ from typing import Annotated, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from abu_calc.spec.text import shown
+from abu_calc.validity import bounded
 
 
 def described(field: FieldInfo) -> str | None:
@@ -21,15 +22,6 @@ def described(field: FieldInfo) -> str | None:
     most = bounded(bounds["le"]) if "le" in bounds else ""
     default = field.default if isinstance(field.default, str) else _default(field.default)
     return text.format(range=f"{low} … {most}", most=most, default=default)
-
-
-def bounded(value: float) -> str:
-    """A bound as a sentence writes it.
-
-    >>> bounded(300_000), bounded(1e9), bounded(0.0001)
-    ('300000', '1e9', '0.0001')
-    """
-    return f"{value:g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
 
 
 def _default(value: object) -> str:

@@ -4,7 +4,7 @@ import importlib
 from collections.abc import Iterator
 
 from abu_calc.spec.table import Table
-from abu_calc.spec.wording import bounded
+from abu_calc.validity import bounded
 
 UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt")}
 """Bounds that another key draws closer."""
