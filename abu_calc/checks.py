@@ -4,6 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from abu_calc.check_codes import CHECK_CODES
+
 Status = Literal["pass", "fail", "not-done"]
 
 
@@ -23,6 +25,19 @@ class Check:
     unit: str | None = None
     remedy: str | None = None
     bound: Literal["most", "least"] = "most"
+
+
+def coded(
+    code: str, status: Status, message: str, value: float | None = None, limit: float | None = None,
+    unit: str | None = None, remedy: str | None = None, bound: Literal["most", "least"] = "most", *, of: str = "",
+) -> Check:  # fmt: skip
+    """A check by its code, whose name stands in the table of codes; `of` names the one of several that it is of.
+
+    >>> coded("ABU621", "pass", "…", of="6203").name
+    'clearance left in the bearing, 6203'
+    """
+    name = CHECK_CODES[code].name
+    return Check(code, f"{name}, {of}" if of else name, status, message, value, limit, unit, remedy, bound)
 
 
 def overall(checks: Iterable[Check]) -> Status:

@@ -6,6 +6,15 @@ from dataclasses import dataclass
 from abu_calc.errors import Place, RangeError
 
 
+def bounded(value: float) -> str:
+    """A bound as a sentence writes it.
+
+    >>> bounded(300_000), bounded(1e9), bounded(1e-8)
+    ('300000', '1e9', '1e-8')
+    """
+    return f"{value:g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
+
+
 @dataclass(frozen=True)
 class Range:
     """An interval of one quantity, in `unit` (SI unless the name says otherwise)."""
@@ -22,8 +31,8 @@ class Range:
     def __str__(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
         if math.isinf(self.high):
-            return f"{'above' if self.open_low else 'at least'} {self.low:g}{unit}"
-        return f"{'above ' if self.open_low else ''}{self.low:g} … {self.high:g}{unit}"
+            return f"{'above' if self.open_low else 'at least'} {bounded(self.low)}{unit}"
+        return f"{'above ' if self.open_low else ''}{bounded(self.low)} … {bounded(self.high)}{unit}"
 
     def check(self, value: float) -> float:
         """The value itself when it is inside; NaN never is.

@@ -2,10 +2,10 @@
 
 from abu_calc.analysis.response import Response
 from abu_calc.checks import Check, verdict
+from abu_calc.formulas.motion import SETTLED
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
 
-BALANCED_SHARE = 0.1
 WORK = 300_000
 """Evaluations that the simulation of one scene within `abu size` may take, some seconds. A wheel that bounces before it
 stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
@@ -46,7 +46,7 @@ def _allowed(design: Design, moved: float) -> float:
     """What may be left: a tenth of the imbalance, and what race eccentricity and dry friction keep in any case."""
     one = design.autobalancer
     kept = one.requirement.effective_mass * (one.budget.race_eccentricity + one.budget.rolling_friction)
-    return BALANCED_SHARE * max(moved, 0.01 * one.static_moment) + kept
+    return SETTLED * max(moved, 0.01 * one.static_moment) + kept
 
 
 def not_simulated(scene: str, reason: str) -> Check:

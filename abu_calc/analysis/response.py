@@ -13,6 +13,7 @@ from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
 
 SAMPLES_PER_REVOLUTION = 64
@@ -119,7 +120,7 @@ def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(moments, residuals, settled + 0.1 * reference_moment(scene)),
+        settling_time=settling_time(moments, residuals, settled + SETTLED * reference_moment(scene)),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place - mean),
         velocity_rms=rms,

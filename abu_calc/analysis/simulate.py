@@ -18,14 +18,14 @@ from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.validity import Range
+from abu_calc.formulas import motion
 
 Array = NDArray[np.float64]
 
 Tell = Callable[[str], None]
 """Gets what is being done, in a few words."""
 
-ACCURACY = Range("accuracy", 1e-8, 0.5, key="accuracy")
+ACCURACY = motion.ACCURACY
 
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but

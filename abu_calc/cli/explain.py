@@ -1,4 +1,4 @@
-"""`abu explain [STEP]`: the formulas of a step, without a machine."""
+"""`abu explain [STEP|CODE]`: the formulas of a step, or what a check code means, without a machine."""
 
 from typing import Annotated
 
@@ -6,29 +6,74 @@ import typer
 
 from abu_calc.cli.command import add_command
 from abu_calc.errors import InputError
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Grid, Heading, Paragraph
 from abu_calc.report.outcome import Outcome
 
+What = Annotated[str | None, typer.Argument(metavar="[STEP|CODE]", help="A step of sizing, or the code of a check.")]
 
-def explain(step: Annotated[str | None, typer.Argument(metavar="[STEP]", help="A step of sizing.")] = None) -> Outcome:
-    """Show equation, units, range and source of every formula of a step; without a step, list them."""
-    from abu_calc.report.explain import STEPS, formula_text, spoken, step_blocks
+
+def explain(step: What = None) -> Outcome:
+    """Show equation, units, range and source of every formula of a step, or what a check asks; without one, list."""
+    from abu_calc.check_codes import CHECK_CODES
+    from abu_calc.report.explain import STEPS
     from abu_calc.spec.names import nearest
 
     if step is None:
-        rows = tuple((name, each.title, ", ".join(map(spoken, each.formulas))) for name, each in STEPS.items())
-        blocks: tuple[Block, ...] = (
-            Heading("Steps of `abu size`"),
-            Grid(("step", "what", "formulas"), rows),
-            Paragraph("abu explain STEP shows them; abu size MACHINE --explain puts the numbers in."),
-        )
-        return Outcome("explain", {"steps": {name: each.title for name, each in STEPS.items()}}, blocks)
-    if step not in STEPS:
-        near = nearest(step, tuple(STEPS))
-        remedy = f'Did you mean "{near}"?' if near else None
-        raise InputError("no such step", found=step, allowed=", ".join(STEPS), remedy=remedy)
-    texts = {spoken(formula): formula_text(formula) for formula in STEPS[step].formulas}
-    return Outcome("explain", {"step": step, "formulas": texts}, tuple(step_blocks(STEPS[step])))
+        return _listed()
+    if step in STEPS:
+        return _step(step)
+    if step.upper() in CHECK_CODES:
+        return _code(step.upper())
+    near = nearest(step, (*STEPS, *CHECK_CODES))
+    allowed = ", ".join(STEPS) + ", or the code of a check, such as ABU201"
+    raise InputError(
+        "no such step or check", found=step, allowed=allowed, remedy=f'Did you mean "{near}"?' if near else None
+    )
+
+
+def _listed() -> Outcome:
+    from abu_calc.check_codes import CHECK_CODES
+    from abu_calc.report.explain import STEPS
+
+    steps = tuple((name, each.title, ", ".join(one.name for one in each.formulas)) for name, each in STEPS.items())
+    blocks = (
+        Heading("Steps of `abu size`"),
+        Grid(("step", "what", "formulas"), steps),
+        Heading("Checks"),
+        Grid(("code", "check", "step"), tuple((one.code, one.name, one.step) for one in CHECK_CODES.values())),
+        Paragraph("abu explain STEP or CODE shows them; abu size MACHINE --explain puts the numbers in."),
+    )
+    result = {
+        "steps": {name: each.title for name, each in STEPS.items()},
+        "checks": {code: one.name for code, one in CHECK_CODES.items()},
+    }
+    return Outcome("explain", result, blocks)
+
+
+def _step(name: str) -> Outcome:
+    from abu_calc.report.explain import STEPS, step_blocks
+
+    step = STEPS[name]
+    texts = {one.name: one.text for one in step.formulas}
+    return Outcome("explain", {"step": name, "formulas": texts}, tuple(step_blocks(step)))
+
+
+def _code(code: str) -> Outcome:
+    from abu_calc.check_codes import CHECK_CODES
+    from abu_calc.formula import formula_of
+    from abu_calc.report.explain import code_blocks
+
+    one = CHECK_CODES[code]
+    result = {
+        "check": one.code,
+        "name": one.name,
+        "asks": one.asks,
+        "fails": one.fails,
+        "remedy": one.remedy,
+        "step": one.step or None,
+        "formulas": {each.name: each.text for each in map(formula_of, one.formulas)},
+    }
+    return Outcome("explain", result, tuple(code_blocks(one)))
 
 
 def register(app: typer.Typer) -> None:

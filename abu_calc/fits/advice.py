@@ -3,10 +3,11 @@
 from typing import Final
 
 from abu_calc.fits.joint import Joint
+from abu_calc.fits.ranges import SEAT_LENGTH
+from abu_calc.formula import formula
 from abu_calc.standards.limits import Seat, tolerance_classes
 from abu_calc.standards.tables import toml_table
 from abu_calc.units import from_si
-from abu_calc.validity import Range
 
 LOOSE_ENOUGH: Final = 0.5
 """A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
@@ -18,7 +19,6 @@ SHOCK_FACTOR: Final = 1.8
 _USUAL_GRADE: Final[dict[Seat, str]] = {"shaft": "6", "housing": "7"}
 _RUNNING: Final = "f"
 _SLIDING: Final = ("h", "g")
-_LENGTH = Range("length of the seat", 0.0, 10.0, "m", open_low=True)
 
 
 def admissible(joint: Joint) -> tuple[Joint, ...]:
@@ -33,16 +33,23 @@ def admissible(joint: Joint) -> tuple[Joint, ...]:
     return tuple(sorted(passing, key=lambda one: (*_preference(one, joint), *_tightness(one))))
 
 
+@formula(
+    "Load intensity of a seat",
+    "P_R = k₁·k₂·k₃·R/b",
+    "N/m",
+    where=(
+        "R radial load [N], b length of the seat [m]; k₁ = 1.8 strong shocks, k₂ = 1 solid shaft or thick housing, k₃ "
+        "= 1 single row. Unverified advice."
+    ),
+    checked=(SEAT_LENGTH,),
+    source="handbooks as quoted by Afanasiev 2015",
+)
 def load_intensity(load: float, seat_length: float) -> float:
-    """Load intensity P_R = k₁·k₂·k₃·R/b [N/m] of a seat.
-
-    R radial load [N], b length of the seat [m]; k₁ = 1.8 strong shocks, k₂ = 1 solid shaft or thick housing, k₃ = 1
-    single row. Range: b > 0, else RangeError; unverified advice. Source: handbooks as quoted by Afanasiev 2015.
-
+    """
     >>> round(1e-3 * load_intensity(3000.0, 29e-3), 1)
     186.2
     """
-    return SHOCK_FACTOR * load / _LENGTH.check(seat_length)
+    return SHOCK_FACTOR * load / SEAT_LENGTH.check(seat_length)
 
 
 def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:

@@ -1,9 +1,19 @@
 """A bearing with its two seats, in SI, as the formulas of this room take it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from abu_calc.errors import InputError, Place
+from abu_calc.fits.ranges import (
+    BEARING_SIZE,
+    RADIAL_LOAD,
+    RING_SPEED,
+    ROUGHNESS,
+    SEAT_FRICTION,
+    STARTING_TORQUE,
+    WARMER_INSIDE,
+    WARMER_RING,
+)
 from abu_calc.standards.bearings import Dimensions, bearing, of_size
 from abu_calc.standards.limits import BearingType
 from abu_calc.units import from_si, to_si
@@ -15,70 +25,103 @@ if TYPE_CHECKING:
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
 Series = Literal["light", "medium", "heavy"]
 
-_SIZE = Range("bearing size", 0.0, 10.0, "m", open_low=True)
-_OTHERS = (
-    ("radial_load", Range("radial load", 0.0, 1e9, "N")),
-    ("shaft_roughness", Range("shaft roughness Rz", 0.0, 1e-3, "m")),
-    ("housing_roughness", Range("housing roughness Rz", 0.0, 1e-3, "m")),
-    ("temperature_difference", Range("ring temperature difference", 0.0, 500.0, "K")),
-    ("raceway_temperature_difference", Range("raceway temperature difference", 0.0, 500.0, "K")),
-    ("starting_torque", Range("starting torque", 0.0, 1e7, "N·m")),
-    ("seat_friction", Range("friction coefficient of the seat", 0.0, 1.0)),
-    ("speed", Range("ring speed", 0.0, 1e5, "rad/s")),
-)
+
+@dataclass(frozen=True)
+class Ring:
+    """One ring: diameter of its seat, width and chamfer of one edge [m] (None: not known), how the load meets it."""
+
+    diameter: float
+    width: float
+    chamfer: float | None
+    load: RingLoad
+
+    def __post_init__(self) -> None:
+        BEARING_SIZE.check(self.diameter)
+        BEARING_SIZE.check(self.width)
+
+    @property
+    def seat_length(self) -> float | None:
+        """Between the chamfers [m]; None where they are not known."""
+        return None if self.chamfer is None else self.width - 2 * self.chamfer
+
+
+@dataclass(frozen=True)
+class Shaft:
+    """What the inner ring sits on: tolerance class, roughness Rz [m] (None: not given), bore [m] (0: solid)."""
+
+    fit: str
+    roughness: float | None = None
+    bore: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check(ROUGHNESS, self.roughness)
+
+
+@dataclass(frozen=True)
+class Housing:
+    """What the outer ring sits in: tolerance class, roughness Rz and outer diameter [m] (None: not given), material."""
+
+    fit: str
+    roughness: float | None = None
+    outer: float | None = None
+    material: str = "steel"
+
+    def __post_init__(self) -> None:
+        _check(ROUGHNESS, self.roughness)
+
+
+@dataclass(frozen=True)
+class Service:
+    """What the seats must stand [SI]; None: not given, and then not counted.
+
+    `ring_over_shaft` and `inner_over_outer` are by how much the inner ring is warmer [K], `seat_friction` the
+    coefficient of friction between ring and seat.
+    """
+
+    radial_load: float | None = None
+    speed: float | None = None
+    ring_over_shaft: float | None = None
+    inner_over_outer: float | None = None
+    starting_torque: float | None = None
+    seat_friction: float = 0.12
+
+    def __post_init__(self) -> None:
+        _check(RADIAL_LOAD, self.radial_load)
+        _check(RING_SPEED, self.speed)
+        _check(WARMER_RING, self.ring_over_shaft)
+        _check(WARMER_INSIDE, self.inner_over_outer)
+        _check(STARTING_TORQUE, self.starting_torque)
+        SEAT_FRICTION.check(self.seat_friction)
 
 
 @dataclass(frozen=True)
 class Bearing:
-    """A bearing and its seats. Lengths [m], load [N], speed [rad/s], temperature [K]; None: not given.
+    """A bearing between its shaft and its housing, and what is asked of the two seats.
 
-    `temperature_difference` is by how much the inner ring is warmer than its shaft, `raceway_temperature_difference`
-    by how much it is warmer than the outer ring. `chamfer_from` names the tabulated bearing of the same sizes that
-    lends its chamfers.
+    `chamfer_from` names the tabulated bearing of the same sizes that lends its chamfers.
     """
 
     name: str
     type: BearingType
-    bore: float
-    outer: float
-    inner_width: float
-    outer_width: float
-    inner_chamfer: float | None
-    outer_chamfer: float | None
-    shaft_fit: str
-    housing_fit: str
+    inner: Ring
+    outer: Ring
+    shaft: Shaft
+    housing: Housing
+    service: Service = field(default_factory=Service)
     bearing_class: str = "0"
     series: Series = "light"
-    inner_ring_load: RingLoad = "rotating"
-    outer_ring_load: RingLoad = "stationary"
-    radial_load: float | None = None
-    shaft_roughness: float | None = None
-    housing_roughness: float | None = None
-    temperature_difference: float | None = None
-    speed: float | None = None
-    shaft_bore: float = 0.0
-    housing_outer: float | None = None
-    housing_material: str = "steel"
     internal_clearance: str | None = None
-    raceway_temperature_difference: float | None = None
-    starting_torque: float | None = None
-    seat_friction: float = 0.12
     asked_interference: tuple[float, float] | None = None
     chamfer_from: str | None = None
 
     def __post_init__(self) -> None:
-        for size in (self.bore, self.outer, self.inner_width, self.outer_width):
-            _SIZE.check(size)
-        for attribute, limits in _OTHERS:
-            value = getattr(self, attribute)
-            if value is not None:
-                limits.check(value)
-        _ascending("shaft bore", self.shaft_bore, "bearing bore", self.bore)
-        _ascending("bearing bore", self.bore, "outside diameter", self.outer)
-        if self.housing_outer is not None:
-            _ascending("outside diameter", self.outer, "housing diameter", self.housing_outer)
-        _ascending("two chamfers", 2 * (self.inner_chamfer or 0), "inner ring width", self.inner_width)
-        _ascending("two chamfers", 2 * (self.outer_chamfer or 0), "outer ring width", self.outer_width)
+        bore, outer = self.inner.diameter, self.outer.diameter
+        _ascending("shaft bore", self.shaft.bore, "bearing bore", bore)
+        _ascending("bearing bore", bore, "outside diameter", outer)
+        if self.housing.outer is not None:
+            _ascending("outside diameter", outer, "housing diameter", self.housing.outer)
+        _ascending("two chamfers", 2 * (self.inner.chamfer or 0), "inner ring width", self.inner.width)
+        _ascending("two chamfers", 2 * (self.outer.chamfer or 0), "outer ring width", self.outer.width)
         if self.asked_interference is not None and not self.asked_interference[0] < self.asked_interference[1]:
             raise InputError("the band of interference must ascend", place=Place(key="asked_interference_um"))
 
@@ -99,32 +142,32 @@ def from_table(table: "BearingTable") -> Bearing:
     return Bearing(
         name=table.name,
         type=size.type,
-        bore=size.bore,
-        outer=size.outer,
-        inner_width=size.inner_width,
-        outer_width=size.outer_width,
-        inner_chamfer=inner_chamfer,
-        outer_chamfer=outer_chamfer,
-        shaft_fit=table.shaft_fit,
-        housing_fit=table.housing_fit,
+        inner=Ring(size.bore, size.inner_width, inner_chamfer, table.inner_ring_load),
+        outer=Ring(size.outer, size.outer_width, outer_chamfer, table.outer_ring_load),
+        shaft=Shaft(table.shaft_fit, _si(table.shaft_rz_um, "um"), _si(table.shaft_bore_mm, "mm") or 0.0),
+        housing=Housing(
+            table.housing_fit,
+            _si(table.housing_rz_um, "um"),
+            _si(table.housing_outer_mm, "mm"),
+            table.housing_material,
+        ),
+        service=_service(table),
         bearing_class=table.bearing_class,
         series=table.series,
-        inner_ring_load=table.inner_ring_load,
-        outer_ring_load=table.outer_ring_load,
-        radial_load=_si(table.radial_load_kN, "kN"),
-        shaft_roughness=_si(table.shaft_rz_um, "um"),
-        housing_roughness=_si(table.housing_rz_um, "um"),
-        temperature_difference=_si(table.ring_temperature_difference_K, "K"),
-        speed=_si(table.speed_rpm, "rpm"),
-        shaft_bore=_si(table.shaft_bore_mm, "mm") or 0.0,
-        housing_outer=_si(table.housing_outer_mm, "mm"),
-        housing_material=table.housing_material,
         internal_clearance=table.internal_clearance,
-        raceway_temperature_difference=_si(table.raceway_temperature_difference_K, "K"),
-        starting_torque=_si(table.starting_torque_N_m, "N_m"),
-        seat_friction=table.seat_friction,
         asked_interference=None if asked is None else (to_si(asked[0], "um"), to_si(asked[1], "um")),
         chamfer_from=like.designation if lent and like else None,
+    )
+
+
+def _service(table: "BearingTable") -> Service:
+    return Service(
+        radial_load=_si(table.radial_load_kN, "kN"),
+        speed=_si(table.speed_rpm, "rpm"),
+        ring_over_shaft=_si(table.ring_temperature_difference_K, "K"),
+        inner_over_outer=_si(table.raceway_temperature_difference_K, "K"),
+        starting_torque=_si(table.starting_torque_N_m, "N_m"),
+        seat_friction=table.seat_friction,
     )
 
 
@@ -154,7 +197,7 @@ def _by_sizes(table: "BearingTable") -> Dimensions:
 
 
 def _chamfers(table: "BearingTable", like: Dimensions | None) -> tuple[float | None, float | None]:
-    """Of the inner and the outer ring; not known where neither the table nor a tabulated bearing tells."""
+    """Of the inner and the outer ring; not known where neither the table nor a tabulated bearing has them."""
     if table.chamfer_mm is not None or like is None:
         given = _si(table.chamfer_mm, "mm")
         return given, given
@@ -169,6 +212,11 @@ def _check_group(table: "BearingTable", size: Dimensions) -> None:
             found=table.internal_clearance,
             remedy="Leave internal_clearance out: the clearance of such a bearing is set when it is mounted.",
         )
+
+
+def _check(limits: Range, value: float | None) -> None:
+    if value is not None:
+        limits.check(value)
 
 
 def _si(value: float | None, unit: str) -> float | None:

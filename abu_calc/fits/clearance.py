@@ -7,6 +7,7 @@ from abu_calc.fits.bearing import Bearing
 from abu_calc.fits.interference import Interval, probable_interference
 from abu_calc.fits.joint import Joint
 from abu_calc.fits.stress import inner_ring_diameter, outer_ring_diameter
+from abu_calc.formula import formula
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.clearance import GROUPS, radial_clearance
 
@@ -23,27 +24,34 @@ class ClearanceLeft(NamedTuple):
     group_to_choose: str | None
 
 
+@formula(
+    "Clearance that a bearing keeps",
+    "initial − change of both raceways − α·(d₁+D₁)/2·ΔT",
+    "m",
+    where=(
+        "The raceways change by the raceway change at the interference less the smoothing; a loose ring changes "
+        "nothing. The extreme clearance takes all extremes together, the probable one mean ∓ √(Σ half ranges²) of the "
+        "three parts. ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways."
+    ),
+    checked=("deep groove ball bearings",),
+    assumed="rings as plain tubes",
+    source="Lamé; ISO 5753-1:2009 for the groups",
+)
 def clearance_left(group: str, bearing: Bearing, shaft: Joint, housing: Joint) -> ClearanceLeft:
-    """Clearance that a bearing keeps: initial − change of both raceways − α·(d₁+D₁)/2·ΔT.
-
-    The raceways change by `raceway_change` at the interference less the smoothing; a loose ring changes nothing. The
-    extreme clearance takes all extremes together, the probable one mean ∓ √(Σ half ranges²) of the three parts.
-    ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways. Range: deep groove ball bearings, rings as plain
-    tubes. Source: Lamé; ISO 5753-1:2009 for the groups.
-    """
-    raceways = (inner_ring_diameter(bearing.bore, bearing.outer) + outer_ring_diameter(bearing.bore, bearing.outer)) / 2
-    warmth = seat_material("steel").expansion * raceways * (bearing.raceway_temperature_difference or 0.0)
+    bore, outer = bearing.inner.diameter, bearing.outer.diameter
+    raceways = (inner_ring_diameter(bore, outer) + outer_ring_diameter(bore, outer)) / 2
+    warmth = seat_material("steel").expansion * raceways * (bearing.service.inner_over_outer or 0.0)
     joints = (shaft, housing)
     extreme = [_change(joint, joint.interference) for joint in joints]
     likely = [_change(joint, probable_interference(*joint.male_and_female)) for joint in joints]
 
     def probable(other: str) -> Interval:
-        start = Interval(*radial_clearance(other, bearing.bore))
+        start = Interval(*radial_clearance(other, bore))
         mean = _middle(start) - sum(map(_middle, likely)) - warmth
         half = math.hypot(*((one.largest - one.smallest) / 2 for one in (start, *likely)))
         return Interval(mean - half, mean + half)
 
-    initial = Interval(*radial_clearance(group, bearing.bore))
+    initial = Interval(*radial_clearance(group, bore))
     mounted = Interval(
         initial.smallest - sum(one.largest for one in extreme) - warmth,
         initial.largest - sum(one.smallest for one in extreme) - warmth,

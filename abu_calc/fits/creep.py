@@ -5,44 +5,51 @@ from typing import Literal, NamedTuple
 
 from abu_calc.fits.interference import probability_below, probable_interference
 from abu_calc.fits.joint import Joint
-from abu_calc.validity import Range
+from abu_calc.fits.ranges import SEAT_FRICTION
+from abu_calc.formula import formula
 
 CreepVerdict = Literal["holds", "may creep", "creeps", "needs no grip", "not known"]
 
-_FRICTION = Range("friction coefficient of the seat", 0.0, 1.0)
-
 
 class Creep(NamedTuple):
-    """`probability` that a pair has less interference than its ring needs; friction moments [N·m] of the seat at the
+    """`probability` that a pair has less interference than its ring needs; friction torques [N·m] of the seat at the
     least and at the least probable interference, losses taken off; whether the least outweighs the starting torque."""
 
     verdict: CreepVerdict
     why: str
     probability: float | None
-    least_moment: float | None
-    probable_moment: float | None
+    least_torque: float | None
+    probable_torque: float | None
     holds_at_start: bool | None
 
 
-def friction_moment(friction: float, pressure: float, diameter: float, length: float) -> float:
-    """Moment [N·m] at which a pressed ring slips on its seat: μ·p·π·d·b·d/2.
-
-    μ friction coefficient (0.12 steel on steel, dry or lightly oiled, assumed), p pressure [Pa], d diameter and b
-    length of the seat [m]. Range: 0 ≤ μ ≤ 1, else RangeError; even pressure. Source: Coulomb friction on a cylinder.
-
-    >>> round(friction_moment(0.12, 5e6, 0.080, 0.029), 1)
+@formula(
+    "Torque at which a pressed ring slips on its seat",
+    "μ·p·π·d·b·d/2",
+    "N·m",
+    where=(
+        "μ friction coefficient (0.12 steel on steel, dry or lightly oiled, assumed), p pressure [Pa], d diameter and "
+        "b length of the seat [m]."
+    ),
+    checked=(SEAT_FRICTION,),
+    assumed="even pressure",
+    source="Coulomb friction on a cylinder",
+)
+def friction_torque(friction: float, pressure: float, diameter: float, length: float) -> float:
+    """
+    >>> round(friction_torque(0.12, 5e6, 0.080, 0.029), 1)
     174.9
     """
-    return _FRICTION.check(friction) * pressure * math.pi * diameter * length * diameter / 2
+    return SEAT_FRICTION.check(friction) * pressure * math.pi * diameter * length * diameter / 2
 
 
 def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep:
     """Judge a ring: under a load fixed in direction it needs no grip, else its least interference must do."""
-    moments = _moments(joint, friction)
+    torques = _torques(joint, friction)
     starts = None
-    if joint.must_grip and moments is not None and starting_torque is not None:
-        starts = moments[0] >= starting_torque
-    least, probable = moments or (None, None)
+    if joint.must_grip and torques is not None and starting_torque is not None:
+        starts = torques[0] >= starting_torque
+    least, probable = torques or (None, None)
     required = joint.required
     if not joint.must_grip:
         why = f"its load is fixed in direction; {_share(joint.clearance_probability)} of pairs are loose"
@@ -50,12 +57,12 @@ def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep
     if required is None:
         return Creep("not known", "load or length of the seat are not given", None, least, probable, starts)
     below = probability_below(required.value, *joint.male_and_female)
-    why = f"{_share(below)} of pairs have less than its {joint.ring_load} load asks for"
+    why = f"{_share(below)} of pairs have less than its {joint.ring.load} load asks for"
     verdict: CreepVerdict = "holds" if joint.grips else "may creep" if below < 0.5 else "creeps"
     return Creep(verdict, why, below, least, probable, starts)
 
 
-def _moments(joint: Joint, friction: float) -> tuple[float, float] | None:
+def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
     """At the least and at the least probable interference."""
     if joint.length is None:
         return None
@@ -65,7 +72,7 @@ def _moments(joint: Joint, friction: float) -> tuple[float, float] | None:
         joint.pressure_rate * max(smallest - joint.lasting_losses, 0.0)
         for smallest in (joint.interference.smallest, probable)
     )
-    least, likely = (friction_moment(friction, pressure, joint.diameter, length) for pressure in pressures)
+    least, likely = (friction_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
     return least, likely
 
 

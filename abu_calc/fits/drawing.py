@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from abu_calc.fits.joint import Joint
+from abu_calc.formula import formula
 from abu_calc.standards.limits import Limits, part_limits, tolerance_classes
 from abu_calc.standards.tables import toml_table
 from abu_calc.units import to_si
@@ -26,12 +27,16 @@ class Requirements(NamedTuple):
     source: str
 
 
+@formula(
+    "Requirements of a seat made to a tolerance class, for a bearing of an accuracy class",
+    where=(
+        "Roundness and longitudinal profile: a share of the tolerance (¼ for classes 0 and 6, ⅛ for 5 and 4, 1/16 for "
+        "2)."
+    ),
+    checked=("seats of 3 … 500 mm",),
+    source="GOST 3325-85; unverified",
+)
 def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) -> Requirements:
-    """Requirements of a seat made to a tolerance class, for a bearing of an accuracy class.
-
-    Roundness and longitudinal profile: a share of the tolerance (¼ for classes 0 and 6, ⅛ for 5 and 4, 1/16 for 2).
-    Range: 3 … 500 mm. Source: GOST 3325-85; unverified.
-    """
     table = toml_table("seat_requirements")
     own, limits = table[joint.seat], part_limits(joint.seat, tolerance_class, joint.diameter)
     grade = own["shoulder"][bearing_class]

@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from abu_calc.formula import formula
 from abu_calc.standards.limits import Limits
 from abu_calc.units import from_si, to_si
 
@@ -19,23 +20,34 @@ class Interval(NamedTuple):
     largest: float
 
 
+@formula(
+    "Interference between the extreme sizes",
+    "ei − ES … es − EI",
+    "m",
+    where=(
+        "Small letters of the part inside (shaft, or outer ring), capital ones of the part around it (inner ring, or "
+        "housing)."
+    ),
+    assumed="limits about one nominal size",
+    source="ISO 286-1:2010",
+)
 def theoretical_interference(male: Limits, female: Limits) -> Interval:
-    """Interference [m] between the extreme sizes: ei − ES … es − EI.
-
-    `male` is the part inside (shaft, or outer ring), `female` the part around it (inner ring, or housing).
-    Range: any limits about one nominal size. Source: ISO 286-1:2010.
-
+    """
     >>> theoretical_interference(Limits(2e-6, 21e-6), Limits(-15e-6, 0.0))
     Interval(smallest=2e-06, largest=3.6e-05)
     """
     return Interval(_exact(male.lower - female.upper), _exact(male.upper - female.lower))
 
 
+@formula(
+    "Interference to expect",
+    "mean ∓ √((T₁/2)² + (T₂/2)²), rounded outward to whole micrometres",
+    "m",
+    assumed="independent parts, fields centred",
+    source="the bearing makers' tables of probable interference",
+)
 def probable_interference(male: Limits, female: Limits) -> Interval:
-    """Interference [m] to expect: mean ∓ √((T₁/2)² + (T₂/2)²), rounded outward to whole micrometres.
-
-    Range: independent parts, fields centred. Source: the bearing makers' tables of probable interference.
-
+    """
     >>> probable_interference(Limits(2e-6, 18e-6), Limits(-12e-6, 0.0))
     Interval(smallest=6e-06, largest=2.6e-05)
     """
@@ -45,12 +57,16 @@ def probable_interference(male: Limits, female: Limits) -> Interval:
     return Interval(to_si(lower, "um"), to_si(upper, "um"))
 
 
+@formula(
+    "Probability that a pair is loose",
+    "Φ(−mean/σ), σ = √((T₁/2)² + (T₂/2)²)/3",
+    "1",
+    where="A clearance of zero counts as tight. Exact in that model, tails included.",
+    assumed="both sizes independent, normal, centred in their fields, half a field = 3σ",
+    source="normal law",
+)
 def clearance_probability(male: Limits, female: Limits) -> float:
-    """Probability that a pair is loose: Φ(−mean/σ), σ = √((T₁/2)² + (T₂/2)²)/3.
-
-    Range: both sizes independent, normal, centred in their fields, half a field = 3σ; a clearance of zero counts as
-    tight. Exact in that model, tails included. Source: normal law.
-
+    """
     >>> round(clearance_probability(Limits(-18e-6, 0.0), Limits(-28e-6, 12e-6)), 3)
     0.554
     """
@@ -65,13 +81,20 @@ def probability_below(interference: float, male: Limits, female: Limits) -> floa
     return 0.5 * math.erfc(mean / (sigma * math.sqrt(2)))
 
 
+@formula(
+    "Probability that a pair is loose when every part outside its field is sorted out",
+    "∫ f(x)·P(female > x) dx",
+    "1",
+    where=(
+        "f and P are the normal laws of the clearance probability, cut at the limits and scaled to 1. Where the fields "
+        "do not meet the result is exactly 0 or 1; where they do, Simpson's rule over the part they share, good to "
+        "1e-8."
+    ),
+    assumed="both sizes independent",
+    source="truncated normal law",
+)
 def truncated_clearance_probability(male: Limits, female: Limits) -> float:
-    """Probability that a pair is loose when every part outside its field is sorted out: ∫ f(x)·P(female > x) dx.
-
-    f and P are the normal laws of `clearance_probability`, cut at the limits and scaled to 1. Where the fields do not
-    meet the result is exactly 0 or 1; where they do, Simpson's rule over the part they share, good to 1e-8.
-    Range: both sizes independent. Source: truncated normal law.
-
+    """
     >>> round(truncated_clearance_probability(Limits(-18e-6, 0.0), Limits(-28e-6, 12e-6)), 4)
     0.5546
     """

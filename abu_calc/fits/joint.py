@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
-from abu_calc.fits.bearing import RingLoad
+from abu_calc.fits.bearing import Ring
 from abu_calc.fits.interference import Interval, clearance_probability, theoretical_interference
 from abu_calc.fits.requirement import creep_interference, load_loss
 from abu_calc.fits.stress import PERMITTED_RING_STRESS
@@ -28,23 +28,32 @@ class Loss(NamedTuple):
 
 @dataclass(frozen=True)
 class Joint:
-    """One ring on its seat. Lengths [m]; `length` of the seat between the chamfers, None where they are not known;
-    `losses` only those that the input asks for. Per interference: `pressure_rate` [Pa/m], `stress_rate` hoop stress of
-    the ring [Pa/m], `raceway_rate` change of the raceway's diameter [1]."""
+    """One ring on its seat, with the limits of the ring; `losses` [m] only those that the input asks for.
+
+    Per interference: `pressure_rate` [Pa/m], `stress_rate` hoop stress of the ring [Pa/m], `raceway_rate` change of the
+    raceway's diameter [1].
+    """
 
     seat: Seat
     tolerance_class: str
-    diameter: float
-    width: float
-    length: float | None
-    ring: Limits
-    ring_load: RingLoad
+    ring: Ring
+    ring_limits: Limits
     radial_load: float | None
     factor: float
     losses: tuple[Loss, ...]
     pressure_rate: float
     stress_rate: float
     raceway_rate: float
+
+    @property
+    def diameter(self) -> float:
+        """Nominal diameter of the seat [m]."""
+        return self.ring.diameter
+
+    @property
+    def length(self) -> float | None:
+        """Length of the seat between the chamfers [m]; None where they are not known."""
+        return self.ring.seat_length
 
     def with_class(self, tolerance_class: str) -> "Joint":
         """The same joint with its part to another tolerance class."""
@@ -58,7 +67,7 @@ class Joint:
     @property
     def male_and_female(self) -> tuple[Limits, Limits]:
         """Limits of the part inside and of the part around it."""
-        return (self.part, self.ring) if self.seat == "shaft" else (self.ring, self.part)
+        return (self.part, self.ring_limits) if self.seat == "shaft" else (self.ring_limits, self.part)
 
     @cached_property
     def interference(self) -> Interval:
@@ -73,7 +82,7 @@ class Joint:
     @property
     def must_grip(self) -> bool:
         """Whether the load turns round the ring, or may do so, and would make a loose ring creep."""
-        return self.ring_load != "stationary"
+        return self.ring.load != "stationary"
 
     @property
     def criteria(self) -> tuple[Bound, ...]:
@@ -82,7 +91,7 @@ class Joint:
             return ()
         return (
             Bound(creep_interference(self.radial_load, self.length, self.factor), "13·R·k/b (Afanasiev 2015)"),
-            Bound(load_loss(self.radial_load, self.diameter, self.width), "0.08·√(d·F_r/B) (bearing catalogues)"),
+            Bound(load_loss(self.radial_load, self.diameter, self.ring.width), "0.08·√(d·F_r/B) (bearing catalogues)"),
         )
 
     @cached_property
@@ -107,7 +116,7 @@ class Joint:
 
     @property
     def grips(self) -> bool | None:
-        """Whether the loosest pair holds a ring that must be held; None when that cannot be said."""
+        """Whether the loosest pair holds a ring that must be held; None when what it needs is not known."""
         if not self.must_grip:
             return True
         return None if self.required is None else self.interference.smallest >= self.required.value

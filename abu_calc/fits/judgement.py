@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
 from abu_calc.fits.advice import LOOSE_ENOUGH
 from abu_calc.fits.creep import Creep
 from abu_calc.fits.joint import Joint
@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from abu_calc.fits.clearance import ClearanceLeft
 
 _CODES = {"shaft": ("ABU601", "ABU602", "ABU603"), "housing": ("ABU611", "ABU612", "ABU613")}
-_NAMES = {"shaft": "seat on the shaft", "housing": "seat in the housing"}
 
 
 def seat_checks(bearing: str, joint: Joint, recommended: str | None) -> tuple[Check, Check]:
@@ -28,15 +27,15 @@ def start_checks(
     """Whether the least interference carries the starting torque; no check without one, or where none is needed."""
     if torque is None or not joint.must_grip:
         return ()
-    code, name = _CODES[joint.seat][2], f"hold of the {_NAMES[joint.seat]} at the start, {bearing}"
-    if creep.least_moment is None:
-        said = "no chamfer is given, so the length of the seat is not known"
-        return (Check(code, name, "not-done", said, None, torque, "N·m", "Give chamfer_mm.", "least"),)
+    code = _CODES[joint.seat][2]
+    if creep.least_torque is None:
+        why = "no chamfer is given, so the length of the seat is not known"
+        return (coded(code, "not-done", why, None, torque, "N·m", "Give chamfer_mm.", "least", of=bearing),)
     passed = bool(creep.holds_at_start)
-    return (Check(
-        code, name, verdict(passed), f"friction moment of {joint.tolerance_class} at its least "
-        "interference, losses taken off, against the starting torque", creep.least_moment, torque, "N·m",
-        None if passed else _remedy(recommended), "least",
+    return (coded(
+        code, verdict(passed), f"friction torque of {joint.tolerance_class} at its least "
+        "interference, losses taken off, against the starting torque", creep.least_torque, torque, "N·m",
+        None if passed else _remedy(recommended), "least", of=bearing,
     ),)  # fmt: skip
 
 
@@ -46,28 +45,28 @@ def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check,
         return ()
     passed = left.probable.smallest >= 0
     choice = f"{left.group_to_choose} keeps it." if left.group_to_choose else "No group keeps it: looser fits."
-    return (Check(
-        "ABU621", f"clearance left in the bearing, {bearing}", verdict(passed), f"least probable radial clearance of "
+    return (coded(
+        "ABU621", verdict(passed), f"least probable radial clearance of "
         f"group {left.group} after mounting", _um(left.probable.smallest), 0.0, "µm",
-        None if passed else choice, "least",
+        None if passed else choice, "least", of=bearing,
     ),)  # fmt: skip
 
 
 def _grip(bearing: str, joint: Joint, recommended: str | None) -> Check:
-    code, name = _CODES[joint.seat][0], f"{_NAMES[joint.seat]}, {bearing}"
+    code = _CODES[joint.seat][0]
     smallest, required = _um(joint.interference.smallest), joint.required
     if required is None:
         missing = "radial load" if joint.radial_load is None else "chamfer"
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
-        return Check(
-            code, name, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
-            "known", smallest, None, "µm", f"Give {key}.",
+        return coded(
+            code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
+            "known", smallest, None, "µm", f"Give {key}.", of=bearing,
         )  # fmt: skip
     passed = bool(joint.grips)
-    return Check(
-        code, name, verdict(passed), f"least interference of {joint.tolerance_class} against what the ring "
-        f"needs under a {joint.ring_load} load by {required.by}{_losses(joint)}", smallest, _um(required.value), "µm",
-        None if passed else _remedy(recommended), "least",
+    return coded(
+        code, verdict(passed), f"least interference of {joint.tolerance_class} against what the ring "
+        f"needs under a {joint.ring.load} load by {required.by}{_losses(joint)}", smallest, _um(required.value), "µm",
+        None if passed else _remedy(recommended), "least", of=bearing,
     )  # fmt: skip
 
 
@@ -80,20 +79,20 @@ def _loose(bearing: str, joint: Joint) -> Check:
             f"conservative for a load fixed in direction, which needs none: {share}, so the ring hardly creeps to "
             "spread its wear and is hard to move along its seat"
         )
-    return Check(
-        _CODES[joint.seat][0], f"{_NAMES[joint.seat]}, {bearing}", "pass",
+    return coded(
+        _CODES[joint.seat][0], "pass",
         f"least interference of {joint.tolerance_class}; {judgement}", _um(joint.interference.smallest),
-        None, "µm", None, "least",
+        None, "µm", None, "least", of=bearing,
     )  # fmt: skip
 
 
 def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     permitted, passed = joint.permitted, joint.bears
-    return Check(
-        _CODES[joint.seat][1], f"largest interference, {_NAMES[joint.seat]}, {bearing}", verdict(passed),
+    return coded(
+        _CODES[joint.seat][1], verdict(passed),
         f"largest interference of {joint.tolerance_class} against what is permitted by {permitted.by}; hoop "
         f"stress of the ring {from_si(joint.hoop_stress, 'MPa'):.0f} MPa", _um(joint.interference.largest),
-        _um(permitted.value), "µm", None if passed else _remedy(recommended),
+        _um(permitted.value), "µm", None if passed else _remedy(recommended), of=bearing,
     )  # fmt: skip
 
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Item(NamedTuple):
-    """An entry of the ledger of losses; `counted` in the required interference, or told beside it."""
+    """An entry of the ledger of losses; `counted` in the required interference, or shown beside it."""
 
     loss: Loss
     counted: bool
@@ -78,7 +78,7 @@ class SeatFit(NamedTuple):
     @property
     def ring_limits(self) -> Limits:
         """Limits of the ring."""
-        return self.joint.ring
+        return self.joint.ring_limits
 
     @property
     def interference(self) -> Interval:
@@ -171,7 +171,7 @@ def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft
 
 
 def _seat_fit(bearing: Bearing, joint: Joint, asked: Interval | None) -> SeatFit:
-    friction, torque = bearing.seat_friction, bearing.starting_torque
+    friction, torque = bearing.service.seat_friction, bearing.service.starting_torque
     verdict = creep(joint, friction, torque)
     passing = tuple(
         Admissible(one.tolerance_class, one.interference, one.clearance_probability)

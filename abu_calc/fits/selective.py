@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 from abu_calc.fits.interference import Interval
+from abu_calc.formula import formula
 from abu_calc.standards.limits import Limits
 
 
@@ -14,16 +15,20 @@ class Selection(NamedTuple):
     interference: Interval
 
 
+@formula(
+    "The fewest equal groups that bring every pair into the asked band, none when no number does",
+    where=(
+        "Both fields are cut into n equal groups and matched by number. Group i then has ei − EI + i·(T₁−T₂)/n − T₂/n "
+        "at least and T₁/n + T₂/n more at most, so that over all groups least = min(ei − EI, es − ES) − min(T₁, T₂)/n, "
+        "most = max(ei − EI, es − ES) + min(T₁, T₂)/n and n ≥ min(T₁, T₂)/(min(…) − asked least), n ≥ min(T₁, "
+        "T₂)/(asked most − max(…)). However fine the groups, the spread stays above |T₁ − T₂|: a narrower band, or one "
+        "beside those middles, cannot be reached by sorting."
+    ),
+    assumed="limits about one nominal size",
+    source="derived from the limits of size",
+)
 def selective_groups(male: Limits, female: Limits, asked: Interval) -> Selection | None:
-    """The fewest equal groups that bring every pair into the asked band; None when no number does.
-
-    Both fields are cut into n equal groups and matched by number. Group i then has ei − EI + i·(T₁−T₂)/n − T₂/n at
-    least and T₁/n + T₂/n more at most, so that over all groups
-        least = min(ei − EI, es − ES) − min(T₁, T₂)/n,  most = max(ei − EI, es − ES) + min(T₁, T₂)/n
-    and n ≥ min(T₁, T₂)/(min(…) − asked least), n ≥ min(T₁, T₂)/(asked most − max(…)). However fine the groups, the
-    spread stays above |T₁ − T₂|: a narrower band, or one beside those middles, cannot be reached by sorting.
-    Range: any limits about one nominal size. Source: derived from the limits of size.
-
+    """
     >>> found = selective_groups(Limits(2e-6, 21e-6), Limits(-15e-6, 0.0), Interval(10e-6, 28e-6))
     >>> found.groups, round(1e6 * found.interference.smallest, 2), round(1e6 * found.interference.largest, 2)
     (3, 12.0, 26.0)

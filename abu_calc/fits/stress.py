@@ -2,8 +2,9 @@
 
 from typing import Final, NamedTuple
 
+from abu_calc.fits.ranges import SEAT_DIAMETER, TUBE_RATIO
+from abu_calc.formula import formula
 from abu_calc.standards.balls import Material
-from abu_calc.validity import Range
 
 PERMITTED_RING_STRESS: Final = 400e6
 """Hoop stress [Pa] permitted in a ring of bearing steel: handbook value quoted by Afanasiev 2015, unverified."""
@@ -13,9 +14,6 @@ SECTION_SHARE: Final = 0.28
 
 It gives d/d₁ = 0.826 for the 80 × 140 mm bearing of Afanasiev 2015.
 """
-
-_RATIO = Range("ratio of a tube's diameters", 0.0, 0.999)
-_DIAMETER = Range("diameter of the seat", 0.0, 10.0, "m", open_low=True)
 
 
 class Tube(NamedTuple):
@@ -27,12 +25,12 @@ class Tube(NamedTuple):
     @property
     def hoop_at_bore(self) -> float:
         """Hoop stress at the bore per pressure inside: (1+q²)/(1−q²)."""
-        return (1 + _RATIO.check(self.ratio) ** 2) / (1 - self.ratio**2)
+        return (1 + TUBE_RATIO.check(self.ratio) ** 2) / (1 - self.ratio**2)
 
     @property
     def hoop_under_pressure_outside(self) -> float:
         """Magnitude of the (compressive) hoop stress at the bore per pressure outside: 2/(1−q²)."""
-        return 2 / (1 - _RATIO.check(self.ratio) ** 2)
+        return 2 / (1 - TUBE_RATIO.check(self.ratio) ** 2)
 
 
 def inner_ring_diameter(bore: float, outer: float) -> float:
@@ -51,22 +49,35 @@ def outer_ring_diameter(bore: float, outer: float) -> float:
     return outer - SECTION_SHARE * (outer - bore)
 
 
+@formula(
+    "Pressure between two pressed tubes",
+    "p = (δ/d)/{[(1+q₂²)/(1−q₂²) + ν₂]/E₂ + [(1+q₁²)/(1−q₁²) − ν₁]/E₁}",
+    "Pa",
+    where=(
+        "δ diametral interference [m] (none: no pressure), d diameter of the seat [m], q ratio of a tube's diameters, "
+        "1 the part inside, 2 the part around it."
+    ),
+    checked=(TUBE_RATIO, SEAT_DIAMETER),
+    assumed="elastic, long tubes of equal length",
+    source="Lamé; DIN 7190-1:2017",
+)
 def contact_pressure(interference: float, diameter: float, male: Tube, female: Tube) -> float:
-    """Pressure [Pa] between two pressed tubes: p = (δ/d)/{[(1+q₂²)/(1−q₂²) + ν₂]/E₂ + [(1+q₁²)/(1−q₁²) − ν₁]/E₁}.
-
-    δ diametral interference [m] (none: no pressure), d [m], 1 the part inside, 2 the part around it. Range: elastic,
-    long tubes of equal length, q ≤ 0.999, d > 0, else RangeError. Source: Lamé; DIN 7190-1:2017.
-    """
     around = (female.hoop_at_bore + female.material.poisson_ratio) / female.material.youngs_modulus
     inside = (male.hoop_at_bore - male.material.poisson_ratio) / male.material.youngs_modulus
-    return max(interference, 0.0) / _DIAMETER.check(diameter) / (around + inside)
+    return max(interference, 0.0) / SEAT_DIAMETER.check(diameter) / (around + inside)
 
 
+@formula(
+    "Largest hoop stress in an inner ring, tension at its bore",
+    "p·(1+q²)/(1−q²)",
+    "Pa",
+    where="p contact pressure, q ratio of the ring's diameters; on a solid shaft of the same steel E·δ·(1+q²)/(2d).",
+    checked=(TUBE_RATIO, SEAT_DIAMETER),
+    assumed="as of the contact pressure",
+    source="Lamé",
+)
 def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: Tube) -> float:
-    """Largest hoop stress [Pa] in an inner ring, tension at its bore: p·(1+q²)/(1−q²).
-
-    Arguments, range and source as for `contact_pressure`; on a solid shaft of the same steel E·δ·(1+q²)/(2d).
-
+    """
     >>> steel = Material("steel", 7800.0, 206e9, 0.3, 12e-6)
     >>> round(1e-6 * inner_ring_stress(45e-6, 0.080, Tube(0.0, steel), Tube(80 / 96.8, steel)), 1)
     97.5
@@ -74,12 +85,20 @@ def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: T
     return contact_pressure(interference, diameter, shaft, ring) * ring.hoop_at_bore
 
 
+@formula(
+    "Change of the diameter of a ring's raceway under the pressure p [Pa] of its seat",
+    "2·p·q·d/[(1−q²)·E]",
+    "m",
+    where=(
+        "d diameter of the seat [m], q ratio of the ring's diameters; an inner ring grows outside, an outer one "
+        "shrinks inside, by the same formula. On a solid shaft of the ring's steel that is q·δ."
+    ),
+    checked=(TUBE_RATIO,),
+    assumed="as of the contact pressure",
+    source="Lamé",
+)
 def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
-    """Change [m] of the diameter of a ring's raceway under the pressure p [Pa] of its seat: 2·p·q·d/[(1−q²)·E].
-
-    d diameter of the seat [m]; an inner ring grows outside, an outer one shrinks inside, by the same formula. On a
-    solid shaft of the ring's steel that is q·δ. Range and source as for `contact_pressure`.
-
+    """
     >>> steel = Material("steel", 7800.0, 206e9, 0.3, 12e-6)
     >>> ring = Tube(0.8, steel)
     >>> round(1e6 * raceway_change(contact_pressure(10e-6, 0.080, Tube(0.0, steel), ring), 0.080, ring), 6)
@@ -88,9 +107,14 @@ def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
     return pressure * ring.hoop_under_pressure_outside * ring.ratio * diameter / ring.material.youngs_modulus
 
 
+@formula(
+    "Magnitude of the largest hoop stress in an outer ring, compression at its bore",
+    "2p/(1−q²)",
+    "Pa",
+    where="p contact pressure, q ratio of the ring's diameters.",
+    checked=(TUBE_RATIO, SEAT_DIAMETER),
+    assumed="as of the contact pressure",
+    source="Lamé",
+)
 def outer_ring_stress(interference: float, diameter: float, ring: Tube, housing: Tube) -> float:
-    """Magnitude of the largest hoop stress [Pa] in an outer ring, compression at its bore: 2p/(1−q²).
-
-    Arguments, range and source as for `contact_pressure`.
-    """
     return contact_pressure(interference, diameter, ring, housing) * ring.hoop_under_pressure_outside

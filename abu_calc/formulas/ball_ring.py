@@ -1,15 +1,27 @@
-"""Balls side by side in a race: their half angle, their mass, and the imbalance they can hold."""
+"""Balls side by side in a race: their half angle, their mass and rolling inertia, and the imbalance they can hold."""
 
 import math
+from typing import Final
 
+from abu_calc.formula import formula
 from abu_calc.validity import Range
+
+INERTIA_FACTORS: Final = {"ball": 7 / 5, "roller": 3 / 2}
+"""J: rolling inertia of a solid ball or roller (translation 1 + rotation 2/5 or 1/2)."""
 
 HALF_ANGLE_SINE = Range("ball radius over pitch radius", 0.0, 1.0, open_low=True)
 
 
+@formula(
+    "Half the angle between touching neighbours",
+    "β = arcsin(r/(R−r))",
+    "rad",
+    where="r ball radius, R race radius [m].",
+    checked=(HALF_ANGLE_SINE,),
+    source="geometry",
+)
 def half_angle(ball_radius: float, pitch_radius: float) -> float:
-    """Half the angle between touching neighbours, sin β = r/(R−r) [rad].
-
+    """
     >>> round(math.degrees(half_angle(8e-3, 24e-3)), 4)
     19.4712
     """
@@ -21,18 +33,31 @@ def most_balls(beta: float) -> int:
     return math.floor(math.pi / beta + 1e-12)
 
 
+@formula(
+    "Number of balls up to which one more adds capacity; beyond it one more takes some away",
+    "n* = round(π/(2β))",
+    "1",
+    where="β half angle of touching neighbours [rad].",
+    source="derived",
+)
 def best_count(beta: float) -> int:
-    """n* = round(π/(2β)): up to here one more ball adds capacity, beyond it takes some away."""
     return round(math.pi / (2 * beta))
 
 
+@formula(
+    "Largest imbalance that n balls side by side can balance",
+    "m·R_p·sin(nβ)/sin β",
+    "kg m",
+    where=(
+        "m mass of a ball [kg], R_p = R−r pitch radius [m], β half angle of touching neighbours. It grows only up to "
+        "n* = round(π/(2β))."
+    ),
+    checked=("1 ≤ n ≤ ⌊π/β⌋",),
+    source="derived, and found to be the maximum under the spacing constraint by optimisation",
+    printed="Kladiev 1996, (6), takes 2·m·(R−r), as if balls had no size",
+)
 def capacity(count: int, ball_mass: float, pitch_radius: float, beta: float) -> float:
-    """Largest imbalance that n balls side by side can balance [kg m]: m·R_p·sin(nβ)/sin β.
-
-    m mass of a ball [kg], R_p = R−r pitch radius [m], β half angle of touching neighbours.
-    Range: 1 ≤ n ≤ ⌊π/β⌋; it grows only up to n* = round(π/(2β)). Source: derived, and found to be the maximum under
-    the spacing constraint by optimisation. Printed: Kladiev 1996, (6), takes 2·m·(R−r), as if balls had no size.
-
+    """
     >>> beta = half_angle(8e-3, 22e-3)
     >>> [round(1e6 * capacity(n, 16.72835e-3, 22e-3, beta), 1) for n in (1, 2, 3, 4, 5)]
     [368.0, 685.7, 909.4, 1008.7, 969.8]

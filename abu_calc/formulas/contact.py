@@ -6,6 +6,8 @@ along the imbalance; D dynamic stiffness per axis [N/m]; q = 1/c_n compliance [m
 
 from dataclasses import dataclass
 
+from abu_calc.formula import formula
+
 
 @dataclass(frozen=True)
 class SteadyContact:
@@ -16,14 +18,22 @@ class SteadyContact:
     compliance: float
     friction: float
 
+    @formula(
+        "Imbalance U that free balls settle at",
+        "Ω²U = E·(D_x − isf·D_y)/(1 + isf + q·(D_x + D_y))",
+        "kg m",
+        where=(
+            "E runout [m], D dynamic stiffness of each axis [N/m], q compliance of the contact [m/N], s sense of "
+            "rotation, f cutting coefficient. From F = (X + iY)/2 = 0, the forward whirl that moves balls."
+        ),
+        assumed="above resonance, no separation, two or more balls with capacity to spare",
+        source="derived; rigid and frictionless it is Kladiev 1996, (4)",
+        printed=(
+            "(4) leaves friction out and finds the angles by arctan, which loses the quadrant; its ball angles are "
+            "wrong by about 30° at f = 0.35"
+        ),
+    )
     def balancing_imbalance(self, runout: complex) -> complex:
-        """Imbalance U [kg m] that free balls settle at: Ω²U = E·(D_x − isf·D_y)/(1 + isf + q·(D_x + D_y)).
-
-        `friction` is s·f. From F = (X + iY)/2 = 0, the forward whirl that moves balls.
-        Range: above resonance, no separation, two or more balls with capacity to spare.
-        Source: derived; rigid and frictionless it is Kladiev 1996, (4). Printed: (4) leaves friction out and finds the
-        angles by arctan, which loses the quadrant; its ball angles are wrong by about 30° at f = 0.35.
-        """
         dx, dy = self.dynamic_stiffness
         sf = 1j * self.friction
         return runout * (dx - sf * dy) / (1 + sf + self.compliance * (dx + dy)) / self.speed**2

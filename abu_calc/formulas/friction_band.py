@@ -3,15 +3,23 @@
 import math
 from itertools import pairwise
 
+from abu_calc.formula import formula
 
+
+@formula(
+    "Largest axis displacement at which dry rolling friction can hold every ball where it is",
+    "(k_r·R_p/r)/cos(g/2)",
+    "m",
+    where=(
+        "|Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| is at most that, g the largest gap between the directions "
+        "of the balls modulo 180°; for two balls at ±θ this is (k_r·R_p/r)/min(|sin θ|, |cos θ|). k_r lever arm of "
+        "rolling friction, R_p pitch radius, r ball radius [m]; infinite when all balls are in one line."
+    ),
+    assumed="hard, clean race, k_r 0.5–5 µm; whatever the speed",
+    source="derived; Kladiev 1996 has no such limit",
+)
 def friction_band(arm: float, pitch_radius: float, ball_radius: float, angles: tuple[float, ...]) -> float:
-    """Largest axis displacement [m] at which dry rolling friction can hold every ball where it is.
-
-    |Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| ≤ (k_r·R_p/r)/cos(g/2), g the largest gap between the directions
-    of the balls modulo 180°; for two balls at ±θ this is (k_r·R_p/r)/min(|sin θ|, |cos θ|).
-    k_r lever arm of rolling friction, R_p pitch radius, r ball radius [m]; infinite when all balls are in one line.
-    Range: hard, clean race, k_r 0.5–5 µm; whatever the speed. Source: derived; Kladiev 1996 has no such limit.
-
+    """
     >>> round(1e6 * friction_band(2e-6, 23e-3, 8e-3, (-math.radians(60), math.radians(60))), 2)
     11.5
     """

@@ -12,16 +12,25 @@ import math
 from collections.abc import Sequence
 
 from abu_calc.errors import InputError
+from abu_calc.formula import formula
 
 
+@formula(
+    "Stiffness of the slow motion of a ball about the balanced state",
+    "κ = (m Ω⁴/2M) [1/(Ω² − ω₁²) + 1/(Ω² − ω₂²)]",
+    "1/s²",
+    where=(
+        "m mass of the ball, M of all that moves, with the balls [kg], ω natural frequencies [rad/s]. Positive exactly "
+        "where balls balance: above both frequencies, or between the smaller and √((ω₁² + ω₂²)/2)."
+    ),
+    checked=("not at a resonance",),
+    assumed="both axes free, balls light beside the machine",
+    source="derived by averaging; Kladiev 1996, (7), is κ > 0",
+)
 def ball_stiffness(
     ball_mass: float, total_mass: float, speed: float, natural_frequencies: tuple[float, float]
 ) -> float:
-    """κ = (m Ω⁴/2M) [1/(Ω² − ω₁²) + 1/(Ω² − ω₂²)] [1/s²], M with the balls [kg], frequencies [rad/s].
-
-    Both axes free. Positive exactly where balls balance: above both frequencies, or between the smaller and
-    √((ω₁² + ω₂²)/2). Raises InputError at a resonance.
-
+    """
     >>> round(ball_stiffness(0.05, 1.1, 2.0, (1.1**-0.5, 1.1**-0.5)), 6)
     0.235294
     """
@@ -55,27 +64,31 @@ def slow_rates(stiffness: float, drag: float, inertia_factor: float) -> tuple[co
     return (-drag + root) / (2 * inertia_factor), (-drag - root) / (2 * inertia_factor)
 
 
+@formula(
+    "Slowest rate at which a disturbance of the balls dies out, neutral directions apart; ≤ 0 where one does not",
+    "−Re s of J s² + h₀ s + k = 0",
+    "1/s",
+    where=(
+        "k the eigenvalues ½(Σκ ∓ |Σ κ e^{2iθ}|) of the slow stiffness [1/s²], h₀ drag [1/s], J rolling inertia "
+        "factor, θ resting angles of the balls."
+    ),
+    assumed="real rates within about (m/M)^(1/2)",
+    source="derived by averaging",
+)
 def decay_rate(stiffnesses: Sequence[float], angles: Sequence[float], drag: float, inertia_factor: float) -> float:
-    """The slowest rate [1/s] at which a disturbance dies out, neutral directions apart; ≤ 0 where one does not."""
     return min(-slow_rates(k, drag, inertia_factor)[0].real for k in slow_stiffness(stiffnesses, angles))
 
 
-def settling_estimate(rate: float, remainder: float = 0.1) -> float:
-    """Time [s] in which a disturbance dies down to a remainder: ln(1/remainder)/rate. Raises InputError if rate ≤ 0.
-
-    >>> round(settling_estimate(5.0), 4)
-    0.4605
-    """
-    if not rate > 0:
-        raise InputError(
-            "balls do not settle: the slow motion does not decay", found=f"{rate:g} 1/s", allowed="above 0"
-        )
-    return math.log(1 / remainder) / rate
-
-
+@formula(
+    "Drag that damps one slow mode critically: less lets it swing, more lets it creep",
+    "h₀ = 2√(J k)",
+    "1/s",
+    where="J rolling inertia factor, k stiffness of the mode [1/s²].",
+    checked=("k > 0",),
+    source="derived by averaging",
+)
 def optimum_drag(stiffness: float, inertia_factor: float) -> float:
-    """The drag h₀ = 2√(J k) [1/s] that damps one slow mode critically: less lets it swing, more lets it creep; k > 0.
-
+    """
     >>> optimum_drag(4.0, 1.0)
     4.0
     """

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formula import formula
 from abu_calc.standards.hands import Hand
 
 
@@ -27,15 +28,20 @@ class Springs:
         return self.stiffness[axis] + 1j * speed * self.damping[axis]
 
 
+@formula(
+    "Two hands on the handles, ISO 10068:2012 Annex C, model 2",
+    where=(
+        "Palm and arm m1 stand on the ground by element 1, the fingers m2 on m1 by 2; m1 and m2 reach the handle by 3 "
+        "and 4; the skin masses m3, m4 move with the handle."
+    ),
+    assumed=(
+        "how the elements connect; forearms push toward the work, so that the hands' z is the machine's y, and their x "
+        "its x"
+    ),
+    source="ISO 10068:2012",
+)
 @dataclass(frozen=True)
 class Hands:
-    """Two hands on the handles, ISO 10068:2012 Annex C, model 2; how its elements connect is assumed.
-
-    Palm and arm m1 stand on the ground by element 1, the fingers m2 on m1 by 2; m1 and m2 reach the handle by 3 and 4;
-    the skin masses m3, m4 move with the handle. Assumed: forearms push toward the work, so the hands' z is the
-    machine's y, and their x its x.
-    """
-
     axes: tuple[Hand, Hand]
 
     def reaction(self, axis: int, speed: float) -> complex:
@@ -76,12 +82,16 @@ def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float
     return max(mass * speed**2 / abs(dynamic_stiffness(suspension, axis, speed, mass)) for axis in (0, 1))
 
 
+@formula(
+    "Natural frequency of the mass on the suspension",
+    "√(c/m)",
+    "rad/s",
+    where=(
+        "For springs. For hands the highest frequency at which Re D = 0 (bracketed from 1000 Hz down in steps of 1 %): "
+        "the machine and the arms."
+    ),
+)
 def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:
-    """Natural frequency [rad/s] of the mass on the suspension.
-
-    For springs √(c/m). For hands the highest frequency at which Re D = 0 (bracketed from 1000 Hz down in steps
-    of 1 %): the machine and the arms.
-    """
     if isinstance(suspension, Springs):
         return float((suspension.stiffness[axis] / mass) ** 0.5)
     from scipy.optimize import brentq  # here, so that only hands pay for it

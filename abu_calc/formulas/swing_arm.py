@@ -6,6 +6,7 @@ Source: Kovalenko 2010, corrected.
 import math
 from dataclasses import dataclass
 
+from abu_calc.formula import formula
 from abu_calc.validity import Range
 
 FRICTION = Range("cutting coefficient f", 0.0, 0.8, key="swing_arm.cutting_coefficient")
@@ -29,21 +30,30 @@ class Arm:
     pressing_moment: float
 
 
+@formula(
+    "Contact stiffness felt by the arm, per c_n·l²",
+    "g(Z) = sin Z·(sin Z + f·(R/l − cos Z))",
+    "1",
+    where=(
+        "Z angle between the arm and the contact radius, the normal [rad]; f for a disk turning in the pressing sense."
+    ),
+    source="Kovalenko 2010, (3)",
+    printed="the text measures Z to the tangent; then sine and cosine would change places",
+)
 def contact_gain(angle: float, friction: float, ratio: float) -> float:
-    """g(Z) = sin Z·(sin Z + f·(R/l − cos Z)): contact stiffness felt by the arm, per c_n·l² [1].
-
-    Z angle between the arm and the contact radius, the normal [rad]; f for a disk turning in the pressing sense.
-    Source: Kovalenko 2010, (3). Printed: the text measures Z to the tangent; then sine and cosine would change places.
-    """
     return math.sin(angle) * (math.sin(angle) + friction * (ratio - math.cos(angle)))
 
 
+@formula(
+    "Contact angle Z* that makes g largest",
+    "sin 2Z + f·(R/l)·cos Z − f·cos 2Z = 0",
+    "rad",
+    where="Series: Z* = π/2 + f/2 − (R/l)f²/4 + (3(R/l)² − 4)f³/24.",
+    checked=(FRICTION, RADIUS_RATIO),
+    source="Kovalenko 2010, (13), the exact root instead of the series",
+)
 def worst_contact_angle(friction: float, ratio: float) -> float:
-    """Z* that makes g largest [rad], from sin 2Z + f·(R/l)·cos Z − f·cos 2Z = 0.
-
-    Series: Z* = π/2 + f/2 − (R/l)f²/4 + (3(R/l)² − 4)f³/24. Range: f up to 0.8, R/l up to 1.
-    Source: Kovalenko 2010, (13), the exact root instead of the series.
-
+    """
     >>> round(worst_contact_angle(0.4, 0.33), 5), round(worst_contact_angle(0.8, 0.33), 5)
     (1.75012, 1.87707)
     """
@@ -56,11 +66,16 @@ def worst_contact_angle(friction: float, ratio: float) -> float:
     return float(brentq(slope, math.pi / 2, 3 * math.pi / 4, xtol=1e-12))
 
 
+@formula(
+    "Largest g by its series, never below the exact one, so on the safe side by at most 1.2 %",
+    "g* = 1 + (R/l)f + f²/4 − (R/l)f³/8",
+    "1",
+    checked=(FRICTION, RADIUS_RATIO),
+    assumed="R/l 0.2…0.5",
+    source="Kovalenko 2010, (14)",
+)
 def series_gain(friction: float, ratio: float) -> float:
-    """g* = 1 + (R/l)f + f²/4 − (R/l)f³/8 [1], never below the exact one, so on the safe side by at most 1.2 %.
-
-    Range: f up to 0.8, R/l 0.2…0.5. Source: Kovalenko 2010, (14).
-
+    """
     >>> round(series_gain(0.4, 0.33), 6)
     1.16936
     """
@@ -68,52 +83,82 @@ def series_gain(friction: float, ratio: float) -> float:
     return 1 + r * f + f**2 / 4 - r * f**3 / 8
 
 
+@formula(
+    "Largest contact stiffness that keeps the arm supercritical",
+    "(J_O·Ω² − c_sh·l²)/(g·l²)",
+    "N/m",
+    where=(
+        "g of contact gain or series gain; J_O inertia with autobalancer, c_sh joint stiffness reduced to the length l."
+    ),
+    assumed="necessary, not sufficient (finite mass of the balls)",
+    source="Kovalenko 2010, (13) and (14)",
+)
 def stiffness_limit(arm: Arm, speed: float, gain: float) -> float:
-    """Largest contact stiffness that keeps the arm supercritical [N/m]: (J_O·Ω² − c_sh·l²)/(g·l²).
-
-    g of `contact_gain` or `series_gain`; J_O inertia with autobalancer, c_sh joint stiffness reduced to the length l.
-    Range: necessary, not sufficient (finite mass of the balls). Source: Kovalenko 2010, (13) and (14).
-    """
     return (arm.inertia * speed**2 - arm.joint_stiffness * arm.length**2) / (gain * arm.length**2)
 
 
+@formula(
+    "Natural frequency of the arm in contact; parametric resonance at twice that",
+    "ω₀* = √{(c_sh·l² + c_n·l²·g*)/J_O}",
+    "rad/s",
+    source="Kovalenko 2010, (15)",
+)
 def resonance(arm: Arm, gain: float) -> float:
-    """ω₀* = √{(c_sh·l² + c_n·l²·g*)/J_O} [rad/s]; parametric resonance at twice that. Kovalenko 2010, (15)."""
     return arm.length * math.sqrt((arm.joint_stiffness + arm.contact_stiffness * gain) / arm.inertia)
 
 
+@formula(
+    "Joint damping that parametric resonance cannot overcome",
+    "(ds/l)·ω₀*·(1 + 17κ²/64), κ = l·ds/J_O",
+    "N·s/m",
+    where="ds imbalance [kg m].",
+    checked=(MODULATION,),
+    assumed="worst detuning near Ω = 2ω₀",
+    source="Kovalenko 2010, (23) and (24); the second-order factor is ours",
+    printed="without it the bound is unsafe by 0.27 % at κ = 0.1, 2.5 % at 0.3",
+)
 def damping_limit(arm: Arm, imbalance: float, natural: float) -> float:
-    """Joint damping that parametric resonance cannot overcome [N·s/m]: (ds/l)·ω₀*·(1 + 17κ²/64), κ = l·ds/J_O.
-
-    ds imbalance [kg m]. Range: κ up to 0.3, worst detuning near Ω = 2ω₀. Source: Kovalenko 2010, (23) and (24); the
-    second-order factor is ours. Printed: without it the bound is unsafe by 0.27 % at κ = 0.1, 2.5 % at 0.3.
-    """
     kappa = MODULATION.check(arm.length * imbalance / arm.inertia)
     return imbalance / arm.length * natural * (1 + 17 * kappa**2 / 64)
 
 
+@formula(
+    "Rate at which the arm's oscillation grows at Ω = 2ω₀; negative: it decays",
+    "κω₀/2 − h, h = h_sh·l²/(2J_O)",
+    "1/s",
+    checked=(MODULATION,),
+    source="Kovalenko 2010, (22), as a rate in time",
+)
 def growth_rate(arm: Arm, imbalance: float, natural: float) -> float:
-    """Rate at which the arm's oscillation grows at Ω = 2ω₀ [1/s]: κω₀/2 − h, h = h_sh·l²/(2J_O); negative: it decays.
-
-    Range: small κ. Source: Kovalenko 2010, (22), as a rate in time.
-    """
     kappa = MODULATION.check(arm.length * imbalance / arm.inertia)
     return kappa * natural / 2 - arm.joint_damping * arm.length**2 / (2 * arm.inertia)
 
 
+@formula(
+    "Static stiffness while cutting, reduced to the arm's length",
+    "c^(p) = c_sh + c_n·g(Z)",
+    "N/m",
+    where=(
+        "Negative at small contact angles, where friction lifts the wheel by itself: the arm then does not stand "
+        "(static divergence)."
+    ),
+    assumed="one contact point",
+    source="Kovalenko 2010, (3); the divergence is ours",
+)
 def arm_stiffness(arm: Arm) -> float:
-    """Static stiffness while cutting, reduced to the arm's length [N/m]: c^(p) = c_sh + c_n·g(Z).
-
-    Negative at small contact angles, where friction lifts the wheel by itself: the arm then does not stand (static
-    divergence). Range: one contact point. Source: Kovalenko 2010, (3); the divergence is ours.
-    """
     return arm.joint_stiffness + arm.contact_stiffness * contact_gain(
         arm.contact_angle, arm.friction, arm.disk_radius / arm.length
     )
 
 
+@formula(
+    "Resting angle of the arm while cutting, none where the arm does not stand",
+    "(T/l² + c_n·g·φ₀)/c^(p)",
+    "rad",
+    where="T pressing torque [N·m], φ₀ angle at which the wheel touches the work [rad].",
+    source="Kovalenko 2010, (5')",
+)
 def pressed_angle(arm: Arm) -> float | None:
-    """Resting angle of the arm while cutting [rad], or nothing where the arm does not stand. Kovalenko 2010, (5')."""
     stiffness = arm_stiffness(arm)
     if stiffness <= 0:
         return None

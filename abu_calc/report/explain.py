@@ -1,29 +1,30 @@
-"""The formulas behind every step: their own docstrings, and with a result the numbers put in.
+"""The formulas behind every step and every check, and with a result the numbers put in.
 
-What a formula says of itself (equation, units, range, source, where the print differs) stands once, in its docstring.
+What a formula says of itself (equation, units, range, source, where the print differs) is registered where it stands.
 """
 
-import importlib
-import inspect
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
+from abu_calc.check_codes import CheckCode
+from abu_calc.formula import Formula, formula_of
 from abu_calc.report.blocks import Block, Heading, Paragraph
 from abu_calc.report.numbers import number
-
-PARTS: Final = re.compile(r"\n|\s(?=(?:Range|Source|Printed|Raises):)")
-"""Where what a formula says of itself is broken into paragraphs."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """A step of sizing: its formulas as `module:function`, and lines with the numbers of a result put in."""
+    """A step of sizing: the keys of its registered formulas, and lines with the numbers of a result put in."""
 
     title: str
-    formulas: tuple[str, ...]
+    keys: tuple[str, ...]
     numbers: tuple[str, ...] = ()
+
+    @property
+    def formulas(self) -> tuple[Formula, ...]:
+        """What they say."""
+        return tuple(map(formula_of, self.keys))
 
 
 STEPS: Final[Mapping[str, Step]] = {
@@ -75,7 +76,12 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "balls": Step(
         "Balls",
-        ("formulas.ball_ring:capacity", "formulas.ball_ring:best_count", "sizing.balls:choose"),
+        (
+            "formulas.ball_ring:half_angle",
+            "formulas.ball_ring:capacity",
+            "formulas.ball_ring:best_count",
+            "sizing.balls:choose",
+        ),
         (
             "sin β = r/(R−r) = {ball_radius_mm}/{pitch_radius_mm}; {ball_mass_g} g · {pitch_radius_mm} mm · "
             "sin({ball_count}β)/sin β = {capacity_g_mm} g·mm = {capacity_ratio} × need",
@@ -88,11 +94,13 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.housing:groove_radius",
             "sizing.housing:housing",
             "sizing.stress:hertz_ball_in_toroid",
+            "sizing.stress:hertz_roller_in_cylinder",
             "sizing.stress:permitted_pressure",
             "sizing.stress:hoop_stress",
             "sizing.stress:ring_flexure",
             "sizing.track:carry_over_speed",
             "formulas.slow_motion:ball_stiffness",
+            "formulas.slow_motion:decay_rate",
             "formulas.slow_motion:optimum_drag",
         ),
         (
@@ -102,12 +110,18 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "vibration": Step(
         "Vibration level",
-        ("sizing.vibration:idle_vibration", "sizing.vibration:loaded_vibration", "sizing.budget:displacement_level"),
+        (
+            "sizing.vibration:idle_vibration",
+            "sizing.vibration:loaded_vibration",
+            "sizing.budget:displacement_level",
+            "sizing.drawing:extra_level",
+        ),
         ("{level_before_db} dB → {level_after_db} dB",),
     ),
     "seats": Step(
         "Bearing seats",
         (
+            "fits.interference:theoretical_interference",
             "fits.interference:probable_interference",
             "fits.interference:clearance_probability",
             "fits.interference:truncated_clearance_probability",
@@ -117,10 +131,11 @@ STEPS: Final[Mapping[str, Step]] = {
             "fits.requirement:catalogue_smoothing_loss",
             "fits.requirement:temperature_loss",
             "fits.requirement:centrifugal_loss",
+            "fits.stress:contact_pressure",
             "fits.stress:inner_ring_stress",
             "fits.stress:outer_ring_stress",
             "fits.stress:raceway_change",
-            "fits.creep:friction_moment",
+            "fits.creep:friction_torque",
             "fits.clearance:clearance_left",
             "fits.selective:selective_groups",
             "fits.drawing:seat_requirements",
@@ -137,6 +152,8 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.swing_arm:resonance",
             "formulas.swing_arm:damping_limit",
             "formulas.swing_arm:growth_rate",
+            "formulas.swing_arm:arm_stiffness",
+            "formulas.swing_arm:pressed_angle",
         ),
         (
             "c_n < {contact_stiffness_limit_N_per_m} N/m (series), {contact_stiffness_limit_exact_N_per_m} N/m (exact, "
@@ -147,7 +164,7 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "simulation": Step(
         "Simulation",
-        ("dynamics.equations.right_hand_side:", "analysis.response:settling_time", "analysis.simulate:simulate"),
+        ("formulas.motion:equations", "formulas.motion:settling_time", "formulas.motion:simulate"),
     ),
 }
 """Steps in the order of the pipeline."""
@@ -169,35 +186,28 @@ def explanation_blocks(result: Mapping[str, Any], model: Mapping[str, Any]) -> t
 
 def step_blocks(step: Step, numbers: tuple[str, ...] = ()) -> list[Block]:
     """One step: numbers first, then each formula as it speaks of itself."""
-    blocks: list[Block] = [Heading(step.title), *(Paragraph(f"→ {line}") for line in numbers)]
-    for formula in step.formulas:
-        blocks.append(Heading(f"  {spoken(formula)}"))
-        blocks += [Paragraph(part, indent=4) for part in PARTS.split(formula_text(formula)) if part.strip()]
+    return [Heading(step.title), *(Paragraph(f"→ {line}") for line in numbers), *formula_blocks(step.formulas)]
+
+
+def formula_blocks(formulas: tuple[Formula, ...]) -> list[Block]:
+    """Each formula under its name."""
+    blocks: list[Block] = []
+    for one in formulas:
+        blocks += [Heading(f"  {one.name}"), *(Paragraph(part, indent=4) for part in one.paragraphs)]
     return blocks
 
 
-def spoken(formula: str) -> str:
-    """The name of a formula in words.
-
-    >>> spoken("sizing.body:Body.effective_mass")
-    'effective mass'
-    """
-    return formula.rstrip(":").replace(":", ".").split(".")[-1].replace("_", " ")
-
-
-def formula_text(formula: str) -> str:
-    """What a formula, named `module:function`, says of itself, its examples left out; a line a paragraph.
-
-    A module without a function speaks for all of it. Indented lines, which are equations, are kept as they are.
-    """
-    module, _, name = formula.partition(":")
-    found: Any = importlib.import_module(f"abu_calc.{module}")
-    for part in filter(None, name.split(".")):
-        found = getattr(found, part)
-    text = (inspect.getdoc(found) or "").split(">>>")[0].replace("`", "")
-    return "\n".join(
-        part if part.startswith("    ") else " ".join(part.split()) for part in text.split("\n\n")
-    ).rstrip()
+def code_blocks(code: CheckCode) -> list[Block]:
+    """One check code: what is asked, what fails it, what to do, and the formulas that decide it."""
+    see = [Paragraph(f"Step: abu explain {code.step}")] if code.step else []
+    return [
+        Heading(f"{code.code} {code.name}"),
+        Paragraph(f"Asks: {code.asks}"),
+        Paragraph(f"Fails: {code.fails}"),
+        Paragraph(f"To do: {code.remedy}"),
+        *see,
+        *formula_blocks(tuple(map(formula_of, code.formulas))),
+    ]
 
 
 def _namespace(result: Mapping[str, Any], model: Mapping[str, Any]) -> dict[str, str]:

@@ -11,9 +11,8 @@ from abu_calc.dynamics.supports.linear import Pair, planar
 from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError, Place
-from abu_calc.formulas.ball_ring import half_angle
+from abu_calc.formulas.ball_ring import INERTIA_FACTORS, half_angle
 from abu_calc.scenes.from_tables import effects_from, placed
-from abu_calc.sizing.case import INERTIA_FACTORS
 from abu_calc.spec.scene import SceneRace, SceneSwingArm, SceneTable, Tilting
 from abu_calc.units import from_si, to_si
 from abu_calc.validity import Range

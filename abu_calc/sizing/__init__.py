@@ -1,19 +1,19 @@
-"""The pipeline of `abu size`: one step after another, nothing else.
+"""The pipeline of `abu size`: one step after another, then their checks in the order a reader wants them.
 
 Steps that few files ask for (bearing seats, swing arm) are imported when they are.
 """
 
 from typing import TYPE_CHECKING
 
-from abu_calc.sizing.advice import design_checks, design_warnings
+from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
 from abu_calc.sizing.balls import choose
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing import drawing
 from abu_calc.sizing.frequency import frequency_region
 from abu_calc.sizing.imbalance import find_imbalance
-from abu_calc.sizing.track import track
-from abu_calc.sizing.vibration import idle_vibration, loaded_vibration
+from abu_calc.sizing.track import track, track_checks
+from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, vibration_checks
 from abu_calc.spec.machine import MachineFile
 
 if TYPE_CHECKING:
@@ -40,7 +40,15 @@ def size(machine: MachineFile) -> Design:
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     seats, arm = _seats(machine), _arm(case, imbalance.value, best.mass)
     advice = drawing(case, best, race)
-    checks = design_checks(case, frequency, best, race, idle, seats, arm)
+    checks = (
+        frequency.check,
+        *candidate_checks(case, best),
+        *track_checks(case, best, race),
+        *vibration_checks(case, idle),
+        *power_checks(case),
+        *(arm.checks if arm else ()),
+        *(check for bearing in seats for check in bearing.checks),
+    )
     warnings = design_warnings(case, best, loaded)
     return Design(case, frequency, imbalance, choice, race, others, idle, loaded, seats, arm, advice, checks, warnings)
 

@@ -1,53 +1,24 @@
-"""The checks of a design in the order a reader wants them, and what he must be warned of."""
+"""The checks of the chosen autobalancer, and what a reader must be warned of."""
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
-
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.frequency import FrequencyRegion
-from abu_calc.sizing.track import Track, track_checks
-from abu_calc.sizing.vibration import Vibration, vibration_checks
+from abu_calc.sizing.vibration import Vibration
 from abu_calc.standards.balls import stock_diameter
-from abu_calc.units import from_si, to_si
-
-if TYPE_CHECKING:
-    from abu_calc.fits.seats import BearingSeats
-    from abu_calc.sizing.swing_arm import SwingArmBounds
+from abu_calc.units import from_si
 
 
-def design_checks(
-    case: Case,
-    frequency: FrequencyRegion,
-    one: Candidate,
-    track: Track,
-    idle: Vibration,
-    seats: "Iterable[BearingSeats]",
-    arm: "SwingArmBounds | None",
-) -> tuple[Check, ...]:
-    """All checks of the design itself; the simulation adds its own."""
-    return (
-        frequency.check,
-        _capacity(case, one),
-        _budget(one),
-        _mass(case, one),
-        *_plane(case, one),
-        *track_checks(case, one, track),
-        *vibration_checks(case, idle),
-        *_power(case),
-        *(arm.checks if arm else ()),
-        *(check for bearing in seats for check in bearing.checks),
-    )
+def candidate_checks(case: Case, one: Candidate) -> tuple[Check, ...]:
+    """What the chosen autobalancer must hold: capacity, accuracy, mass, and that its race is near the wheel."""
+    return _capacity(case, one), _budget(one), _mass(case, one), *_plane(case, one)
 
 
 def _capacity(case: Case, one: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
     need = from_si(one.requirement.required * margin, "g_mm")
     enough = one.capacity_ratio >= margin
-    return Check(
-        "ABU201", "capacity", verdict(enough), f"{one.ball_count} balls side by side against {margin:g} × the need",
+    return coded("ABU201", verdict(enough), f"{one.ball_count} balls side by side against {margin:g} × the need",
         from_si(one.capacity, "g_mm"), need, "g·mm",
         None if enough else "More or larger balls, a larger envelope, or a better balanced and truer wheel.",
         "least",
@@ -56,8 +27,7 @@ def _capacity(case: Case, one: Candidate) -> Check:
 
 def _budget(one: Candidate) -> Check:
     budget = one.budget
-    return Check(
-        "ABU202", "accuracy budget", verdict(budget.within), "race eccentricity and dry friction, expected, against "
+    return coded("ABU202", verdict(budget.within), "race eccentricity and dry friction, expected, against "
         "what the limit permits", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
         None if budget.within else "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
     )  # fmt: skip
@@ -66,8 +36,7 @@ def _budget(one: Candidate) -> Check:
 def _mass(case: Case, one: Candidate) -> Check:
     limit = case.autobalancer.max_mass_fraction
     light = one.mass_fraction <= limit
-    return Check(
-        "ABU203", "mass of the autobalancer", verdict(light), "share of the machine's mass, balls included",
+    return coded("ABU203", verdict(light), "share of the machine's mass, balls included",
         100 * one.mass_fraction, 100 * limit, "%",
         None if light else 'The design "light", a smaller bore, less margin, or a better balanced wheel.',
     )  # fmt: skip
@@ -79,8 +48,7 @@ def _plane(case: Case, one: Candidate) -> tuple[Check, ...]:
         return ()
     if not case.body.is_rigid:
         return (
-            Check(
-                "ABU205", "race plane", "not-done",
+            coded("ABU205", "not-done",
                 "the race is off the wheel's plane, and the rigid body is not known",
                 remedy="Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm.",
             ),
@@ -88,24 +56,23 @@ def _plane(case: Case, one: Candidate) -> tuple[Check, ...]:
     rest, permitted = from_si(one.budget.plane_offset, "um"), from_si(one.budget.permitted, "um")
     near = rest <= permitted
     return (
-        Check(
-            "ABU205", "race plane", verdict(near), f"the balls need {one.requirement.plane_ratio:.3f} × the imbalance, "
+        coded("ABU205", verdict(near), f"the balls need {one.requirement.plane_ratio:.3f} × the imbalance, "
             "and this stays at the wheel", rest, permitted, "µm",
             None if near else "Bring the race nearer to the wheel.",
         ),
     )  # fmt: skip
 
 
-def _power(case: Case) -> tuple[Check, ...]:
+def power_checks(case: Case) -> tuple[Check, ...]:
+    """Whether the motor has the power that cutting takes; no check where either is not given."""
     power, contact = case.table.machine.power_W, case.contact
     if power is None or contact is None:
         return ()
-    rim = case.speed * to_si(case.table.wheel.diameter_mm, "mm") / 2
+    rim = case.speed * case.wheel_radius
     cutting = contact.cutting_coefficient * contact.press_force * rim
     enough = cutting <= power
     return (
-        Check(
-            "ABU403", "cutting power", verdict(enough), "f·N·v at the rated speed against the motor's power", cutting,
+        coded("ABU403", verdict(enough), "f·N·v at the rated speed against the motor's power", cutting,
             power, "W", None if enough else "A smaller press force or cutting coefficient: these do not go together.",
         ),
     )  # fmt: skip

@@ -3,6 +3,7 @@
 from bisect import bisect_left
 from dataclasses import dataclass
 
+from abu_calc.formula import formula
 from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
 from abu_calc.sizing.budget import AccuracyBudget, Balls, accuracy_budget, fan
 from abu_calc.sizing.capacity import Requirement, required_capacity
@@ -62,12 +63,15 @@ class Choice:
     examined: int
 
 
+@formula(
+    "The best of every stock diameter × count up to n* × race radius in the envelope",
+    where=(
+        "Enough capacity comes first, then strength, the accuracy budget, the mass fraction, and the least mass (ties: "
+        "the smaller ball). Of each diameter and count the smallest sufficient race stands for the rest: a larger one "
+        "is heavier."
+    ),
+)
 def choose(case: Case, imbalance: float) -> Choice:
-    """The best of every stock diameter × count up to n* × race radius in the envelope.
-
-    Enough capacity comes first, then strength, the accuracy budget, the mass fraction, and the least mass (ties: the
-    smaller ball). Of each diameter and count the smallest sufficient race stands for the rest: a larger one is heavier.
-    """
     found = sorted(candidates(case, imbalance), key=lambda one: _rank(case, one))
     if not found:
         raise impossible("ball_count", case.autobalancer.ball_count or 2, "so many do not fit round any race")

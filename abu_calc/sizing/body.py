@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from abu_calc.formula import formula
+
 
 @dataclass(frozen=True)
 class Body:
@@ -19,19 +21,33 @@ class Body:
         """Whether transverse inertia and the place of the wheel are known."""
         return self.inverse_inertia > 0
 
+    @formula(
+        "Acceleration at one place per force at another",
+        "1/M + p·a/J",
+        "1/kg",
+        where=(
+            "p and a the two places from the centre of mass [m], J transverse moment of inertia [kg·m²]; added is what "
+            "the autobalancer adds to M [kg]."
+        ),
+        assumed="well above the suspension's frequencies",
+        source="Newton–Euler of a free rigid body in the plane",
+    )
     def inertance(self, at: float, force_at: float, added: float = 0.0) -> float:
-        """Acceleration at one place per force at another [1/kg], well above the suspension's frequencies.
-
-        1/M + p·a/J; `added` [kg] is what the autobalancer adds to M.
-        Source: Newton–Euler of a free rigid body in the plane.
-
+        """
         >>> round(1 / Body(6.4, 1 / 0.10, 0.2).inertance(0.2, 0.2), 1)
         1.8
         """
         return 1 / (self.mass + added) + at * force_at * self.inverse_inertia
 
+    @formula(
+        "Mass felt at a place, that of the wheel unless another is named",
+        "1/m_eff = 1/M + a²/J",
+        "kg",
+        where="a the place from the centre of mass [m].",
+        assumed="well above the suspension's frequencies",
+        source="Newton–Euler of a free rigid body in the plane",
+    )
     def effective_mass(self, added: float = 0.0, at: float | None = None) -> float:
-        """Mass felt at a place (the wheel unless told otherwise): 1/m_eff = 1/M + a²/J [kg]."""
         place = self.wheel if at is None else at
         return 1 / self.inertance(place, place, added)
 

@@ -4,6 +4,7 @@ import math
 from bisect import bisect_left
 from dataclasses import dataclass
 
+from abu_calc.formula import formula
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.capacity import Requirement, plane_ratio
@@ -63,10 +64,16 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
     return tuple((k - (count - 1) / 2) * spacing for k in range(count))
 
 
+@formula(
+    "Displacement 0–peak at the wheel that keeps every handle within the limit",
+    "√2·v/Ω, background taken off",
+    "m",
+    where="v limit of the velocity, rms [m/s]; divided by the largest motion of a handle per motion of the wheel.",
+    source="Kladiev 1996 (limit)",
+)
 def permitted_displacement(case: Case, added_mass: float) -> float:
-    """Displacement 0–peak at the wheel [m] that keeps every handle within the limit: √2·v/Ω, background taken off."""
-    allowed = velocity_from_level(case.table.limits.vibration_level_db) ** 2
-    background = case.table.machine.background_level_db
+    allowed = velocity_from_level(case.level_limit) ** 2
+    background = case.background_level
     if background is not None:
         allowed -= velocity_from_level(background) ** 2
     places = [handle.place for handle in case.handles] or [case.body.wheel]
@@ -96,22 +103,28 @@ def accuracy_budget(
     return AccuracyBudget(*parts, missing, math.hypot(*parts) + missing, sum(parts) + missing, permitted, angles)
 
 
+@formula(
+    "Displacement that rests at the wheel when balls in another plane have stilled the race",
+    "U·(1/M + a_w²/J) − V·(1/M + a_w·a_r/J), V = U·(plane ratio)",
+    "m",
+    assumed="rigid body well above its suspension",
+    source="derived",
+)
 def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
-    """Displacement [m] that rests at the wheel when balls in another plane have stilled the race.
-
-    U·(1/M + a_w²/J) − V·(1/M + a_w·a_r/J), V = U·(plane ratio). Range and source as for the plane ratio.
-    """
     body, ratio = case.body, plane_ratio(case, added_mass)
     by_imbalance = body.inertance(body.wheel, body.wheel, added_mass)
     by_balls = ratio * body.inertance(body.wheel, case.race_place, added_mass)
     return abs(imbalance * (by_imbalance - by_balls))
 
 
+@formula(
+    "Velocity level of a displacement w 0–peak [m] at a speed [rad/s]",
+    "v = wΩ/√2, a background added as energy",
+    "dB",
+    where="A place at rest is given the floor of 0 dB.",
+)
 def displacement_level(displacement: float, speed: float, background: float | None = None) -> float:
-    """Velocity level [dB] of a displacement 0–peak [m] at a speed [rad/s]: v = wΩ/√2, a background added as energy.
-
-    A place at rest is given the floor of 0 dB.
-
+    """
     >>> round(displacement_level(12e-6, 5800 * math.pi / 30), 1)
     100.3
     """

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from abu_calc.formula import formula
 from abu_calc.formulas.contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.sizing.case import Case
@@ -26,13 +27,21 @@ class Requirement:
     compliant: float | None
 
 
+@formula(
+    "Share of Mε that a rigid contact asks for",
+    "√{[(1−ω_x²/Ω²)² + f²(1−ω_y²/Ω²)²]/(1+f²)}",
+    "1",
+    where=(
+        "Ω speed, ω natural frequencies [rad/s]; f cutting coefficient. Worst place of the runout against the "
+        "imbalance. It tends to 1 far above resonance."
+    ),
+    checked=(FRICTION,),
+    assumed="rigid contact without separation",
+    source="derived by averaging",
+    printed="Kladiev 1996, (6), has the limit 1, on the safe side above resonance",
+)
 def runout_factor(speed: float, natural_frequencies: tuple[float, float], friction: float) -> float:
-    """Share of Mε that a rigid contact asks for: √{[(1−ω_x²/Ω²)² + f²(1−ω_y²/Ω²)²]/(1+f²)} [1].
-
-    Ω speed, ω natural frequencies [rad/s]; f cutting coefficient. Worst place of the runout against the imbalance.
-    Range: rigid contact without separation, f up to 2. It tends to 1 far above resonance.
-    Source: derived by averaging. Printed: Kladiev 1996, (6), has the limit 1, on the safe side above resonance.
-
+    """
     >>> round(runout_factor(607.37, (80.0, 120.0), 0.35), 4)
     0.9803
     """
@@ -41,13 +50,18 @@ def runout_factor(speed: float, natural_frequencies: tuple[float, float], fricti
     return float(((x**2 + f**2 * y**2) / (1 + f**2)) ** 0.5)
 
 
+@formula(
+    "Balls' imbalance in the race plane per imbalance in the wheel plane that stills the race",
+    "(1/M + a_r·a_w/J)/(1/M + a_r²/J)",
+    "1",
+    where=(
+        "a places of race and wheel from the centre of mass; 1 in one plane, negative for a race beyond the node of "
+        "the wheel, where the balls gather on the other side. What rests at the wheel is in the accuracy budget."
+    ),
+    assumed="rigid body well above its suspension",
+    source="derived",
+)
 def plane_ratio(case: Case, added_mass: float = 0.0) -> float:
-    """Balls' imbalance in the race plane per imbalance in the wheel plane that stills the race [1].
-
-    (1/M + a_r·a_w/J)/(1/M + a_r²/J), a places of race and wheel from the centre of mass; 1 in one plane, negative for a
-    race beyond the node of the wheel, where the balls gather on the other side.
-    Range: rigid body well above its suspension. Source: derived. What rests at the wheel is in the accuracy budget.
-    """
     body, race = case.body, case.race_place
     return body.inertance(race, body.wheel, added_mass) / body.inertance(race, race, added_mass)
 
@@ -64,16 +78,21 @@ def steady_contact(case: Case, added_mass: float, *, damped: bool) -> SteadyCont
     return SteadyContact(case.speed, stiffness, compliance, contact.sense * contact.cutting_coefficient)
 
 
+@formula(
+    "Capacity need",
+    "m₀e + M·ε·√{…} + M·Δ, the first two times the ratio of the planes",
+    "kg m",
+    where=(
+        "m₀e imbalance, M mass felt at the wheel with the autobalancer [kg], ε runout of the wheel (only when the "
+        "contact presses radially), √{…} of the runout factor, Δ race eccentricity [m]. Beside it: the printed limit "
+        "m₀e + Mε (Kladiev 1996, (6)), and what a compliant contact asks for: m₀e + ε·c_n·|D_x − isf·D_y|/(Ω²·|D_x + "
+        "D_y + c_n(1 + isf)|) + M·Δ."
+    ),
+    assumed="above resonance",
+    source="derived; practice of the shop floor for Δ",
+    printed="(6) leaves out the race's eccentricity, the planes, and that balls have a size (see balls)",
+)
 def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requirement:
-    """Capacity need [kg m]: m₀e + M·ε·√{…} + M·Δ, the first two times the ratio of the planes.
-
-    m₀e imbalance, M mass felt at the wheel with the autobalancer [kg], ε runout of the wheel (only when the contact
-    presses radially), √{…} of `runout_factor`, Δ race eccentricity [m].
-    Beside it: the printed limit m₀e + Mε (Kladiev 1996, (6)), and what a compliant contact asks for:
-    m₀e + ε·c_n·|D_x − isf·D_y|/(Ω²·|D_x + D_y + c_n(1 + isf)|) + M·Δ.
-    Range: above resonance. Source: derived; practice of the shop floor for Δ.
-    Printed: (6) leaves out the race's eccentricity, the planes, and that balls have a size (see `balls`).
-    """
     mass = case.body.effective_mass(added_mass)
     ratio = plane_ratio(case, added_mass)
     eccentricity = case.body.effective_mass(added_mass, case.race_place) * case.race_eccentricity

@@ -1,17 +1,15 @@
-"""A machine file in SI: the one place where sizing reads what people wrote."""
+"""A machine file in SI. Elsewhere sizing asks the tables only which of several ways people have chosen."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formulas.ball_ring import INERTIA_FACTORS
 from abu_calc.formulas.suspension import Hands, Springs, Suspension
 from abu_calc.sizing.body import Body
 from abu_calc.spec.machine import Autobalancer, Grinding, MachineFile
 from abu_calc.standards.hands import hand
 from abu_calc.units import to_si
-
-INERTIA_FACTORS = {"ball": 7 / 5, "roller": 3 / 2}
-"""J: rolling inertia of a solid ball or roller (translation 1 + rotation 2/5 or 1/2)."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +50,11 @@ class Case:
     friction_arm: float
     inertia_factor: float
     race_offset: float
+    wheel_radius: float
+    level_limit: float
+    """Highest permitted velocity level [dB]."""
+    background_level: float | None
+    """Velocity level with a balanced wheel [dB]; None: not given."""
 
     @property
     def race_place(self) -> float:
@@ -86,6 +89,9 @@ def read_case(machine: MachineFile) -> Case:
         friction_arm=to_si(abu.rolling_friction_mm, "mm"),
         inertia_factor=INERTIA_FACTORS[abu.corrector],
         race_offset=to_si(abu.plane_offset_mm, "mm"),
+        wheel_radius=to_si(machine.wheel.diameter_mm, "mm") / 2,
+        level_limit=machine.limits.vibration_level_db,
+        background_level=top.background_level_db,
     )
 
 

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from abu_calc.errors import RangeError
+from abu_calc.formula import formula
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.track import Track
@@ -26,11 +27,16 @@ class Advice:
     cost_db: float | None = None
 
 
+@formula(
+    "What one more displacement costs",
+    "20·lg(√(w² + d²)/w)",
+    "dB",
+    where="w what stays without it, d the part [m].",
+    assumed="independent parts",
+    source="root of the sum of squares",
+)
 def extra_level(residual: float, part: float) -> float:
-    """What one more displacement costs [dB]: 20·lg(√(w² + d²)/w), w what stays without it, d the part [m].
-
-    Range: independent parts. Source: root of the sum of squares.
-
+    """
     >>> round(extra_level(10e-6, 10e-6), 2)
     3.01
     """

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
+from abu_calc.formula import formula
 from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.sizing.case import Case
 from abu_calc.units import from_si
@@ -35,14 +36,21 @@ class FrequencyRegion:
     check: Check
 
 
+@formula(
+    "How far above the natural frequency lightly damped balls still fail",
+    "(Ω−ω)/Ω > (2m/(J·M))^(1/3)",
+    "1",
+    where=(
+        "m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. More damping of the "
+        "balls narrows the gap."
+    ),
+    checked=(BALL_SHARE,),
+    assumed="light damping of balls and support; an estimate where m/M is above 0.1",
+    source="derived from the averaged motion of two opposite balls; confirmed by integration of the full equations",
+    printed="Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient",
+)
 def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> float:
-    """How far above the natural frequency lightly damped balls still fail: (Ω−ω)/Ω > (2m/(J·M))^(1/3).
-
-    m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. Range: m/M up to 0.5 (an
-    estimate above 0.1), light damping of balls and support; more damping of the balls narrows the gap.
-    Source: derived from the averaged motion of two opposite balls; confirmed by integration of the full equations.
-    Printed: Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient.
-
+    """
     >>> round(finite_mass_gap(0.01673, 5.6, 1.0), 4)
     0.1815
     """
@@ -50,14 +58,19 @@ def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> flo
     return float((2 * ball_mass / (inertia_factor * mass)) ** (1 / 3))
 
 
+@formula(
+    "Speeds at which balls balance, a zone between the natural frequencies (or none) and all above a speed",
+    "1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0",
+    "rad/s",
+    where=(
+        "Two balls on an anisotropic support balance iff that holds, which is for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > "
+        "ω₂; the lower ends move up by the finite-mass gap, to ω/(1−gap). From a gap of 1 balls balance nowhere."
+    ),
+    assumed="undamped springs",
+    source="derived by averaging; the upper zone is Kladiev 1996, (7)",
+    printed="the thesis knows only the upper zone",
+)
 def zones(frequencies: tuple[float, float], gap: float) -> tuple[tuple[float, float] | None, float]:
-    """Speeds [rad/s] at which balls balance: a zone between the natural frequencies (or none), and all above a speed.
-
-    Two balls on an anisotropic support balance iff 1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0, that is for
-    ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂; the lower ends move up by the finite-mass gap, to ω/(1−gap).
-    Range: undamped springs; gap below 1 (heavier balls balance nowhere).
-    Source: derived by averaging; the upper zone is Kladiev 1996, (7). Printed: the thesis knows only the upper zone.
-    """
     low, high = sorted(frequencies)
     if gap >= 1:
         return None, float("inf")
@@ -102,6 +115,4 @@ def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
     else:
         message = "at some speed of the range the balls go to the heavy side or stay restless, and make things worse"
         remedy = f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm), or hold the machine more softly."
-    return Check(
-        "ABU101", "frequency region", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least"
-    )
+    return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least")

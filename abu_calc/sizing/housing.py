@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from abu_calc.formula import formula
 from abu_calc.units import to_si
 
 Design = Literal["one-piece", "bearing-ring", "light"]
@@ -63,14 +64,22 @@ class Housing:
     mass: float
 
 
+@formula(
+    "Radius of the toroidal groove",
+    "ρ = r + (5/7)(R − r), from 5(R−r) = 7(ρ−r)",
+    "m",
+    where=(
+        "R race radius at the bottom of the groove, r ball radius [m]. Then the ball's natural frequency across the "
+        "groove equals the speed at any speed, and axial runout shakes out dry friction."
+    ),
+    assumed=(
+        "a ball held from spinning about the contact normal. Free to spin, w_t² = Ω²[(5/7)(R−r)/(ρ−r) + 2/7], and the "
+        "resonance sits at ρ = R; a real ball lies between"
+    ),
+    source="Kladiev 1996, (12), its meaning derived",
+)
 def groove_radius(race_radius: float, ball_radius: float) -> float:
-    """Radius of the toroidal groove [m]: ρ = r + (5/7)(R − r), from 5(R−r) = 7(ρ−r).
-
-    R race radius at the bottom of the groove, r ball radius [m]. Then the ball's natural frequency across the groove
-    equals the speed at any speed, and axial runout shakes out dry friction.
-    Range: a ball held from spinning about the contact normal. Free to spin, w_t² = Ω²[(5/7)(R−r)/(ρ−r) + 2/7], and
-    the resonance sits at ρ = R; a real ball lies between. Source: Kladiev 1996, (12), its meaning derived.
-
+    """
     >>> round(1e3 * groove_radius(30e-3, 8e-3), 3)
     23.714
     """
@@ -92,12 +101,16 @@ def width(design: Design, ball_diameter: float) -> float:
     return ball_diameter + 2 * (GROOVE_CLEARANCE + RULES[design].web)
 
 
+@formula(
+    "Dimensions and mass of the housing, from rings and discs",
+    where=(
+        "Ring R…R+wall of steel, its groove filled toward the edges (parabola, a third of the depth on average); body "
+        "wall, webs and hub of the body's material, thick as the rules of the design say."
+    ),
+    assumed="a drawing decides",
+    source="own rules",
+)
 def housing(design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float) -> Housing:
-    """Dimensions and mass of the housing, from rings and discs.
-
-    Ring R…R+wall of steel, its groove filled toward the edges (parabola, a third of the depth on average); body wall,
-    webs and hub of the body's material. Range: rules above; a drawing decides. Source: own rules.
-    """
     rules = RULES[design]
     inner_width, whole_width = ball_diameter + 2 * GROOVE_CLEARANCE, width(design, ball_diameter)
     outer = race_radius + wall

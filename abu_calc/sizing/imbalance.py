@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from statistics import fmean
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.case import Case
 from abu_calc.standards.balance import permissible_imbalance
@@ -22,22 +23,30 @@ class Imbalance:
     source: str
 
 
+@formula(
+    "Mean of velocity levels, averaged in velocity",
+    "L(mean of v(L))",
+    "dB",
+    source="Kladiev 1996, as it averages its octaves",
+)
 def mean_level(levels: tuple[float, ...]) -> float:
-    """Mean of velocity levels [dB], averaged in velocity as the source averages its octaves (Kladiev 1996).
-
+    """
     >>> round(mean_level((100.0, 110.0)), 3)
     106.366
     """
     return level_from_velocity(fmean(velocity_from_level(level) for level in levels))
 
 
+@formula(
+    "Imbalance that shakes a place with an rms velocity v [m/s]",
+    "m₀e = √2·v/(Ω·I·g)",
+    "kg m",
+    where="Ω [rad/s]; I inertance from wheel to place [1/kg], 1/M for a point mass; g = MΩ²/|D| resonance factor.",
+    assumed="one harmonic at Ω; above the suspension's frequencies",
+    source="Kladiev 1996, for a point mass D = √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is ours",
+)
 def imbalance_from_level(velocity_rms: float, speed: float, inertance: float, resonance: float = 1.0) -> float:
-    """Imbalance [kg m] that shakes a place with an rms velocity [m/s]: m₀e = √2·v/(Ω·I·g).
-
-    Ω [rad/s]; I inertance from wheel to place [1/kg], 1/M for a point mass; g = MΩ²/|D| resonance factor.
-    Range: one harmonic at Ω; above the suspension's frequencies. Source: Kladiev 1996, for a point mass
-    D = √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is ours.
-
+    """
     >>> v = velocity_from_level(109)
     >>> round(1e6 * imbalance_from_level(v, 5800 * math.pi / 30, 1 / 5.6), 2)
     183.75
@@ -59,7 +68,7 @@ def find_imbalance(case: Case) -> Imbalance:
 def _measured(case: Case) -> Imbalance:
     levels = case.table.wheel.measured_level_db or ()
     velocity = velocity_from_level(mean_level(levels))
-    background = case.table.machine.background_level_db
+    background = case.background_level
     if background is not None:
         velocity = _without_background(velocity, background)
     place = next((h.place for h in case.handles if h.name == case.table.wheel.measured_at), case.body.wheel)

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
 from abu_calc.formulas.swing_arm import (
     Arm,
     arm_stiffness,
@@ -65,7 +65,7 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
         joint_damping=table.joint_damping_N_s_per_m,
         contact_stiffness=table.contact_stiffness_N_per_m,
         friction=table.cutting_coefficient,
-        disk_radius=to_si(case.table.wheel.diameter_mm, "mm") / 2,
+        disk_radius=case.wheel_radius,
         contact_angle=to_si(table.contact_angle_deg, "deg"),
         touch_angle=to_si(table.touch_angle_deg, "deg"),
         pressing_moment=table.pressing_moment_N_m,
@@ -75,13 +75,13 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
 def _checks(arm: Arm, limit: float, damping: float, angle: float | None) -> tuple[Check, ...]:
     stiff, damped, stiffness = arm.contact_stiffness < limit, arm.joint_damping > damping, arm_stiffness(arm)
     return (
-        Check("ABU501", "arm contact stiffness", verdict(stiff), "supercritical at the lowest speed and the worst "
+        coded("ABU501", verdict(stiff), "supercritical at the lowest speed and the worst "
               "contact angle (the safer of series and exact); necessary, not sufficient", arm.contact_stiffness, limit,
               "N/m", None if stiff else "A longer arm, more inertia, a higher speed, or a softer wheel."),
-        Check("ABU502", "arm joint damping", verdict(damped), "above what parametric resonance at twice the natural "
+        coded("ABU502", verdict(damped), "above what parametric resonance at twice the natural "
               "frequency can overcome", arm.joint_damping, damping, "N·s/m",
               None if damped else "More damping in the joint, or less imbalance.", "least"),
-        Check("ABU504", "arm stands while cutting", verdict(stiffness > 0), "static stiffness with the contact,"
+        coded("ABU504", verdict(stiffness > 0), "static stiffness with the contact,"
               " negative where friction lifts the wheel by itself (static divergence)", stiffness, 0.0, "N/m",
               None if stiffness > 0 else "Turn the contact angle nearer to 90°, or a much stiffer joint.", "least"),
         _pressing(arm, angle),
@@ -90,10 +90,10 @@ def _checks(arm: Arm, limit: float, damping: float, angle: float | None) -> tupl
 
 def _pressing(arm: Arm, angle: float | None) -> Check:
     """N = c_n·l·(φ − φ₀)·sin Z presses only when the arm stands and does not point along the normal."""
-    name, touch = ("ABU503", "arm pressed to the work"), from_si(arm.touch_angle, "deg")
+    touch = from_si(arm.touch_angle, "deg")
     if angle is None or math.sin(arm.contact_angle) < LEAST_SINE:
-        return Check(*name, "not-done", "the arm does not stand, or points along the normal, so that no force presses",
-                     None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
+        return coded("ABU503", "not-done", "the arm does not stand, or points along the normal, so that no force "
+                     "presses", None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
     pressed = angle > arm.touch_angle
-    return Check(*name, verdict(pressed), "resting angle beyond the touching angle", from_si(angle, "deg"), touch, "°",
-                 None if pressed else "A larger pressing moment or a softer joint.", "least")  # fmt: skip
+    return coded("ABU503", verdict(pressed), "resting angle beyond the touching angle", from_si(angle, "deg"), touch,
+                 "°", None if pressed else "A larger pressing torque or a softer joint.", "least")  # fmt: skip

@@ -3,7 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
+from abu_calc.formula import formula
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
@@ -29,11 +30,16 @@ class Track:
     decay_rates: tuple[tuple[float, float], ...]
 
 
+@formula(
+    "Least speed that carries balls round a horizontal axis",
+    "√(g/R_p)",
+    "rad/s",
+    where="Below it balls rattle in the bottom of the race.",
+    assumed="horizontal spindle",
+    source="derived",
+)
 def carry_over_speed(pitch_radius: float) -> float:
-    """Least speed [rad/s] that carries balls round a horizontal axis: √(g/R_p).
-
-    Range: horizontal spindle; below it balls rattle in the bottom of the race. Source: derived.
-
+    """
     >>> round(from_si(carry_over_speed(23e-3), "rpm"))
     197
     """
@@ -66,19 +72,19 @@ def track_checks(case: Case, one: Candidate, race: Track) -> tuple[Check, ...]:
     pressure, permitted = from_si(stress.contact_pressure, "MPa"), from_si(stress.permitted_pressure, "MPa")
     hoop, limit = from_si(stress.hoop_stress, "MPa"), from_si(stress.permitted_hoop, "MPa")
     checks = [
-        Check("ABU301", "contact pressure", verdict(pressure <= permitted), "Hertz pressure of a ball at top speed "
+        coded("ABU301", verdict(pressure <= permitted), "Hertz pressure of a ball at top speed "
               "against 5.2·HV, which leaves no dent (assumed rule)", pressure, permitted, "MPa",
               None if pressure <= permitted else "A harder race, more and smaller balls, or a smaller race radius."),
-        Check("ABU302", "race hardness", verdict(hardness >= LEAST_HARDNESS_HRC), "a soft race dents, and dents hold "
+        coded("ABU302", verdict(hardness >= LEAST_HARDNESS_HRC), "a soft race dents, and dents hold "
               "the balls: machines with soft races gained nothing", hardness, LEAST_HARDNESS_HRC, "HRC",
               None if hardness >= LEAST_HARDNESS_HRC else "Harden the race to 60–63 HRC and grind it.", "least"),
-        Check("ABU303", "hoop stress", verdict(hoop <= limit), "spinning rim at top speed (limit assumed)", hoop, limit,
+        coded("ABU303", verdict(hoop <= limit), "spinning rim at top speed (limit assumed)", hoop, limit,
               "MPa", None if hoop <= limit else "Reduce the outer diameter, or choose the one-piece steel design."),
     ]  # fmt: skip
     if case.table.machine.spindle_axis == "horizontal":
         lowest, needed = from_si(case.speed_range[0], "rpm"), from_si(race.carry_over, "rpm")
         checks.append(
-            Check("ABU102", "ball carry-over", verdict(lowest > needed), "lowest speed carries the balls round the "
+            coded("ABU102", verdict(lowest > needed), "lowest speed carries the balls round the "
                   "horizontal spindle", lowest, needed, "rpm",
                   None if lowest > needed else "Raise the lowest speed, or enlarge the race.", "least")
         )  # fmt: skip

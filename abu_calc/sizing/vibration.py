@@ -4,7 +4,8 @@ import cmath
 import math
 from dataclasses import dataclass
 
-from abu_calc.checks import Check, verdict
+from abu_calc.checks import Check, coded, verdict
+from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import displacement_level
@@ -46,26 +47,36 @@ class Vibration:
     lowered: bool
 
 
+@formula(
+    "Idle levels: before, the whole imbalance without autobalancer; after, what the accuracy budget leaves",
+    "v = Ω·w/√2",
+    "dB",
+    where=(
+        "v rms of the displacement w at the wheel, times the motion of the place per motion of the wheel; in the "
+        "louder of x and y; the background added as energy. Where balls cannot balance there is no level after."
+    ),
+    assumed="steady state at the rated speed",
+    source="Kladiev 1996 (level and limit); the rigid body and the budget are ours",
+)
 def idle_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration:
-    """Idle levels: before, the whole imbalance without autobalancer; after, what the accuracy budget leaves.
-
-    v = Ω·w/√2 rms of the displacement w at the wheel, times the motion of the place per motion of the wheel; in the
-    louder of x and y; the background added as energy.
-    Range: steady state at the rated speed, where balls can balance (`possible`), else there is no level after.
-    Source: Kladiev 1996 (level and limit); the rigid body and the budget are ours.
-    """
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
     return _vibration(case, before, one.budget.residual if possible else None, one.mass)
 
 
+@formula(
+    "Levels under load by steady contact without separation: information, the contact's stiffness is uncertain",
+    "",
+    "dB",
+    where=(
+        "Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the "
+        "forward whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, "
+        "or where the contact asks for more than they carry. A face contact does not press radially: idle."
+    ),
+    assumed="no separation of wheel and work",
+    source="derived",
+)
 def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration | None:
-    """Levels under load by steady contact without separation: information, the contact's stiffness is uncertain.
-
-    Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the forward
-    whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, or where the
-    contact asks for more than they carry. A face contact does not press radially: idle.
-    """
     if case.contact is None:
         return None
     bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, one.mass, damped=True)
@@ -95,24 +106,21 @@ def _vibration(case: Case, before: float, after: float | None, added_mass: float
 
 
 def _level(case: Case, displacement: float) -> float:
-    return displacement_level(displacement, case.speed, case.table.machine.background_level_db)
+    return displacement_level(displacement, case.speed, case.background_level)
 
 
 def vibration_checks(case: Case, idle: Vibration) -> tuple[Check, ...]:
     """The idle level against the limit, and that the autobalancer lowers it."""
-    limit, before, after = case.table.limits.vibration_level_db, idle.worst.before, idle.worst.after
-    names = ("ABU401", "idle vibration level"), ("ABU402", "level lowered")
+    limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None:
         reason = "not known, since the balls cannot balance at these speeds"
-        return tuple(
-            Check(*name, "not-done", reason, None, allowed, "dB")
-            for name, allowed in zip(names, (limit, before), strict=True)
-        )
+        allowed = {"ABU401": limit, "ABU402": before}
+        return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     lower = idle.lowered
     return (
-        Check(*names[0], verdict(after <= limit), "expected with the autobalancer at the worst handle, limit of the "
+        coded("ABU401", verdict(after <= limit), "expected with the autobalancer at the worst handle, limit of the "
               "file", after, limit, "dB",
               None if after <= limit else "Smaller race eccentricity, a harder and cleaner race, larger balls."),
-        Check(*names[1], verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
+        coded("ABU402", verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
               None if lower else "The wheel is balanced better than balls can do: no autobalancer is needed."),
     )  # fmt: skip

@@ -11,108 +11,109 @@ class Autobalancer(Table):
     """The autobalancer: the room there is for it and how it is made."""
 
     max_outer_diameter_mm: float = Field(
-        description="Largest permitted outer diameter [mm]; 1 … 5000, hand grinders 40 … 120.",
+        description="Largest permitted outer diameter [mm]; {range}, hand grinders 40 … 120.",
         examples=[68.0],
         ge=1,
         le=5000,
     )
     max_width_mm: float = Field(
-        description="Largest permitted width along the spindle [mm]; 1 … 1000, hand grinders 10 … 40.",
+        description="Largest permitted width along the spindle [mm]; {range}, hand grinders 10 … 40.",
         examples=[32.0],
         ge=1,
         le=1000,
     )
     max_mass_fraction: float = Field(
         default=0.05,
-        description="Largest permitted mass with balls, as a fraction of machine.mass_kg; above 0 … 1. Default: 0.05 "
-        "(the autobalancers of Kladiev 1996 weigh 4 … 7.5 % of the machine).",
+        description="Largest permitted mass with balls, as a fraction of machine.mass_kg; {range}. Default: "
+        "{default} (the autobalancers of Kladiev 1996 weigh 4 … 7.5 % of the machine).",
         gt=0,
         le=1,
     )
     bore_diameter_mm: float = Field(
         default=20.0,
-        description="Bore that sits on the spindle [mm]; above 0 … 2000, smaller than max_outer_diameter_mm. "
-        "Default: 20, assumed.",
+        description="Bore that sits on the spindle [mm]; {range}, smaller than max_outer_diameter_mm. Default: "
+        "{default}, assumed.",
         gt=0,
         le=2000,
     )
     design: Literal["one-piece", "bearing-ring", "light"] = Field(
         default="one-piece",
-        description="How it is made: one-piece (steel body with the race ground in), bearing-ring (the outer ring of a "
-        "spherical bearing is the race) or light (hard ring in an aluminium body). Default: one-piece.",
+        description="How it is made: one-piece (steel body with the race ground in), bearing-ring (the outer ring of "
+        "a spherical bearing is the race) or light (hard ring in an aluminium body). Default: {default}.",
     )
     ball_material: Literal["steel"] = Field(
-        default="steel", description="Material of the balls: steel, 7.8e-3 g/mm³. Default: steel."
+        default="steel", description="Material of the balls: steel, 7.8e-3 g/mm³. Default: {default}."
     )
     corrector: Literal["ball", "roller"] = Field(
         default="ball",
-        description="What rolls in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: ball.",
+        description="What rolls in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: "
+        "{default}.",
     )
     capacity_margin: float = Field(
         default=1.2,
-        description="Required ratio of capacity to need; 1 … 100, usually 1.1 … 1.5. Default: 1.2, assumed.",
+        description="Required ratio of capacity to need; {range}, usually 1.1 … 1.5. Default: {default}, assumed.",
         ge=1,
         le=100,
     )
     rolling_drag_per_s: float = Field(
         default=15.0,
-        description="Viscous drag of a ball in the race, divided by its inertia m·R_p² [1/s]; 0 … 100000, thin oil "
-        "3 … 50, grease 10 … 100. Default: 15, assumed; it settles hand grinders within a second.",
+        description="Viscous drag of a ball in the race, divided by its inertia m·R_p² [1/s]; {range}, thin oil 3 … "
+        "50, grease 10 … 100. Default: {default}, assumed; it settles hand grinders within a second.",
         ge=0,
         le=1e5,
     )
     rolling_friction_mm: float = Field(
         default=0.002,
-        description="Lever arm of dry rolling friction [mm]; 0 … 1, hard ground clean race 0.0005 … 0.005, soft race "
-        "0.01 … 0.05. Default: 0.002, assumed for a hard race.",
+        description="Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005, soft "
+        "race 0.01 … 0.05. Default: {default}, assumed for a hard race.",
         ge=0,
         le=1,
     )
     race_eccentricity_mm: float = Field(
         default=0.010,
         description="Everything between the race and the axis of rotation: race to bore, half the clearance in the "
-        "bore, half the spindle's indicated runout [mm]; 0 … 10, usually 0.005 … 0.020. Default: 0.010, assumed.",
+        "bore, half the spindle's indicated runout [mm]; {range}, usually 0.005 … 0.020. Default: {default}, assumed.",
         ge=0,
         le=10,
     )
     race_hardness_HRC: float = Field(
         default=60.0,
-        description="Hardness of the race [HRC]; 20 … 68, at least 58 for balls not to dent it. Default: 60, assumed.",
+        description="Hardness of the race [HRC]; {range}, at least 58 for balls not to dent it. Default: {default}, "
+        "assumed.",
         ge=20,
         le=68,
     )
     min_wall_mm: float = Field(
         default=2.5,
-        description="Thinnest permitted wall outside the race [mm]; above 0 … 100. Default: 2.5, assumed (a thinner "
+        description="Thinnest permitted wall outside the race [mm]; {range}. Default: {default}, assumed (a thinner "
         "ring goes oval under the balls).",
         gt=0,
         le=100,
     )
     plane_offset_mm: float = Field(
         default=0.0,
-        description="Race plane from wheel plane along the spindle, positive away from the machine [mm]; -1000 … 1000. "
-        "Default: 0, in the wheel plane.",
+        description="Race plane from wheel plane along the spindle, positive away from the machine [mm]; {range}. "
+        "Default: {default}, in the wheel plane.",
         ge=-1000,
         le=1000,
     )
     ball_count: int | None = Field(
         default=None,
-        description="Pins the number of balls; 2 … 100. Without it the number is chosen.",
+        description="Pins the number of balls; {range}. Without it the number is chosen.",
         examples=[4],
         ge=2,
         le=100,
     )
     ball_diameter_mm: float | None = Field(
         default=None,
-        description="Pins the diameter of the balls [mm]; above 0 … 200. Without it the diameter is chosen.",
+        description="Pins the diameter of the balls [mm]; {range}. Without it the diameter is chosen.",
         examples=[16.0],
         gt=0,
         le=200,
     )
     race_radius_mm: float | None = Field(
         default=None,
-        description="Pins the radius of the race the balls roll on [mm]; above 0 … 2500. Without it the radius is "
-        "chosen.",
+        description="Pins the radius of the race the balls roll on [mm]; {range}. Without it the radius is chosen.",
         examples=[30.0],
         gt=0,
         le=2500,

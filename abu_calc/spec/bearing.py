@@ -18,7 +18,7 @@ class Bearing(Table):
 
     name: str = Field(
         default="bearing",
-        description="Name of the bearing, as reports print it. Default: bearing.",
+        description="Name of the bearing, as reports print it. Default: {default}.",
         examples=["spindle, drive end"],
         min_length=1,
     )
@@ -29,66 +29,65 @@ class Bearing(Table):
         min_length=1,
     )
     bore_mm: float | None = Field(
-        default=None, description="Bore of the bearing [mm]; above 0 … 5000.", examples=[17.0], gt=0, le=5000
+        default=None, description="Bore of the bearing [mm]; {range}.", examples=[17.0], gt=0, le=5000
     )
     outer_mm: float | None = Field(
         default=None,
-        description="Outer diameter of the bearing [mm]; above bore_mm, up to 8000.",
+        description="Outer diameter of the bearing [mm]; above bore_mm, up to {most}.",
         examples=[40.0],
         gt=0,
         le=8000,
     )
     width_mm: float | None = Field(
-        default=None, description="Width of the ring [mm]; above 0 … 2000.", examples=[12.0], gt=0, le=2000
+        default=None, description="Width of the ring [mm]; {range}.", examples=[12.0], gt=0, le=2000
     )
     chamfer_mm: float | None = Field(
         default=None,
-        description="Chamfer of one edge; the seat is as long as the width less two of them [mm]; 0 … 100.",
+        description="Chamfer of one edge; the seat is as long as the width less two of them [mm]; {range}.",
         examples=[0.6],
         ge=0,
         le=100,
     )
     radial_load_kN: float = Field(
-        default=0.8, description="Radial load [kN]; 0 … 100000. Default: 0.8, assumed.", ge=0, le=1e5
+        default=0.8, description="Radial load [kN]; {range}. Default: {default}, assumed.", ge=0, le=1e5
     )
     series: Literal["light", "medium", "heavy"] = Field(
-        default="light", description="Series of the bearing: light, medium or heavy. Default: light."
+        default="light", description="Series of the bearing: light, medium or heavy. Default: {default}."
     )
     inner_ring_load: RingLoad = Field(
         default="rotating",
-        description="How the load meets the inner ring: rotating, stationary or indeterminate. Default: rotating, as "
-        "of a turning shaft.",
+        description="How the load meets the inner ring: rotating, stationary or indeterminate. Default: {default}, "
+        "as of a turning shaft.",
     )
     outer_ring_load: RingLoad = Field(
         default="stationary",
-        description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: stationary.",
+        description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: {default}.",
     )
     bearing_class: Literal["0", "6", "5", "4", "2"] = Field(
         default="0",
-        description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, P4, '
-        'P2). Default: "0".',
+        description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
+        'P4, P2). Default: "{default}".',
     )
     shaft_fit: str = Field(
         default="k6",
-        description="Tolerance class of the shaft by ISO 286, small letters. Default: k6.",
+        description="Tolerance class of the shaft by ISO 286, small letters. Default: {default}.",
         pattern=r"^[a-z]{1,2}[0-9]{1,2}$",
     )
     housing_fit: str = Field(
         default="H7",
-        description="Tolerance class of the housing by ISO 286, capital letters. Default: H7.",
+        description="Tolerance class of the housing by ISO 286, capital letters. Default: {default}.",
         pattern=r"^[A-Z]{1,2}[0-9]{1,2}$",
     )
     shaft_rz_um: float | None = Field(
         default=None,
-        description="Roughness Rz of the shaft [µm]; 0 … 1000. When given, its smoothing is taken off the "
-        "interference.",
+        description="Roughness Rz of the shaft [µm]; {range}. When given, its smoothing is taken off the interference.",
         examples=[4.0],
         ge=0,
         le=1000,
     )
     housing_rz_um: float | None = Field(
         default=None,
-        description="Roughness Rz of the housing [µm]; 0 … 1000. When given, its smoothing is taken off the "
+        description="Roughness Rz of the housing [µm]; {range}. When given, its smoothing is taken off the "
         "interference.",
         examples=[6.3],
         ge=0,
@@ -96,7 +95,7 @@ class Bearing(Table):
     )
     ring_temperature_difference_K: float | None = Field(
         default=None,
-        description="By how much the inner ring is warmer than its shaft [K]; 0 … 500. When given, the loss of "
+        description="By how much the inner ring is warmer than its shaft [K]; {range}. When given, the loss of "
         "interference α·d·ΔT is counted.",
         examples=[10.0],
         ge=0,
@@ -104,7 +103,7 @@ class Bearing(Table):
     )
     speed_rpm: float | None = Field(
         default=None,
-        description="Speed of the shaft with the inner ring [rpm]; 0 … 300000. When given, the loss of interference by "
+        description="Speed of the shaft with the inner ring [rpm]; {range}. When given, the loss of interference by "
         "centrifugal growth is counted.",
         examples=[5800.0],
         ge=0,
@@ -119,14 +118,14 @@ class Bearing(Table):
     )
     housing_outer_mm: float | None = Field(
         default=None,
-        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to 20000.",
+        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to {most}.",
         examples=[60.0],
         gt=0,
         le=20_000,
     )
     housing_material: Literal["steel", "cast-iron", "aluminium"] = Field(
         default="steel",
-        description="Material of the housing, for stresses: steel, cast-iron or aluminium. Default: steel.",
+        description="Material of the housing, for stresses: steel, cast-iron or aluminium. Default: {default}.",
     )
     internal_clearance: Literal["C2", "CN", "C3", "C4"] | None = Field(
         default=None,
@@ -136,30 +135,31 @@ class Bearing(Table):
     )
     raceway_temperature_difference_K: float | None = Field(
         default=None,
-        description="By how much the inner ring is warmer than the outer one [K]; 0 … 500. When given, it is taken off "
-        "the clearance left.",
+        description="By how much the inner ring is warmer than the outer one [K]; {range}. When given, it is taken "
+        "off the clearance left.",
         examples=[5.0],
         ge=0,
         le=500,
     )
     starting_torque_N_m: float | None = Field(
         default=None,
-        description="Torque that a ring under a rotating load must pass on by friction when the machine starts [N·m]; "
-        "0 … 10000000. When given, the seat's friction moment is checked against it.",
+        description="Torque that a ring under a rotating load must pass on by friction when the machine starts "
+        "[N·m]; {range}. When given, the seat's friction torque is checked against it.",
         examples=[2.0],
         ge=0,
         le=1e7,
     )
     seat_friction: float = Field(
         default=0.12,
-        description="Coefficient of friction between ring and seat; 0 … 1. Default: 0.12, assumed (steel on steel).",
+        description="Coefficient of friction between ring and seat; {range}. Default: {default}, assumed (steel on "
+        "steel).",
         ge=0,
         le=1,
     )
     asked_interference_um: Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
         default=None,
         description="Least and largest interference asked of the pairs, ascending, tight positive [µm]. When given, "
-        "the groups for selective assembly are told.",
+        "the groups for selective assembly are given.",
         examples=[[10.0, 28.0]],
     )
 

@@ -79,14 +79,14 @@ class Limits(Table):
 
     vibration_level_db: float = Field(
         default=109.0,
-        description="Highest permitted velocity level [dB re 5e-8 m/s]; 0 … 200. Default: 109, the limit of "
+        description="Highest permitted velocity level [dB re 5e-8 m/s]; {range}. Default: {default}, the limit of "
         "GOST 17770-86 above 16 Hz.",
         ge=0,
         le=200,
     )
     settling_time_s: float = Field(
         default=1.0,
-        description="Longest permitted time for the balls to settle [s]; above 0 … 3600. Default: 1, as measured on "
+        description="Longest permitted time for the balls to settle [s]; {range}. Default: {default}, as measured on "
         "hand grinders (Kladiev 1996: under 1 s).",
         gt=0,
         le=3600,

@@ -18,7 +18,7 @@ class Handle(Table):
     name: str = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
     from_center_of_mass_mm: float = Field(
         description="Where it stands along the spindle axis, from the centre of mass, positive toward the wheel "
-        "[mm]; -2000 … 2000, at a grinder -300 … 200.",
+        "[mm]; {range}, at a grinder -300 … 200.",
         examples=[100.0],
         ge=-2000,
         le=2000,
@@ -35,14 +35,14 @@ class MachineTable(Table):
         examples=["straight"],
     )
     mass_kg: float = Field(
-        description="Mass with guard and handles, without wheel, autobalancer, cable or hose [kg]; 0.001 … 20000, "
-        "hand grinders 1 … 8.",
+        description="Mass with guard and handles, without wheel, autobalancer, cable or hose [kg]; {range}, hand "
+        "grinders 1 … 8.",
         examples=[5.6],
         ge=0.001,
         le=20_000,
     )
     speed_rpm: Speed = Field(
-        description="Rated speed of the spindle [rpm]; 1 … 300000, hand grinders 1500 … 12000.", examples=[5800.0]
+        description="Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000.", examples=[5800.0]
     )
     speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
         default=None,
@@ -56,8 +56,8 @@ class MachineTable(Table):
     )
     transverse_inertia_kg_m2: float | None = Field(
         default=None,
-        description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; grinders "
-        "0.02 … 0.3. With center_of_mass_to_wheel_mm it makes the machine a rigid body; without both it is "
+        description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "
+        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm it makes the machine a rigid body; without both it is "
         "a point mass, and an imbalance found from a level is uncertain by a factor of two to three.",
         examples=[0.10],
         gt=0,
@@ -65,7 +65,7 @@ class MachineTable(Table):
     )
     center_of_mass_to_wheel_mm: float | None = Field(
         default=None,
-        description="Distance from the centre of mass to the wheel plane along the spindle [mm]; 0 … 10000, grinders "
+        description="Distance from the centre of mass to the wheel plane along the spindle [mm]; {range}, grinders "
         "100 … 300. Goes with transverse_inertia_kg_m2.",
         examples=[200.0],
         ge=0,
@@ -73,15 +73,15 @@ class MachineTable(Table):
     )
     power_W: float | None = Field(
         default=None,
-        description="Power of the motor [W]; when given, the cutting power f·N·v is checked against it.",
+        description="Power of the motor [W]; {range}. When given, the cutting power f·N·v is checked against it.",
         examples=[1000.0],
         gt=0,
         le=1e7,
     )
     background_level_db: float | None = Field(
         default=None,
-        description="Velocity level with a balanced wheel [dB re 5e-8 m/s]; 0 … 200. When given, it is added as energy "
-        "to every level.",
+        description="Velocity level with a balanced wheel [dB re 5e-8 m/s]; {range}. When given, it is added as "
+        "energy to every level.",
         examples=[98.0],
         ge=0,
         le=200,
@@ -165,8 +165,8 @@ class Suspension(Table):
         | None
     ) = Field(
         default=None,
-        description="For springs: natural frequency, one number, or two along x (along the work) and y (normal to it) "
-        "[Hz], above 0 … 10000; of the machine as used, wheel on, idle, without autobalancer.",
+        description="For springs: natural frequency, one number, or two along x (along the work) and y (normal to "
+        "it) [Hz], {range}; of the machine as used, wheel on, idle, without autobalancer.",
         examples=[[2.5, 2.5]],
     )
     damping_ratios: (
@@ -182,7 +182,7 @@ class Suspension(Table):
         | None
     ) = Field(
         default=None,
-        description="For springs: damping ratio, one number, or two along x and y; 0 … 10, hands 0.25 … 0.9.",
+        description="For springs: damping ratio, one number, or two along x and y; {range}, hands 0.25 … 0.9.",
         examples=[[0.5, 0.5]],
     )
 

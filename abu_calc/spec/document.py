@@ -1,6 +1,6 @@
 """The way of every file: path or preset → bytes → text → document → overrides → model, every fault with its place.
 
-What tells of faults is imported when there is one.
+What words faults is imported when there is one.
 """
 
 import hashlib
@@ -103,10 +103,10 @@ def validate(
     try:
         table = model.model_validate(content)
     except ValidationError as error:
-        from abu_calc.spec.errors import Origin, told
+        from abu_calc.spec.errors import Origin, input_error
         from abu_calc.spec.lines import key_lines
 
-        raise told(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
+        raise input_error(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
     notes += [f"{key_path(path)} plays no part beside the other keys." for path in table.given_in_vain()]
     return table, Reading(document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes))

@@ -14,34 +14,35 @@ class Grinding(Table):
 
     press_force_N: float = Field(
         default=45.0,
-        description="Normal force between wheel and work, weight included [N]; above 0 … 100000, by hand 30 … 60. "
-        "Default: 45, the upper feed force of ISO 28927-4.",
+        description="Normal force between wheel and work, weight included [N]; {range}, by hand 30 … 60. Default: "
+        "{default}, the upper feed force of ISO 28927-4.",
         gt=0,
         le=1e5,
     )
     cutting_coefficient: float = Field(
         default=0.35,
-        description="Cutting force over normal force, f = T/N; 0 … 1.5, usually 0.3 … 0.5. Default: 0.35, assumed.",
+        description="Cutting force over normal force, f = T/N; {range}, usually 0.3 … 0.5. Default: {default}, "
+        "assumed.",
         ge=0,
         le=1.5,
     )
     contact: Literal["compliant", "rigid", "face"] = Field(
         default="compliant",
         description="Contact of wheel and work: compliant (a spring), rigid (never parts) or face (runout does not "
-        "press). Default: compliant.",
+        "press). Default: {default}.",
     )
     contact_stiffness_N_per_m: float = Field(
         default=2e5,
-        description="Normal stiffness of a compliant contact [N/m]; above 0 … 1e12: cotton wheel or body panel 2e4 … "
-        "1e5, resinoid disk edge 1e5 … 5e5, vitrified wheel on solid steel 1e6 … 1e7. Default: 2e5, "
-        "assumed, with a warning.",
+        description="Normal stiffness of a compliant contact [N/m]; {range}: cotton wheel or body panel 2e4 … 1e5, "
+        "resinoid disk edge 1e5 … 5e5, vitrified wheel on solid steel 1e6 … 1e7. Default: {default}, assumed, with a "
+        "warning.",
         gt=0,
         le=1e12,
     )
     rotation_sense: Annotated[Literal[-1, 1], BeforeValidator(whole)] = Field(
         default=-1,
         description="-1: friction on the wheel opposes rotation, the work on the -y side; 1: the mirror case. "
-        "Default: -1.",
+        "Default: {default}.",
     )
 
     @classmethod
@@ -59,13 +60,13 @@ class RunUp(Table):
 
     time_s: float = Field(
         default=1.0,
-        description="Time from standstill to the rated speed [s]; above 0 … 3600. Default: 1, assumed.",
+        description="Time from standstill to the rated speed [s]; {range}. Default: {default}, assumed.",
         gt=0,
         le=3600,
     )
     run_down_s: float = Field(
         default=3.0,
-        description="Time from the rated speed to standstill [s]; above 0 … 3600. Default: 3, assumed.",
+        description="Time from the rated speed to standstill [s]; {range}. Default: {default}, assumed.",
         gt=0,
         le=3600,
     )
@@ -76,21 +77,21 @@ class Motor(Table):
 
     stall_torque_N_m: float = Field(
         default=3.0,
-        description="Torque at standstill, at the spindle [N·m]; above 0 … 1e6. Default: 3, assumed.",
+        description="Torque at standstill, at the spindle [N·m]; {range}. Default: {default}, assumed.",
         gt=0,
         le=1e6,
     )
     no_load_speed_rpm: float = Field(
         default=6000.0,
-        description="Speed of the spindle at which the torque is zero [rpm]; 1 … 300000, not below "
-        "machine.speed_rpm. Default: 6000, assumed.",
+        description="Speed of the spindle at which the torque is zero [rpm]; {range}, not below machine.speed_rpm. "
+        "Default: {default}, assumed.",
         ge=1,
         le=300_000,
     )
     rotor_inertia_kg_m2: float = Field(
         default=2e-3,
-        description="Moment of inertia of all that turns, reduced to the spindle [kg·m²]; above 0 … 1e6. Default: "
-        "2e-3, assumed.",
+        description="Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. Default: "
+        "{default}, assumed.",
         gt=0,
         le=1e6,
     )
@@ -101,56 +102,57 @@ class SwingArm(Table):
 
     arm_length_mm: float = Field(
         default=350.0,
-        description="From the arm's axis to the wheel's axis [mm]; 1 … 100000. Default: 350, an example.",
+        description="From the arm's axis to the wheel's axis [mm]; {range}. Default: {default}, an example.",
         ge=1,
         le=1e5,
     )
     moment_of_inertia_kg_m2: float = Field(
         default=0.62,
-        description="Moment of inertia of arm and machine about the arm's axis, without autobalancer [kg·m²]; above 0 "
-        "… 1e6. Default: 0.62, an example.",
+        description="Moment of inertia of arm and machine about the arm's axis, without autobalancer [kg·m²]; "
+        "{range}. Default: {default}, an example.",
         gt=0,
         le=1e6,
     )
     joint_stiffness_N_per_m: float = Field(
         default=2000.0,
-        description="Stiffness of the joint reduced to the arm length [N/m]; 0 … 1e12. Default: 2000, an example.",
+        description="Stiffness of the joint reduced to the arm length [N/m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e12,
     )
     joint_damping_N_s_per_m: float = Field(
         default=40.0,
-        description="Damping of the joint reduced to the arm length [N·s/m]; 0 … 1e9. Default: 40, an example.",
+        description="Damping of the joint reduced to the arm length [N·s/m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e9,
     )
     contact_stiffness_N_per_m: float = Field(
         default=1e6,
-        description="Normal stiffness of the work [N/m]; 0 … 1e12. Default: 1e6, an example.",
+        description="Normal stiffness of the work [N/m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e12,
     )
     cutting_coefficient: float = Field(
         default=0.45,
-        description="Cutting force over normal force, f = T/N; 0 … 1.5. Default: 0.45, an example.",
+        description="Cutting force over normal force, f = T/N; {range}. Default: {default}, an example.",
         ge=0,
         le=1.5,
     )
     contact_angle_deg: float = Field(
         default=90.0,
-        description="Angle between the arm and the contact radius [degrees]; 0 … 180. Default: 90, an example.",
+        description="Angle between the arm and the contact radius [degrees]; {range}. Default: {default}, an example.",
         ge=0,
         le=180,
     )
     touch_angle_deg: float = Field(
         default=2.0,
-        description="Angle of the arm at which the disk touches the work [degrees]; -90 … 90. Default: 2, an example.",
+        description="Angle of the arm at which the disk touches the work [degrees]; {range}. Default: {default}, an "
+        "example.",
         ge=-90,
         le=90,
     )
     pressing_moment_N_m: float = Field(
         default=20.0,
-        description="Moment that presses the disk to the work [N·m]; 0 … 1e6. Default: 20, an example.",
+        description="Torque that presses the disk to the work [N·m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e6,
     )

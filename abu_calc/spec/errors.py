@@ -13,11 +13,11 @@ from abu_calc.spec.names import header, meant_key, meant_table, nearest
 from abu_calc.spec.table import RULE, Table, is_array, subtable, table_at
 from abu_calc.spec.text import Part, is_number, key_path, quoted, shown, shown_short, unit_symbol
 
-MOST_TOLD: Final = 10
+MOST_LISTED: Final = 10
 
 
 class SpecErrors(InputError):  # noqa: N818 - it is several
-    """All that is wrong with one file, in the order of its lines; itself told of the first."""
+    """All that is wrong with one file, in the order of its lines; itself the first of them."""
 
     def __init__(self, errors: Sequence[InputError]) -> None:
         first = errors[0]
@@ -27,18 +27,18 @@ class SpecErrors(InputError):  # noqa: N818 - it is several
         self.errors = tuple(errors)
 
     def at(self, place: Place) -> InputError:
-        """The first error, told of another place."""
+        """The first error, at another place."""
         return self.errors[0].at(place)
 
     def __str__(self) -> str:
-        told = [str(error) for error in self.errors[:MOST_TOLD]]
-        rest = len(self.errors) - len(told)
-        return "\n".join(told + ([f"and {rest} more"] if rest else []))
+        listed = [str(error) for error in self.errors[:MOST_LISTED]]
+        rest = len(self.errors) - len(listed)
+        return "\n".join(listed + ([f"and {rest} more"] if rest else []))
 
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a document came from: what tells the place of its keys."""
+    """Where a document came from: what finds the place of its keys."""
 
     file: str
     document: Mapping[str, object]
@@ -80,7 +80,7 @@ _Words = tuple[str, str | None, str | None]
 """Message, what is allowed, remedy."""
 
 
-def told(error: ValidationError, origin: Origin) -> InputError:
+def input_error(error: ValidationError, origin: Origin) -> InputError:
     """The findings of the models in words: one error, or all of them in one."""
     errors: list[InputError] = []
     meant: set[tuple[Part, ...]] = set()
@@ -91,7 +91,7 @@ def told(error: ValidationError, origin: Origin) -> InputError:
         table = _table_of(path, origin.model)
         finding = _Finding(path, detail["input"], facts, table, origin.model)
         if kind == "too_short" and len(detail["input"]) >= facts["min_length"]:
-            continue  # Long enough; what is wrong with its values is told of each.
+            continue  # Long enough; what is wrong with its values has errors of its own.
         if kind == "extra_forbidden":
             key, remedy = _stray(finding)
             meant |= {(*path[:-1], key)} if key else set()

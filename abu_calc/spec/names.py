@@ -66,8 +66,8 @@ def meant_key(root: type[Table], path: tuple[Part, ...], table: type[Table], key
         return None, f"{key} belongs in {homes}"
     if meant := other_unit(key, known):
         unit = key.removeprefix(meant.removesuffix(f"_{unit_suffix(meant)}")).strip("_")
-        told = f"in {unit_suffix(meant)} instead of {unit}" if unit else "the unit stands in the key"
-        return meant, f"write {meant}, {told}"
+        unit_note = f"in {unit_suffix(meant)} instead of {unit}" if unit else "the unit stands in the key"
+        return meant, f"write {meant}, {unit_note}"
     if meant := nearest(key, known):
         return meant, f"the nearest known key is {meant}"
     elsewhere = {

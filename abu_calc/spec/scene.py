@@ -38,10 +38,10 @@ class Initial(Table):
     rest where it stands.
     """
 
-    x_mm: Place = Field(default=0.0, description="Place along x [mm]; -1e6 … 1e6. Default: 0.")
-    y_mm: Place = Field(default=0.0, description="Place along y [mm]; -1e6 … 1e6. Default: 0.")
-    vx_mm_per_s: Velocity = Field(default=0.0, description="Velocity along x [mm/s]; -1e9 … 1e9. Default: 0.")
-    vy_mm_per_s: Velocity = Field(default=0.0, description="Velocity along y [mm/s]; -1e9 … 1e9. Default: 0.")
+    x_mm: Place = Field(default=0.0, description="Place along x [mm]; {range}. Default: {default}.")
+    y_mm: Place = Field(default=0.0, description="Place along y [mm]; {range}. Default: {default}.")
+    vx_mm_per_s: Velocity = Field(default=0.0, description="Velocity along x [mm/s]; {range}. Default: {default}.")
+    vy_mm_per_s: Velocity = Field(default=0.0, description="Velocity along y [mm/s]; {range}. Default: {default}.")
 
 
 class SceneTable(Table):
@@ -52,11 +52,11 @@ class SceneTable(Table):
     support: Literal["planar", "tilting", "swing-arm"] = Field(
         default="planar",
         description="What the rotor hangs on: planar (springs along x and y), tilting (a rigid rotor on bearings, "
-        "[scene.tilting]) or swing-arm ([scene.swing_arm]). Default: planar.",
+        "[scene.tilting]) or swing-arm ([scene.swing_arm]). Default: {default}.",
     )
     mass_kg: float | None = Field(
         default=None,
-        description="Mass of the rotor and what moves with it, WITHOUT balls [kg]; above 0 … 1e9. Planar and tilting "
+        description="Mass of the rotor and what moves with it, WITHOUT balls [kg]; {range}. Planar and tilting "
         "supports need it; a swing arm holds it in its moment of inertia.",
         examples=[1.0],
         gt=0,
@@ -64,32 +64,32 @@ class SceneTable(Table):
     )
     stiffness_N_per_m: StiffnessPair | None = Field(
         default=None,
-        description="Stiffness of a planar support along x and y [N/m]; 0 … 1e15.",
+        description="Stiffness of a planar support along x and y [N/m]; {range}.",
         examples=[[1.0, 1.0]],
     )
     damping_N_s_per_m: DampingPair | None = Field(
         default=None,
-        description="Damping of a planar support along x and y [N·s/m]; 0 … 1e12.",
+        description="Damping of a planar support along x and y [N·s/m]; {range}.",
         examples=[[0.02, 0.02]],
     )
     speed_rpm: float = Field(
-        description="Speed of rotation, from +x to +y [rpm]; above 0 … 1e6.", examples=[19.0985931710274], gt=0, le=1e6
+        description="Speed of rotation, from +x to +y [rpm]; {range}.", examples=[19.0985931710274], gt=0, le=1e6
     )
     imbalance_g_mm: float = Field(
-        description="Imbalance of the rotor without balls [g·mm]; 0 … 1e15.", examples=[10000.0], ge=0, le=1e15
+        description="Imbalance of the rotor without balls [g·mm]; {range}.", examples=[10000.0], ge=0, le=1e15
     )
     imbalance_angle_deg: float = Field(
         default=0.0,
-        description="Where the imbalance stands, from the zero mark [degrees]; -1e6 … 1e6. Default: 0.",
+        description="Where the imbalance stands, from the zero mark [degrees]; {range}. Default: {default}.",
         ge=-1e6,
         le=1e6,
     )
     duration_s: float = Field(
-        description="Time to simulate [s]; at least one revolution, up to 1e9.", examples=[700.0], gt=0, le=1e9
+        description="Time to simulate [s]; at least one revolution, up to {most}.", examples=[700.0], gt=0, le=1e9
     )
     rolling_inertia: bool = Field(
         default=False,
-        description="true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: false.",
+        description="true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: {default}.",
     )
     initial: Initial = Field(default_factory=Initial)
     race: Annotated[tuple[SceneRace, ...], Field(strict=False, min_length=1, max_length=10)] = Field(

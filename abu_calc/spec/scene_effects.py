@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from abu_calc.spec.duty import Grinding, Motor
 from abu_calc.spec.table import Table, problem
 
-BALL_RADIUS = "Radius of a ball [mm]; above 0 … 1000, the same in all effects."
+BALL_RADIUS = "Radius of a ball [mm]; {range}, the same in all effects."
 
 
 class Gravity(Table):
@@ -18,7 +18,7 @@ class DryRollingFriction(Table):
     """Dry rolling friction: a ball sticks until it is pulled harder than its normal force times k_r/r."""
 
     lever_arm_mm: float = Field(
-        description="Lever arm of dry rolling friction [mm]; 0 … 1, hard ground clean race 0.0005 … 0.005.",
+        description="Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005.",
         examples=[0.002],
         ge=0,
         le=1,
@@ -32,7 +32,7 @@ class BallContact(Table):
     ball_radius_mm: float = Field(description=BALL_RADIUS, examples=[8.0], gt=0, le=1000)
     restitution: float = Field(
         default=0.5,
-        description="Speed after an impact over the speed before it; 0 … 1. Default: 0.5, assumed.",
+        description="Speed after an impact over the speed before it; {range}. Default: {default}, assumed.",
         ge=0,
         le=1,
     )
@@ -42,14 +42,14 @@ class RaceEccentricity(Table):
     """The race's centre stands off the axis of rotation."""
 
     magnitude_mm: float = Field(
-        description="Distance of the race's centre from the axis of rotation [mm]; 0 … 100, usually 0.005 … 0.020.",
+        description="Distance of the race's centre from the axis of rotation [mm]; {range}, usually 0.005 … 0.020.",
         examples=[0.01],
         ge=0,
         le=100,
     )
     angle_deg: float = Field(
         default=0.0,
-        description="Where the centre of the race stands, from the zero mark [degrees]; -360 … 360. Default: 0.",
+        description="Where the centre of the race stands, from the zero mark [degrees]; {range}. Default: {default}.",
         ge=-360,
         le=360,
     )
@@ -60,28 +60,28 @@ class GrindingContact(Grinding):
 
     runout_mm: float = Field(
         default=0.0,
-        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; 0 … 10. "
-        "Default: 0, a true wheel.",
+        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}. "
+        "Default: {default}, a true wheel.",
         ge=0,
         le=10,
     )
     runout_angle_deg: float = Field(
         default=0.0,
-        description="Where the high spot stands, from the zero mark [degrees]; -360 … 360. Default: 0.",
+        description="Where the high spot stands, from the zero mark [degrees]; {range}. Default: {default}.",
         ge=-360,
         le=360,
     )
     wheel_radius_mm: float | None = Field(
         default=None,
-        description="Radius of the wheel [mm]; above 0 … 10000. With it cutting brakes a rotor that a motor drives.",
+        description="Radius of the wheel [mm]; {range}. With it cutting brakes a rotor that a motor drives.",
         examples=[75.0],
         gt=0,
         le=1e4,
     )
     plane_offset_mm: float = Field(
         default=0.0,
-        description="Tilting support: place of the wheel along +z from the centre of mass [mm]; -100000 … 100000. "
-        "Default: 0.",
+        description="Tilting support: place of the wheel along +z from the centre of mass [mm]; {range}. Default: "
+        "{default}.",
         ge=-1e5,
         le=1e5,
     )
@@ -92,14 +92,14 @@ class SceneRunUp(Table):
 
     time_s: float | None = Field(
         default=None,
-        description="Time from standstill to speed_rpm [s]; above 0 … 3600.",
+        description="Time from standstill to speed_rpm [s]; {range}.",
         examples=[1.0],
         gt=0,
         le=3600,
     )
     run_down_s: float | None = Field(
         default=None,
-        description="Time from speed_rpm to standstill, at the end of the run [s]; above 0 … 3600.",
+        description="Time from speed_rpm to standstill, at the end of the run [s]; {range}.",
         examples=[3.0],
         gt=0,
         le=3600,
@@ -118,18 +118,18 @@ class TransverseMotion(Table):
     """Balls also move across the race, in its toroidal groove (Kladiev 1996, eq. (12))."""
 
     groove_radius_mm: float = Field(
-        description="Radius of the groove across the race [mm]; above ball_radius_mm, up to 10000.",
+        description="Radius of the groove across the race [mm]; above ball_radius_mm, up to {most}.",
         examples=[23.7],
         gt=0,
         le=1e4,
     )
     ball_radius_mm: float = Field(description=BALL_RADIUS, examples=[8.0], gt=0, le=1000)
     axial_runout_mm: float = Field(
-        default=0.0, description="Axial runout of the race, 0-peak [mm]; 0 … 10. Default: 0.", ge=0, le=10
+        default=0.0, description="Axial runout of the race, 0-peak [mm]; {range}. Default: {default}.", ge=0, le=10
     )
     free_spin: bool = Field(
         default=False,
-        description="Whether balls spin freely about the contact's normal: true or false. Default: false.",
+        description="Whether balls spin freely about the contact's normal: true or false. Default: {default}.",
     )
 
     @model_validator(mode="after")

@@ -20,26 +20,26 @@ class SceneRace(Table):
     """A race and its balls; all angles are measured in the rotor, from its zero mark in the sense of rotation."""
 
     pitch_radius_mm: float = Field(
-        description="Radius of the circle on which the balls' centres run [mm]; above 0 … 1e6.",
+        description="Radius of the circle on which the balls' centres run [mm]; {range}.",
         examples=[1000.0],
         gt=0,
         le=1e6,
     )
     plane_offset_mm: float = Field(
         default=0.0,
-        description="Tilting support: place of the race along +z from the centre of mass [mm]; -100000 … 100000. "
-        "Default: 0.",
+        description="Tilting support: place of the race along +z from the centre of mass [mm]; {range}. Default: "
+        "{default}.",
         ge=-1e5,
         le=1e5,
     )
     ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Mass of each ball [g]; above 0 … 1e12, up to 100 balls, none for the rotor alone.",
+        description="Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone.",
         examples=[[50.0, 50.0]],
     )
     ball_radius_mm: float | None = Field(
         default=None,
-        description="Radius of a ball [mm]; above 0 … 1000, smaller than pitch_radius_mm, the same as in the effects. "
-        "Only a rolling ball that is run up needs it; without it that of the effects, and if they have none, balls are "
+        description="Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. Only "
+        "a rolling ball that is run up needs it; without it that of the effects, and if they have none, balls are "
         "taken as small.",
         examples=[8.0],
         gt=0,
@@ -48,21 +48,21 @@ class SceneRace(Table):
     corrector: Literal["ball", "roller"] = Field(
         default="ball",
         description="What rolls in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or "
-        "roller (3/2). Default: ball.",
+        "roller (3/2). Default: {default}.",
     )
     rolling_drag_per_s: float = Field(
-        description="Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; 0 … 1e7, "
-        "0 switches it off.",
+        description="Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; "
+        "{range}, 0 switches it off.",
         examples=[0.01],
         ge=0,
         le=1e7,
     )
     start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Angle of each ball at the start [degrees]; -1e6 … 1e6.", examples=[[90.0, -90.0]]
+        description="Angle of each ball at the start [degrees]; {range}.", examples=[[90.0, -90.0]]
     )
     start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = Field(
         default=None,
-        description="Speed of each ball at the start, relative to the race [rpm]; -1e6 … 1e6. Without it: at rest in "
+        description="Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in "
         "the race.",
         examples=[[0.0, 0.0]],
     )

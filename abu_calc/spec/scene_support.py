@@ -21,12 +21,12 @@ class Body(Table):
     starts at rest at its place.
     """
 
-    mass_kg: float = Field(description="Mass of the body [kg]; above 0 … 1e9.", examples=[0.5], gt=0, le=1e9)
+    mass_kg: float = Field(description="Mass of the body [kg]; {range}.", examples=[0.5], gt=0, le=1e9)
     stiffness_N_per_m: StiffnessPair = Field(
-        description="Stiffness between rotor and body along x and y [N/m]; 0 … 1e15.", examples=[[1.0, 1.0]]
+        description="Stiffness between rotor and body along x and y [N/m]; {range}.", examples=[[1.0, 1.0]]
     )
     damping_N_s_per_m: DampingPair = Field(
-        description="Damping between rotor and body along x and y [N·s/m]; 0 … 1e12.", examples=[[0.02, 0.02]]
+        description="Damping between rotor and body along x and y [N·s/m]; {range}.", examples=[[0.02, 0.02]]
     )
 
 
@@ -34,15 +34,15 @@ class CoupleImbalance(Table):
     """Couple imbalance: the polar principal axis of inertia leans against the axis of rotation."""
 
     magnitude_rad: float = Field(
-        description="Angle between the polar principal axis and the axis of rotation [rad]; 0 … 0.1.",
+        description="Angle between the polar principal axis and the axis of rotation [rad]; {range}.",
         examples=[6.8e-5],
         ge=0,
         le=0.1,
     )
     angle_deg: float = Field(
         default=0.0,
-        description="Where the +z end of the principal axis leans to, from the zero mark [degrees]; -360 … 360. "
-        "Default: 0.",
+        description="Where the +z end of the principal axis leans to, from the zero mark [degrees]; {range}. "
+        "Default: {default}.",
         ge=-360,
         le=360,
     )
@@ -53,33 +53,34 @@ class Tilting(Table):
 
     transverse_inertia_kg_m2: float = Field(
         description="Moment of inertia about an axis across the spindle through the centre of mass, without balls "
-        "[kg·m²]; above 0 … 1e9.",
+        "[kg·m²]; {range}.",
         examples=[0.0138],
         gt=0,
         le=1e9,
     )
     polar_inertia_kg_m2: float = Field(
-        description="Moment of inertia of what rotates about the spindle, without balls [kg·m²]; 0 … 1e9, at most "
+        description="Moment of inertia of what rotates about the spindle, without balls [kg·m²]; {range}, at most "
         "twice the transverse one.",
         examples=[0.00124],
         ge=0,
         le=1e9,
     )
     bearing_positions_mm: Annotated[tuple[Position, ...], Field(strict=False, min_length=1, max_length=20)] = Field(
-        description="Places of the bearings along +z, from the centre of mass [mm]; -100000 … 100000, one or more.",
+        description="Places of the bearings along +z, from the centre of mass [mm]; {range}, one or more.",
         examples=[[110.0, -150.0]],
     )
     bearing_stiffness_N_per_m: Annotated[tuple[StiffnessPair, ...], Field(strict=False, max_length=20)] = Field(
-        description="Stiffness of each bearing along x and y [N/m]; 0 … 1e15.",
+        description="Stiffness of each bearing along x and y [N/m]; {range}.",
         examples=[[[21500.0, 15800.0], [21500.0, 15800.0]]],
     )
     bearing_damping_N_s_per_m: Annotated[tuple[DampingPair, ...], Field(strict=False, max_length=20)] = Field(
-        description="Damping of each bearing along x and y [N·s/m]; 0 … 1e12.",
+        description="Damping of each bearing along x and y [N·s/m]; {range}.",
         examples=[[[5.375, 3.95], [5.375, 3.95]]],
     )
     couple_imbalance_angle: CoupleImbalance | None = None
     ball_tilt_inertia: bool = Field(
-        default=True, description="Whether balls move axially with the race as it tilts: true or false. Default: true."
+        default=True,
+        description="Whether balls move axially with the race as it tilts: true or false. Default: {default}.",
     )
 
     @model_validator(mode="after")
@@ -115,13 +116,14 @@ class SceneSwingArm(SwingArm):
 
     wheel_radius_mm: float | None = Field(
         default=None,
-        description="Radius of the wheel that cuts [mm]; above 0 … 10000. With cutting = true.",
+        description="Radius of the wheel that cuts [mm]; {range}. With cutting = true.",
         examples=[115.0],
         gt=0,
         le=1e4,
     )
     cutting: bool = Field(
-        default=False, description="Whether the wheel is pressed to the work: true or false. Default: false, idle."
+        default=False,
+        description="Whether the wheel is pressed to the work: true or false. Default: {default}, idle.",
     )
 
     @model_validator(mode="after")

@@ -41,16 +41,16 @@ def reworded(text: str, file: str, error: ValueError | RecursionError) -> InputE
     twice = _first_of_two(known, line)
     key = None
     if known and known[-1].last_line >= line:
-        # Within a value of several lines the fault is seen late: told is the line where the value begins.
+        # Within a value of several lines the fault is seen late: named is the line where the value begins.
         line, key = known[-1].line, key_path(known[-1].path)
     place = Place(file, line, key)
     if twice:
         kind = "table" if twice.header else "key"
         remedy = "merge the two" if kind == "table" else "keep one of the two"
         return InputError(f"the {kind} stands twice, first in line {twice.line}", place=place, remedy=remedy)
-    found, told, change = _seen(rows[line - 1].strip() if line <= len(rows) else "")
+    found, fault, change = _seen(rows[line - 1].strip() if line <= len(rows) else "")
     plain = _WHERE.sub("", message).strip() or "not TOML"
-    return InputError(f"not TOML: {told or plain[0].lower() + plain[1:]}", place=place, found=found, remedy=change)
+    return InputError(f"not TOML: {fault or plain[0].lower() + plain[1:]}", place=place, found=found, remedy=change)
 
 
 def _first_of_two(known: list[Statement], line: int) -> Statement | None:
@@ -63,7 +63,7 @@ def _first_of_two(known: list[Statement], line: int) -> Statement | None:
 
 
 def _seen(row: str) -> tuple[str | None, str | None, str | None]:
-    """What a refused line holds, what is wrong with it, and the remedy; each as far as it can be told."""
+    """What a refused line holds, what is wrong with it, and the remedy; each as far as it is known."""
     if row.startswith("["):
         return row, None, "a table's name stands alone on its line: [wheel], or [[bearing]] for one of several"
     key, equals, value = (part.strip() for part in row.partition("="))
@@ -77,9 +77,9 @@ def _seen(row: str) -> tuple[str | None, str | None, str | None]:
 
 
 def _value_seen(value: str) -> tuple[str | None, str | None]:
-    for pattern, told, remedy in _VALUES:
+    for pattern, fault, remedy in _VALUES:
         if seen := pattern.fullmatch(value):
-            return told, remedy.format(seen[0], *seen.groups())
+            return fault, remedy.format(seen[0], *seen.groups())
     if value in _WORDS:
         return "an unknown word", f"write {_WORDS[value]}"
     if value.lower() in _NOTHING:

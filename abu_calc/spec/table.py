@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict
 from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from abu_calc.spec.text import Part
+from abu_calc.spec.wording import described
 
 RULE = "rule"
 """Type of the errors that `problem` makes, among those of pydantic."""
@@ -22,12 +23,18 @@ class Table(BaseModel):
     """Keys without a default that a new file should nevertheless show live."""
 
     @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: object) -> None:
+        """Bounds and defaults stand in the fields alone: their descriptions are made of them."""
+        for field in cls.model_fields.values():
+            field.description = described(field)
+
+    @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
         """The keys that make no sense beside `key = value`: an override of one takes the others' place."""
         return ()
 
     def unused(self) -> frozenset[str]:
-        """Keys that play no part, given the other keys: no default of theirs is told, and whoever gives one is."""
+        """Keys that play no part, given the other keys: not listed as defaults in force, warned of where given."""
         return frozenset()
 
     def own_defaults(self) -> dict[str, object]:
@@ -101,7 +108,7 @@ def all_tables(model: type[Table], path: tuple[str, ...] = ()) -> Iterator[tuple
 def problem(
     message: str, *key: Part, found: str | None = None, allowed: str | None = None, remedy: str | None = None
 ) -> PydanticCustomError:
-    """A broken rule between keys, told of `key` (a path below the table that raises it)."""
+    """A broken rule between keys, placed at `key` (a path below the table that raises it)."""
     facts = {"message": message, "key": key, "found": found, "allowed": allowed, "remedy": remedy}
     return PydanticCustomError(RULE, "{message}", facts)
 

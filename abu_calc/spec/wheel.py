@@ -20,42 +20,42 @@ class Wheel(Table):
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"imbalance_g_mm"})
 
     mass_kg: float = Field(
-        description="Mass of the wheel with its flanges [kg]; 0.0001 … 5000, hand grinders 0.05 … 2.",
+        description="Mass of the wheel with its flanges [kg]; {range}, hand grinders 0.05 … 2.",
         examples=[0.6],
         ge=0.0001,
         le=5000,
     )
     diameter_mm: float = Field(
-        description="Outer diameter of the wheel [mm]; 1 … 5000, hand grinders 50 … 230.",
+        description="Outer diameter of the wheel [mm]; {range}, hand grinders 50 … 230.",
         examples=[150.0],
         ge=1,
         le=5000,
     )
     runout_mm: float = Field(
         default=0.0,
-        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; 0 … 10, mounted "
-        "wheels 0.02 … 0.2. Default: 0, a true wheel. Or give runout_tir_mm.",
+        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}, "
+        "mounted wheels 0.02 … 0.2. Default: {default}, a true wheel. Or give runout_tir_mm.",
         ge=0,
         le=10,
     )
     runout_tir_mm: float | None = Field(
         default=None,
         description="Total indicated runout of the outer surface, as the dial gauge shows it: twice runout_mm, and "
-        "instead of it [mm]; 0 … 20.",
+        "instead of it [mm]; {range}.",
         examples=[0.08],
         ge=0,
         le=20,
     )
     runout_angle_deg: float = Field(
         default=0.0,
-        description="Where the high spot stands, from the imbalance in the sense of rotation [degrees]; -360 … 360. "
-        "Sizing takes the worst angle whatever stands here. Default: 0, at the imbalance.",
+        description="Where the high spot stands, from the imbalance in the sense of rotation [degrees]; {range}. "
+        "Sizing takes the worst angle whatever stands here. Default: {default}, at the imbalance.",
         ge=-360,
         le=360,
     )
     imbalance_g_mm: float | None = Field(
         default=None,
-        description="Imbalance of the wheel [g·mm]; 0 … 1e9, hand grinders 20 … 1000. One of three sources: this, "
+        description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One of three sources: this, "
         "balance_grade or measured_level_db.",
         examples=[150.0],
         ge=0,
@@ -77,7 +77,7 @@ class Wheel(Table):
     ) = Field(
         default=None,
         description="Velocity level measured idle, without autobalancer: one number, or a list that is averaged in "
-        "velocity [dB re 5e-8 m/s]; 0 … 200, hand grinders 95 … 120. Instead of imbalance_g_mm.",
+        "velocity [dB re 5e-8 m/s]; {range}, hand grinders 95 … 120. Instead of imbalance_g_mm.",
         examples=[111.0],
     )
     measured_at: str | None = Field(

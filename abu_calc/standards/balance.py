@@ -1,5 +1,6 @@
 """Balance quality grades."""
 
+from abu_calc.formula import formula
 from abu_calc.standards.tables import toml_table, unknown
 from abu_calc.validity import Range
 
@@ -16,13 +17,17 @@ def balance_grades() -> dict[str, float]:
     return {f"G{grade:g}": grade / 1000 for grade in toml_table("balance_grades")["grades"]}
 
 
+@formula(
+    "Permissible residual imbalance of a rotor",
+    "U = (e·Ω)·m/Ω",
+    "kg m",
+    where="m mass [kg], Ω service speed [rad/s], e·Ω of the grade; in user units U [g·mm] = 9549·G·m[kg]/n[rpm].",
+    checked=(_MASS, _SPEED, "a grade of the list"),
+    assumed="rotors in a constant (rigid) state",
+    source="ISO 21940-11:2016",
+)
 def permissible_imbalance(grade: str, mass: float, speed: float) -> float:
-    """Permissible residual imbalance U [kg m] of a rotor: U = (e·Ω)·m/Ω.
-
-    m mass [kg], Ω service speed [rad/s]; in user units U [g·mm] = 9549·G·m[kg]/n[rpm]. Range: rotors in a constant
-    (rigid) state; mass above 0 … 1e6 kg, speed above 0 … 1e5 rad/s (RangeError), a grade of the list (InputError).
-    Source: ISO 21940-11:2016.
-
+    """
     >>> from abu_calc.units import to_si
     >>> round(1e6 * permissible_imbalance("G6.3", 2.0, to_si(10000, "rpm")), 2)
     12.03

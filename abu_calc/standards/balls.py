@@ -4,14 +4,12 @@ from functools import cache
 from typing import NamedTuple
 
 from abu_calc.standards.tables import toml_table, unknown
-from abu_calc.units import from_si, to_si
-from abu_calc.validity import Range
+from abu_calc.units import to_si
 
 STOCK_TOLERANCE = 0.01e-3
 """How far [m] a diameter may be from the stock size it means: sources round 19.844 mm to 19.84."""
 
 _ROUNDING = 1e-9
-_STOCKED = Range("ball diameter", 3.0, 30.0, "mm", remedy="Choose a stock diameter in this range.")
 
 
 class Material(NamedTuple):
@@ -35,18 +33,6 @@ def stock_diameters() -> tuple[float, ...]:
     return tuple(to_si(d, "mm") for d in sorted((*table["metric"], *table["inch"])))
 
 
-def nearest_stock(diameter: float) -> float:
-    """The stock diameter [m] nearest to `diameter` [m]; of two equally near the smaller.
-
-    Range: 3 … 30 mm, else RangeError. Source: ISO 3290-1:2014.
-
-    >>> nearest_stock(0.0159)
-    0.015875
-    """
-    _STOCKED.check(round(from_si(diameter, "mm"), 6))
-    return min(stock_diameters(), key=lambda d: round(abs(d - diameter), 12))
-
-
 def stock_diameter(diameter: float) -> float | None:
     """The stock diameter [m] that `diameter` [m] means (nearest, within 0.01 mm), or None when it means none.
 
@@ -55,18 +41,6 @@ def stock_diameter(diameter: float) -> float | None:
     """
     near = min(stock_diameters(), key=lambda d: abs(d - diameter))
     return near if abs(near - diameter) <= STOCK_TOLERANCE + _ROUNDING else None
-
-
-def system_of(diameter: float) -> str | None:
-    """Whether a stock diameter [m] is "metric" or "inch"; None when it is no stock size.
-
-    >>> system_of(0.016), system_of(0.015875)
-    ('metric', 'inch')
-    """
-    stock = stock_diameter(diameter)
-    if stock is None:
-        return None
-    return "metric" if any(to_si(d, "mm") == stock for d in toml_table("balls")["metric"]) else "inch"
 
 
 def material(name: str) -> Material:

@@ -50,7 +50,7 @@ class SeatModel(Record):
             half_tolerances_m=halves,
             sigma_m=math.hypot(*halves) / 3,
             diameter_m=joint.diameter,
-            width_m=joint.width,
+            width_m=joint.ring.width,
             length_m=joint.length,
             radial_load_N=joint.radial_load,
             load_factor=joint.factor,
@@ -82,15 +82,15 @@ class BearingModel(Record):
         """Of a bearing that was judged."""
         bearing = found.bearing
         return cls(
-            bore_m=bearing.bore,
-            inner_ring_diameter_m=inner_ring_diameter(bearing.bore, bearing.outer),
-            shaft_bore_m=bearing.shaft_bore,
-            speed_rad_per_s=bearing.speed,
-            ring_temperature_difference_K=bearing.temperature_difference,
+            bore_m=bearing.inner.diameter,
+            inner_ring_diameter_m=inner_ring_diameter(bearing.inner.diameter, bearing.outer.diameter),
+            shaft_bore_m=bearing.shaft.bore,
+            speed_rad_per_s=bearing.service.speed,
+            ring_temperature_difference_K=bearing.service.ring_over_shaft,
             expansion_per_K=seat_material("steel").expansion,
-            seat_friction=bearing.seat_friction,
-            shaft=SeatModel.of(found.shaft, bearing.shaft_roughness),
-            housing=SeatModel.of(found.housing, bearing.housing_roughness),
+            seat_friction=bearing.service.seat_friction,
+            shaft=SeatModel.of(found.shaft, bearing.shaft.roughness),
+            housing=SeatModel.of(found.housing, bearing.housing.roughness),
         )
 
 

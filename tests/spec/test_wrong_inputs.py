@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from abu_calc.errors import InputError
-from abu_calc.spec.errors import MOST_TOLD, SpecErrors
+from abu_calc.spec.errors import MOST_LISTED, SpecErrors
 from tests.spec.samples import BASIC, BEARINGS, FULL, all_of, full_text, path_of, read, refused
 
 MASS, LAYOUT, NAME = "mass_kg = 5.6", 'layout = "straight"', 'name = "straight grinder"'
@@ -183,7 +183,7 @@ def test_all_faults_of_a_file_are_told_in_the_order_of_lines(tmp_path: Path) -> 
 def test_of_very_many_faults_ten_are_told(tmp_path: Path) -> None:
     error = refused(tmp_path, BASIC + "".join(f"strange_{index} = 1\n" for index in range(25)))
     assert len(all_of(error)) == 25
-    assert str(error).count("unknown key") == MOST_TOLD
+    assert str(error).count("unknown key") == MOST_LISTED
     assert str(error).endswith("and 15 more")
 
 

@@ -3,17 +3,13 @@
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from abu_calc.errors import InputError, RangeError
+from abu_calc.errors import InputError
 from abu_calc.standards.balls import (
     material,
-    nearest_stock,
     seat_material,
     stock_diameter,
     stock_diameters,
-    system_of,
 )
 from abu_calc.standards.tables import toml_table
 
@@ -35,12 +31,6 @@ def test_inch_sizes_are_sixty_fourths():
         assert size == pytest.approx(round(size / 25.4 * 64) * 25.4 / 64, abs=1e-5)
 
 
-def test_metric_and_inch_are_told_apart():
-    assert system_of(0.0135) == "metric"
-    assert system_of(0.01349375) == "inch"
-    assert system_of(0.0157) is None
-
-
 @pytest.mark.parametrize(("given_mm", "meant"), [(19.84, 19.84375), (19.85, 19.84375), (16.0, 16.0), (4.76, 4.7625)])
 def test_a_rounded_size_means_its_stock_size(given_mm, meant):
     assert stock_diameter(given_mm / 1e3) == pytest.approx(meant / 1e3, abs=1e-12)
@@ -49,19 +39,6 @@ def test_a_rounded_size_means_its_stock_size(given_mm, meant):
 @pytest.mark.parametrize("given_mm", [19.83, 15.7, 2.98, 31.0])
 def test_other_sizes_mean_none(given_mm):
     assert stock_diameter(given_mm / 1e3) is None
-
-
-@settings(derandomize=True, deadline=None)
-@given(st.floats(3.0, 30.0))
-def test_nearest_is_nearest(size):
-    found = nearest_stock(size / 1e3)
-    assert abs(found - size / 1e3) <= min(abs(d - size / 1e3) for d in stock_diameters()) + 1e-12
-
-
-@pytest.mark.parametrize("size", [2.99, 30.01, float("nan"), float("inf")])
-def test_nearest_outside_is_refused(size):
-    with pytest.raises(RangeError, match="3 … 30 mm"):
-        nearest_stock(size / 1e3)
 
 
 @pytest.mark.parametrize(("size", "mass"), [(4.76, 0.440), (8, 2.091), (10, 4.084), (12.7, 8.366), (16, 16.728)])

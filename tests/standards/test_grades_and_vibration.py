@@ -1,17 +1,19 @@
 """Balance grades, limits of vibration, hand-arm weighting, the hand."""
 
 import math
+import tomllib
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from abu_calc.errors import InputError, RangeError
-from abu_calc.standards import vibration
+from abu_calc.spec.bearing_file import Limits
 from abu_calc.standards.balance import balance_grades, permissible_imbalance
 from abu_calc.standards.hands import hand
-from abu_calc.standards.tables import csv_rows, toml_table
+from abu_calc.standards.tables import csv_rows
 from abu_calc.units import from_si, level_from_velocity, to_si
+from tests.standards import vibration
 
 
 def test_grades_of_the_standard():
@@ -107,6 +109,10 @@ def test_weights_follow_the_filter_of_the_standard():
         assert abs(math.log2(from_si(band.nominal, "hz") / exact)) < 0.03
 
 
+def test_the_default_limit_of_a_file_is_that_of_the_standard():
+    assert Limits().vibration_level_db == vibration.octave(to_si(5800, "rpm")).limit.level
+
+
 def test_exposure_values():
     assert (vibration.exposure_action_value(), vibration.exposure_limit_value()) == (2.5, 5.0)
 
@@ -124,10 +130,10 @@ def test_the_hand_has_four_of_everything():
 def test_every_data_file_names_source_and_edition():
     from abu_calc.standards import tables
 
-    for path in tables._DATA.iterdir():
+    for path in (*tables._DATA.iterdir(), *vibration.DATA.iterdir()):
         text = path.read_text(encoding="utf-8")
         if path.suffix == ".toml":
-            assert {"source", "edition"} <= set(toml_table(path.stem))
+            assert {"source", "edition"} <= set(tomllib.loads(text))
         else:
             assert path.suffix == ".csv"
             assert "# source: " in text

@@ -1,15 +1,28 @@
-"""Vibration of hand-held machines: limits by octaves, weighting by third octaves, exposure."""
+"""Vibration of hand-held machines: limits by octaves, weighting by third octaves, exposure.
+
+Nothing is computed from them yet; the default limit of a file is held to them.
+"""
 
 import math
+import tomllib
 from dataclasses import dataclass
 from functools import cache
-from typing import TypeVar
+from pathlib import Path
+from typing import Any, TypeVar
 
 from abu_calc.errors import RangeError
-from abu_calc.standards.tables import toml_table
 from abu_calc.units import from_si, to_si
 
 _Band = TypeVar("_Band", "Octave", "ThirdOctave")
+
+
+DATA = Path(__file__).parent / "data"
+
+
+@cache
+def toml_table(name: str) -> dict[str, Any]:
+    """A data file of this folder."""
+    return tomllib.loads((DATA / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True)
