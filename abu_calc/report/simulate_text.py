@@ -5,7 +5,6 @@ from typing import Any
 
 from abu_calc.checks import Check
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.common import check_blocks, default_blocks, facts, of_scene, warning_blocks
 from abu_calc.report.effects import ledger_grid
@@ -58,17 +57,10 @@ def simulate_blocks(
 
 def _model(scene: Scene) -> str:
     """Support, races and balls in a sentence."""
-    if isinstance(scene.support, SwingArm):
-        support = "Rotor on a swing arm"
-    elif scene.support.tilts:
-        support = "Rigid rotor that moves in its plane and tilts"
-    else:
-        more = len(scene.support.names) - 2
-        support = "Planar support" + (f" with {more} more coordinates" if more else "")
     races, balls = len(scene.races), len(scene.ball_masses)
-    contact = "" if scene.effect("ball_contact") or balls < 2 else "; balls pass through each other"
+    contact = "" if scene.balls_meet or balls < 2 else "; balls pass through each other"
     where = "one race" if races == 1 else f"{races} races"
-    return f"{support}, {where} with {balls} balls in all, viscous rolling drag{contact}."
+    return f"{scene.support.description}, {where} with {balls} balls in all, viscous rolling drag{contact}."
 
 
 def _effects(entries: list[dict[str, Any]]) -> list[Block]:

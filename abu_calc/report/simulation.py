@@ -8,7 +8,6 @@ from abu_calc.analysis.response import FinalState
 from abu_calc.analysis.simulate import Cost, Simulation
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.report.effects import ledger_result
 from abu_calc.report.outcome import finite
 from abu_calc.units import from_si, wrapped_deg
@@ -86,7 +85,7 @@ def scene_model(scene: Scene) -> dict[str, Any]:
     """The SI numbers and states that are integrated."""
     return {
         "states": list(assemble(scene).states),
-        **(_arm_model(scene.support) if isinstance(scene.support, SwingArm) else _support_model(scene.support)),
+        **scene.support.model(),
         "speed_rad_per_s": scene.speed,
         "imbalance_kg_m": scene.imbalance,
         "imbalance_angle_rad": scene.imbalance_angle,
@@ -109,24 +108,4 @@ def scene_model(scene: Scene) -> dict[str, Any]:
         "start_position": list(scene.start_position),
         "start_velocity": list(scene.start_velocity),
         "duration_s": scene.duration,
-    }
-
-
-def _support_model(support: LinearSupport) -> dict[str, Any]:
-    return {
-        "mass_kg": [list(row) for row in support.mass],
-        "damping_N_s_per_m": [list(row) for row in support.damping],
-        "stiffness_N_per_m": [list(row) for row in support.stiffness],
-        "gyroscopic_kg_m2": [list(row) for row in support.gyroscopic],
-        "race_map": [list(row) for row in support.race_map],
-    }
-
-
-def _arm_model(arm: SwingArm) -> dict[str, Any]:
-    return {
-        "arm_length_m": arm.length,
-        "moment_of_inertia_kg_m2": arm.inertia,
-        "stiffness_N_per_m": arm.stiffness,
-        "damping_N_s_per_m": arm.damping,
-        "moment_N_m": arm.moment,
     }

@@ -13,12 +13,12 @@ from abu_calc.analysis.differences import amplitude, angles, difference, settlin
 from abu_calc.analysis.ledger import SHARE, chosen
 from abu_calc.analysis.simulate import simulate
 from abu_calc.cli.subject import subject_of
+from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.planar import planar
 
 PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
 
