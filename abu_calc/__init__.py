@@ -15,8 +15,9 @@ from abu_calc.version import __version__
 
 if TYPE_CHECKING:
     from abu_calc.checks import Check
-    from abu_calc.dynamics.scene import Race, Scene
-    from abu_calc.dynamics.supports.linear import planar
+    from abu_calc.dynamics.race import Race
+    from abu_calc.dynamics.scene import Scene
+    from abu_calc.dynamics.supports.planar import planar
     from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
     from abu_calc.spec.read import Machine, read
     from abu_calc.spec.read_scene import SceneDescription, read_scene
@@ -30,8 +31,9 @@ if TYPE_CHECKING:
 
 _ROOMS: Final = {
     "checks": ("Check",),
-    "dynamics.scene": ("Race", "Scene"),
-    "dynamics.supports.linear": ("planar",),
+    "dynamics.race": ("Race",),
+    "dynamics.scene": ("Scene",),
+    "dynamics.supports.planar": ("planar",),
     "errors": ("AbuError", "InputError", "NotTrustworthyError", "OutputError", "RangeError"),
     "spec.read": ("Machine", "read"),
     "spec.read_scene": ("SceneDescription", "read_scene"),

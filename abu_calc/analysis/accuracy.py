@@ -10,13 +10,12 @@ from typing import Any, Final
 
 from abu_calc.analysis.differences import QUANTITIES, Told
 from abu_calc.analysis.ledger import Ledger
-from abu_calc.analysis.response import Response, evaluate, needed_moments
+from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators.run import EVENT, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
-from abu_calc.dynamics.slow.averages import AVERAGED
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
 
@@ -137,7 +136,7 @@ def cheapest(points: list[Point], accuracy: float, reference: Reference) -> Poin
 
 def methods(full: Scene, scene: Scene) -> Iterator[Method]:
     """All ways to compute, cheap ones first; closed forms and envelope leave out what they cannot average."""
-    smooth = only(scene, [effect.name for effect in scene.effects if effect.name in AVERAGED])
+    smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
     yield Method("closed-form", None, None, lambda: closed_form(smooth), _told)
     for tolerance in ENVELOPE_TOLERANCES:
         yield Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _told)
@@ -159,13 +158,13 @@ def _told(estimate: Estimate) -> tuple[Told, int, int]:
 
 
 def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method:
-    equations, moments = assemble(scene), needed_moments(scene)
+    equations, times = assemble(scene), needed_times(scene)
 
     def tell(trajectory: Trajectory) -> tuple[Told, int, int]:
         return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
 
     def run() -> Trajectory:
-        return choice.integrate_with(name, equations, tolerance, moments, MOST_EVALUATIONS)
+        return choice.integrate_with(name, equations, tolerance, times, MOST_EVALUATIONS)
 
     return Method(rung, name, tolerance, run, tell)
 
@@ -202,11 +201,11 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     )
 
 
-def _trial(name: str, equations: Equations, moments: Any) -> tuple[Trajectory, float]:
+def _trial(name: str, equations: Equations, times: Any) -> tuple[Trajectory, float]:
     """A loose run, and its time [s]; a short one once more, since the first also loads and compiles."""
     for _ in range(2):
         started = time.perf_counter()
-        run = choice.integrate_with(name, equations, TRIAL, moments, MOST_EVALUATIONS)
+        run = choice.integrate_with(name, equations, TRIAL, times, MOST_EVALUATIONS)
         spent = time.perf_counter() - started
         if spent > LOADING:
             break
@@ -218,9 +217,9 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
 
     A loose run first tells how long they will take.
     """
-    equations, moments, started = assemble(full), needed_moments(full), time.perf_counter()
+    equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
-    trial, spent = _trial(one, equations, moments)
+    trial, spent = _trial(one, equations, times)
     # Events are as many and as long at every tolerance.
     steps = 1 - EVENT * trial.events / work(trial)
     expected = spent * (1 + (1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER))
@@ -229,8 +228,8 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
             f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"
             f"  give more time (--budget {2 * expected:.0f}), or shorten the run (--duration)"
         )
-    first = evaluate(full, choice.integrate_with(one, equations, loose, moments, MOST_EVALUATIONS))
-    second = evaluate(full, choice.integrate_with(other, equations, tight, moments, MOST_EVALUATIONS))
+    first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))
+    second = evaluate(full, choice.integrate_with(other, equations, tight, times, MOST_EVALUATIONS))
     apart = QUANTITIES[quantity](full, first, second)
     if not apart <= accuracy / 2:
         raise NotTrustworthyError(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from abu_calc.analysis.simulate import ACCURACY
-from abu_calc.dynamics.effects.effect import Weight
+from abu_calc.dynamics.effect import Weight
 from abu_calc.dynamics.scene import Scene
 
 SHARE: Final = 0.5

@@ -7,12 +7,9 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.equations.parameters import rotor_of
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
 from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
 
@@ -27,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Window:
-    """The amplitude window: moments [s], equally spaced up to the end but for the first, which is where the window
+    """The amplitude window: times [s], equally spaced up to the end but for the first, which is where the window
     begins, and how many of the last steps make whole turns.
     """
 
@@ -88,27 +85,28 @@ def amplitude_window(scene: Scene) -> Window:
     return Window(times=np.maximum(times, scene.duration - length), whole=turns * SAMPLES_PER_REVOLUTION)
 
 
-def settling_moments(scene: Scene) -> Array:
-    """Equally spaced moments [s] from 0 to the end, 16 per revolution, at which settling is judged."""
+def settling_times(scene: Scene) -> Array:
+    """Equally spaced times [s] from 0 to the end, 16 per revolution, at which settling is judged."""
     count = math.ceil(scene.duration / scene.revolution * SETTLING_SAMPLES_PER_REVOLUTION)
     return np.linspace(0.0, scene.duration, count + 1)
 
 
-def needed_moments(scene: Scene) -> Array:
-    """All moments [s] a trajectory must be sampled at to be evaluated."""
-    return np.union1d(settling_moments(scene), amplitude_window(scene).times)
+def needed_times(scene: Scene) -> Array:
+    """All times [s] a trajectory must be sampled at to be evaluated."""
+    return np.union1d(settling_times(scene), amplitude_window(scene).times)
 
 
 def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
-    """The results of a trajectory that was sampled at least at `needed_moments`.
+    """The results of a trajectory that was sampled at least at `needed_times`.
 
     Raises NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
     """
-    window, moments = amplitude_window(scene), settling_moments(scene)
-    _check_arm(scene, trajectory)
+    window, times = amplitude_window(scene), settling_times(scene)
     first = 2 * len(scene.support.names)
+    if lost := scene.support.lost(trajectory.t, trajectory.y[: first // 2]):
+        raise lost
     balls = slice(first, first + len(scene.ball_masses))
-    states, run = trajectory.at(window.times), trajectory.at(moments)
+    states, run = trajectory.at(window.times), trajectory.at(times)
     whole = states[:, -1 - window.whole :]
     place = axis_place(scene, states)
     mean = _mean(axis_place(scene, whole))
@@ -120,7 +118,7 @@ def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(moments, residuals, settled + SETTLED * reference_moment(scene)),
+        settling_time=settling_time(times, residuals, settled + SETTLED * reference_moment(scene)),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place - mean),
         velocity_rms=rms,
@@ -133,25 +131,11 @@ def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
     )
 
 
-def _check_arm(scene: Scene, trajectory: Trajectory) -> None:
-    """No joint and no work goes on holding an arm by a spring that has turned it right round."""
-    if isinstance(scene.support, SwingArm):
-        beyond = trajectory.t[np.abs(trajectory.y[0]) > math.pi]
-        if len(beyond):
-            raise NotTrustworthyError(
-                f"the arm has turned right round at t = {beyond[0]:.6g} s: it does not stand, or resonates\n"
-                "  a stiffer or more damped joint, a contact angle nearer to 90°, or a shorter run"
-            )
-
-
 def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:
     first = 2 * len(scene.support.names)
     x, y = axis_place(scene, end[:, None])[:, 0].tolist()
     vx, vy = axis_velocity(scene, end[:, None])[:, 0].tolist()
-    tilt = None
-    if isinstance(scene.support, LinearSupport) and scene.support.tilts:
-        tx, ty = (np.array(scene.support.race_map)[2:] @ end[: first // 2]).tolist()
-        tilt = (tx, ty)
+    q, turned = end[: first // 2], scene.support.turned(end)
     return FinalState(
         t=scene.duration,
         x=x,
@@ -160,51 +144,41 @@ def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalSta
         vy=vy,
         ball_angles=tuple(end[first : first + len(scene.ball_masses)].tolist()),
         ball_speeds=ball_speeds,
-        tilt=tilt,
-        arm_angle=float(end[0]) if isinstance(scene.support, SwingArm) else None,
-        speed=scene.speed if rotor_of(scene) == "steady" else float(end[-1]),
+        tilt=scene.support.tilt(q),
+        arm_angle=None if turned is None else float(turned),
+        speed=float(scene.rotor.turning(scene.duration, end, scene.speed)[1]),
     )
 
 
 def axis_place(scene: Scene, states: Array, plane: float = 0.0) -> Array:
-    """x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, moment].
+    """x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, time].
 
     Of a swing arm: from where it lies along +x.
     """
-    support, size = scene.support, len(scene.support.names)
-    if isinstance(support, SwingArm):
-        return support.length * np.array((np.cos(states[0]) - 1, np.sin(states[0])))
-    return np.asarray(_at_plane(support, plane) @ states[:size])
+    return scene.support.axis(states[: len(scene.support.names)], plane)
 
 
 def axis_velocity(scene: Scene, states: Array) -> Array:
     """The velocity of the axis [m/s], likewise."""
-    support, size = scene.support, len(scene.support.names)
-    if isinstance(support, SwingArm):
-        return np.asarray(support.length * states[1] * np.array((-np.sin(states[0]), np.cos(states[0]))))
-    return np.asarray(_at_plane(support, 0.0) @ states[size : 2 * size])
-
-
-def _at_plane(support: LinearSupport, plane: float) -> Array:
-    P = np.array(support.race_map)
-    return np.asarray(P[:2] + plane * P[2:] if len(P) > 2 else P, dtype=float)
+    size = len(scene.support.names)
+    return scene.support.axis_velocity(states[:size], states[size : 2 * size])
 
 
 def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
-    places = scene.support.bearings if isinstance(scene.support, LinearSupport) else ()
+    places = scene.support.bearings
     return tuple(_largest_radius(axis_place(scene, states, z) - _mean(axis_place(scene, whole, z))) for z in places)
 
 
 def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
-    """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, moment]."""
+    """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, time]."""
     total = np.full(angles.shape[1:], scene.imbalance * np.exp(1j * scene.imbalance_angle))
-    for moment, angle in zip(scene.ball_moments, angles, strict=True):
-        total += moment * np.exp(1j * angle)
+    for static_moment, angle in zip(scene.static_moments, angles, strict=True):
+        total += static_moment * np.exp(1j * angle)
     return total
 
 
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
-    """The earliest moment [s] after which the residual stays below the limit; None if after 95 % of the run.
+    """The earliest time [s] after which the residual stays below the limit; None if after 95 % of the run.
 
     Between two samples it is read from the quintic through the six about them.
     """
@@ -214,8 +188,8 @@ def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
     last = int(above[-1])
     if last == len(t) - 1:
         return None
-    moment = _crossing(t, residuals - limit, last)
-    return moment if moment <= 0.95 * t[-1] else None
+    time = _crossing(t, residuals - limit, last)
+    return time if time <= 0.95 * t[-1] else None
 
 
 def _crossing(t: Array, values: Array, last: int) -> float:
@@ -228,7 +202,7 @@ def _crossing(t: Array, values: Array, last: int) -> float:
 
 
 def _mean(values: Array) -> Array:
-    """Mean over equally spaced moments of whole turns, both ends among them, by Simpson's rule: means of what turns are
+    """Mean over equally spaced times of whole turns, both ends among them, by Simpson's rule: means of what turns are
     exact, and what dies out meanwhile counts as long as it lasts.
     """
     ends, odd, even = values[..., [0, -1]], values[..., 1::2], values[..., 2:-1:2]

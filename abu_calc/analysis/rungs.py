@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import settling_moments, settling_time, total_imbalance
+from abu_calc.analysis.response import settling_time, settling_times, total_imbalance
 from abu_calc.dynamics.balanced.resting import resting_angles
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.slow.averages import averages, loaded
+from abu_calc.dynamics.slow.averages import averages
 from abu_calc.dynamics.slow.envelope import (
     ball_rate,
     envelope,
@@ -37,7 +37,7 @@ WIDEST: Final = 0.1
 FINER, TIGHT = 1e-4, 1e-6
 """Tolerance of the envelope's integration: this share of the accuracy, and no more than that; it costs little."""
 
-MOST_MOMENTS: Final = 1001
+MOST_TIMES: Final = 1001
 """Between two of so many a slow motion is straight."""
 
 
@@ -78,7 +78,7 @@ def closed_form(scene: Scene) -> Estimate:
         raise InputError(reason or "closed forms are for one race whose balls can balance")
     model, race = averages(scene), scene.races[0]
     own = -float(model.forward[0, 2].real)
-    stiffnesses = [moment / race.pitch_radius * scene.speed**4 * own for moment in scene.ball_moments]
+    stiffnesses = [each / race.pitch_radius * scene.speed**4 * own for each in scene.static_moments]
     rate = decay_rate(stiffnesses, rest, race.drag, race.inertia_factor)
     if rate <= 0:
         raise InputError("the averaged motion does not come to rest in balance")
@@ -98,16 +98,16 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> Estimate:
     """The envelope of a run. Raises InputError where averages do not hold."""
     if reason := not_averaged(scene):
         raise InputError(reason)
-    moments = slow_moments(scene)
-    slow = envelope(scene, tolerance, moments, order)
+    times = slow_times(scene)
+    slow = envelope(scene, tolerance, times, order)
     residuals = np.abs(total_imbalance(scene, slow.theta))
-    window = moments >= _window(scene)
+    window = times >= _window(scene)
     limit = float(residuals[window].mean()) + SETTLED * reference_moment(scene)
-    X, Y = (loaded(scene).frame @ whirl(scene, slow.theta[:, window], slow.rate[:, window])[0])[:2]
+    X, Y = (scene.small_motion.frame @ whirl(scene, slow.theta[:, window], slow.rate[:, window])[0])[:2]
     return Estimate(
         axis_amplitude=float((np.abs(X + 1j * Y) + np.abs(X - 1j * Y)).max()) / 2,
         velocity_rms=scene.speed / math.sqrt(2) * math.sqrt(max((np.abs(X) ** 2).mean(), (np.abs(Y) ** 2).mean())),
-        settling_time=settling_time(moments, residuals, limit),
+        settling_time=settling_time(times, residuals, limit),
         ball_angles=tuple(slow.theta[:, -1].tolist()),
         evaluations=slow.evaluations,
         steps=slow.steps,
@@ -119,26 +119,27 @@ def _window(scene: Scene) -> float:
     return scene.duration - max(scene.duration / 20, scene.revolution)
 
 
-def slow_moments(scene: Scene) -> NDArray[np.float64]:
-    """Equally spaced moments [s] at which slow motion is looked at: like the equations', but it has no ripple."""
-    return np.linspace(0.0, scene.duration, min(len(settling_moments(scene)), MOST_MOMENTS))
+def slow_times(scene: Scene) -> NDArray[np.float64]:
+    """Equally spaced times [s] at which slow motion is looked at: like the equations', but it has no ripple."""
+    return np.linspace(0.0, scene.duration, min(len(settling_times(scene)), MOST_TIMES))
 
 
-def offer(scene: Scene, accuracy: float, moments: NDArray[np.float64]) -> Offer:
-    """The envelope at the moments [s] if it is as accurate as that. What cannot be accurate enough is not even run."""
-    reason = "gravity is not averaged" if scene.effect("gravity") else not_averaged(scene)
+def offer(scene: Scene, accuracy: float, times: NDArray[np.float64]) -> Offer:
+    """The envelope at the times [s] if it is as accurate as that. What cannot be accurate enough is not even run."""
+    falls = next((effect.name for effect in scene.effects if effect.falling), None)
+    reason = f"{falls} is not averaged" if falls else not_averaged(scene)
     if reason or not scene.ball_masses:
         return Offer(None, reason or "there are no balls")
     least, limit = _least_error(scene), min(accuracy, WIDEST)
     if least > limit:
         return Offer(least, f"the error of the averages is estimated at {least:.2g} or more")
     try:
-        return _followed(scene, limit, min(FINER * accuracy, TIGHT), moments)
+        return _followed(scene, limit, min(FINER * accuracy, TIGHT), times)
     except NotTrustworthyError as error:
         return Offer(None, str(error).splitlines()[0])
 
 
-def _followed(scene: Scene, limit: float, tolerance: float, moments: NDArray[np.float64]) -> Offer:
+def _followed(scene: Scene, limit: float, tolerance: float, times: NDArray[np.float64]) -> Offer:
     """The envelope by its two orders, their difference and what neither knows of."""
     leading, full = (averaged(scene, tolerance, order) for order in (1, 2))
     free = free_amplitude(scene, _window(scene)) / max(full.axis_amplitude, weighing_amplitude(scene))
@@ -146,10 +147,9 @@ def _followed(scene: Scene, limit: float, tolerance: float, moments: NDArray[np.
     error = LEADING * difference(scene, leading, full) + _slowness(scene) + free + ripple
     if not error <= limit:
         return Offer(error, f"the error of the averages is estimated at {error:.2g}")
-    slow = envelope(scene, tolerance, moments)
+    slow = envelope(scene, tolerance, times)
     work = leading.evaluations + full.evaluations + slow.evaluations
-    end = f"reached the end at {moments[-1]:g} s"
-    run = Trajectory(moments, motion(scene, slow), "scipy-lsoda", tolerance, work, slow.steps, "finished", end)
+    run = Trajectory(times, motion(scene, slow), "scipy-lsoda", tolerance, work, slow.steps)
     return Offer(error, "the averages are accurate enough, and cost less than the equations", run)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import Response, evaluate, needed_moments
+from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
 from abu_calc.dynamics.equations.assemble import Equations, assemble
@@ -82,7 +82,7 @@ def simulate(
 ) -> Simulation:
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
-    `sample_times` [s] are further moments to hold in the trajectory; `most_evaluations` bounds the work of all runs;
+    `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs;
     `integrator` is auto, scipy or heyoka; either asks for the equations. `tell` gets what is being done. Raises
     NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
     chaotic, or decided by less than rounding.
@@ -92,20 +92,20 @@ def simulate(
     wanted = np.asarray(sample_times, dtype=float)
     if not np.all((wanted >= 0) & (wanted <= scene.duration)):
         raise InputError("sample times must lie within the run", allowed=f"0 … {scene.duration:g} s")
-    moments, started = np.union1d(needed_moments(scene), wanted), time.perf_counter()
+    times, started = np.union1d(needed_times(scene), wanted), time.perf_counter()
     offered = Offer(None, "the equations were asked for")
     tell(f"{scene.name}: averages")
     if integrator == "auto" and not len(wanted):
-        offered = offer(scene, accuracy, moments)
+        offered = offer(scene, accuracy, times)
     if offered.trajectory is not None and offered.error is not None:
         run = offered.trajectory
         cost = _cost(run, run.evaluations, run.steps, time.perf_counter() - started, offered.why)
         return Simulation(scene, evaluate(scene, run), run, cost, offered.error, warnings, "envelope", offered)
-    return _integrated(scene, accuracy, moments, most_evaluations, integrator, warnings, offered, tell)
+    return _integrated(scene, accuracy, times, most_evaluations, integrator, warnings, offered, tell)
 
 
 def _integrated(
-    scene: Scene, accuracy: float, moments: Array, most: int, integrator: str, warnings: tuple[str, ...],
+    scene: Scene, accuracy: float, times: Array, most: int, integrator: str, warnings: tuple[str, ...],
     offered: Offer, tell: Tell,
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
@@ -117,7 +117,7 @@ def _integrated(
     for tolerance in tolerances(accuracy):
         tell(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
         try:
-            trajectory = choice.integrate(equations, tolerance, moments, most)
+            trajectory = choice.integrate(equations, tolerance, times, most)
         except NotTrustworthyError as failure:
             if len(runs) < 2:
                 raise
@@ -136,7 +136,7 @@ def _integrated(
             said = (*warnings, *_told(equations, trajectory))
             return Simulation(scene, runs[1], trajectory, cost, error, said, "equations", offered)
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
-        other = _integrated(scene, accuracy, moments, most, "heyoka", warnings, offered, tell)
+        other = _integrated(scene, accuracy, times, most, "heyoka", warnings, offered, tell)
         both = replace(other.cost, evaluations=other.cost.evaluations + evaluations, steps=other.cost.steps + steps)
         return replace(other, cost=both)
     raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)

@@ -3,17 +3,22 @@
 from dataclasses import dataclass
 from typing import Any
 
-from abu_calc.dynamics.equations.parameters import Array, Parameters
+from numpy.typing import NDArray
+
+from abu_calc.errors import InputError
+
+Array = NDArray[Any]
+"""Of numbers, complex numbers or symbols."""
 
 
 @dataclass(slots=True)
 class Motion:
-    """Where everything is and how fast, at one moment.
+    """Where everything is and how fast, at one time.
 
     Angles γ = θ + turn of the balls are inertial; e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). `support`: (q, q');
-    `turn`, `speed`: of the rotor, inertial; `acceleration` of it as far as it is given; `swing`: γ' of each ball;
-    `offset`: where the races' centres stand off the axis [m], x and y; `rolled`: speed of the balls' rolling across the
-    race [m/s], where they have that freedom; None without.
+    `turn`, `speed`: of the rotor, inertial; `own_speed`: against what carries it; `acceleration` as far as it is given;
+    `swing`: γ' of each ball; `static_moments`: m R; `offset`: where the races' centres stand off the axis [m], x and y;
+    `rolled`: speed of the balls' rolling across the race [m/s], where they have that freedom; None without.
     """
 
     xp: Any
@@ -23,14 +28,32 @@ class Motion:
     rate: Array
     turn: Any
     speed: Any
+    own_speed: Any
     acceleration: Any
     sin: Array
     cos: Array
     swing: Array
     radii: Array
-    moments: Array
+    static_moments: Array
     offset: Any = None
     rolled: Any = None
+
+
+@dataclass(slots=True)
+class Axial:
+    """How balls move along the spindle: `lever` (d × n), `carried` acceleration (n), `slope`: way per way round (n)."""
+
+    lever: Any
+    carried: Any
+    slope: Any
+
+
+@dataclass(slots=True)
+class Leaning:
+    """A race that leans: where its balls stand along the spindle, and how fast [m, m/s]."""
+
+    height: Array
+    rise: Array
 
 
 @dataclass(slots=True)
@@ -38,9 +61,9 @@ class Levers:
     """What balls feel of the frame, whose accelerations are A (d).
 
     `along`, `outward` (d × n): acceleration of a ball's place in the race along e_t and e_r per unit A. `mass` (d × d):
-    what balls at rest in their races weigh, None where it is to be summed up. `carried_along`, `carried_outward` (n):
-    what that place has without any A, beside going round; None for nothing. `axial`: where balls move along the
-    spindle as their race tilts: lever (d × n), what is carried (n), way per way along the race (n).
+    what the frame weighs with balls at rest in their races, None where it is to be summed up. `carried_along`,
+    `carried_outward` (n): what that place has without any A, beside going round; None for nothing. `axial`, `leaning`:
+    where balls move along the spindle, and where they do so since their race tilts.
     """
 
     along: Array
@@ -48,9 +71,8 @@ class Levers:
     mass: Array | None
     carried_along: Any = None
     carried_outward: Any = None
-    axial: tuple[Array, Array, Array] | None = None
-    height: tuple[Array, Array] | None = None
-    """Where balls stand along the spindle by the tilt of their race, and how fast [m, m/s]."""
+    axial: Axial | None = None
+    leaning: Leaning | None = None
     sunk: Any = None
     """By how much R_p² is less, seen along the spindle, since the race leans [m²]; with `axial`."""
     sinking: Any = None
@@ -66,7 +88,8 @@ class Levers:
 class Across:
     """One more direction in which each ball can move: its lever (d × n), inertia per ball mass, what drives it (n).
 
-    `outward` (n): way along e_r per way in this direction, with which `press` acts on it too; `grip`, `free`: as there.
+    `outward` (n): way along e_r per way in this direction, with which `press` acts on it too; `grip`, `free`: as in
+    `Loads`, with the same owner as there.
     """
 
     along: Array
@@ -95,10 +118,13 @@ class Bound:
 class Loads:
     """What effects add; None: nothing, and then it costs nothing.
 
-    `pull`, `press` (n): forces on the balls per ball mass, along e_t and e_r; `frame` (d): forces on the frame; `grip`
-    (n): dry friction along −e_t per normal force, signed; `free` (n): 1, or 0 for a ball that sticks; `mates` (n × n):
-    1 for balls that move together; `leads` (n): 1 for the first of each of these; `hold` (n): largest friction that
-    holds balls in place, per normal force, negative like it on the inner side of a race.
+    Slots that ADD, by `add`: `pull`, `press` (n), forces on the balls per ball mass along e_t and e_r; `frame` (d),
+    forces on the frame.
+
+    Slots of ONE OWNER, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0 for
+    a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it on
+    the inner side of a race; `mates` (n × n), 1 for balls that move together; `leads` (n), 1 for the first of each of
+    these; `across`, one more direction of motion; `bound`, a constraint of the frame.
     """
 
     pull: Any = None
@@ -118,10 +144,17 @@ class Loads:
             before = getattr(self, name)
             setattr(self, name, value if before is None else before + value)
 
+    def own(self, **slots: Any) -> None:
+        """Set slots that nobody else has set. Raises InputError where two effects want the same one."""
+        for name, value in slots.items():
+            if getattr(self, name) is not None:
+                raise InputError(f"two effects of the scene both want to say what is `{name}` of its loads")
+            setattr(self, name, value)
+
 
 @dataclass(slots=True)
 class Solved:
-    """Accelerations at one moment: of the frame A (d), of the balls along the race R_p θ'' (n), of the support q'' (N).
+    """Accelerations at one time: of the frame A (d), of the balls along the race R_p θ'' (n), of the support q'' (N).
 
     `normal` (n): normal force of ball and race per ball mass, None where no effect asks for it; `across` (n): of the
     second direction; `rotor`: of the rotor, inertial less the support's; `reaction` of a constraint [N]; `left` (n):
@@ -138,19 +171,3 @@ class Solved:
     reaction: Any
     left: Any = None
     across_left: Any = None
-
-
-def motion_of(xp: Any, t: Any, y: Any, p: Parameters) -> Motion:
-    """The kinematics of the state y = (q, q', θ, θ', states of effects, rotor's turn and speed) at time t."""
-    n, first = 2 * p.size, 2 * p.size + p.balls
-    theta, rate = y[n:first], y[first : first + p.balls]
-    if p.rotor == "steady":
-        turn, speed = p.speed * t, p.speed
-    else:
-        turn, speed = y[-2], y[-1]
-    if p.arm_length is not None:
-        turn, speed = turn + y[0], speed + y[1]
-    gamma = theta + turn
-    return Motion(
-        xp, t, y[:n], theta, rate, turn, speed, 0.0, xp.sin(gamma), xp.cos(gamma), rate + speed, p.radii, p.moments
-    )

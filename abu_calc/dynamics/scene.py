@@ -1,133 +1,66 @@
-"""A scene: everything one simulation needs, in SI, nothing optional.
-
-Axes x, y are inertial; angles of a scene (imbalance, balls) are measured in the rotor from its zero mark, which lies on
-+x at t = 0, in the sense of rotation (from +x to +y).
-"""
+"""A scene: everything one simulation needs, in SI, nothing optional."""
 
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
-from abu_calc.dynamics.supports.kinds import LARGEST, Support, finite
+from abu_calc.dynamics.circumstances import Circumstances, Holding
+from abu_calc.dynamics.effect import Effect
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.rotor import STEADY, Rotor
+from abu_calc.dynamics.support import Support
 from abu_calc.errors import InputError
-from abu_calc.validity import Range
 
-if TYPE_CHECKING:
-    from abu_calc.dynamics.effects.effect import Effect
+__all__ = ["Effect", "Race", "Scene", "Support", "only", "parted_angles", "placed", "with_parted_balls", "without"]
 
 SMALLEST_GAP = 1e-6
 """Balls nearer to each other than this at the start [rad] are parted: from exactly one place they could never part."""
 
-_NON_NEGATIVE = (0.0, LARGEST)
-
-
-def _same_length(name: str, values: tuple[float, ...], count: int, of: str) -> None:
-    if len(values) != count:
-        raise InputError(f"{name}: one value for each {of}", found=str(len(values)), allowed=str(count))
-
 
 @dataclass(frozen=True)
-class Race:
-    """A race and its balls.
+class Scene(Circumstances):
+    """One simulation: circumstances, and the effects that act in them, in the order of their registry."""
 
-    pitch_radius R_p [m] to the ball centres; ball_masses [kg], none or more; drag h0 [1/s], the torque on a ball being
-    −m·R_p²·h0·(speed relative to the race); inertia_factor J = 1 (point), 7/5 (rolling ball), 3/2 (rolling roller);
-    start_angles [rad] in the rotor; start_speeds [rad/s] relative to the race; plane_offset z [m] from the centre of
-    mass; ball_radius r [m], 0 where nothing tells it. Raises RangeError, InputError.
-    """
-
-    pitch_radius: float
-    ball_masses: tuple[float, ...]
-    drag: float
-    inertia_factor: float
-    start_angles: tuple[float, ...]
-    start_speeds: tuple[float, ...]
-    plane_offset: float = 0.0
-    ball_radius: float = 0.0
-
-    def __post_init__(self) -> None:
-        Range("pitch radius", 0, LARGEST, "m", open_low=True).check(self.pitch_radius)
-        Range("rolling drag", *_NON_NEGATIVE, "1/s").check(self.drag)
-        # Below 1 a ball would have less than its own mass, above 2 more than a rolling thin ring.
-        Range("inertia factor", 1, 2).check(self.inertia_factor)
-        Range("ball radius", 0, self.pitch_radius, "m").check(self.ball_radius)
-        finite("plane offset", (self.plane_offset,))
-        for mass in self.ball_masses:
-            Range("ball mass", 0, LARGEST, "kg", open_low=True).check(mass)
-        for name, values in (("start angles", self.start_angles), ("start speeds", self.start_speeds)):
-            _same_length(name, values, len(self.ball_masses), "ball")
-            finite(name, values)
+    effects: tuple[Effect, ...] = ()
 
     @property
-    def static_moment(self) -> float:
-        """Σ m·R_p [kg m]: the imbalance of all balls in one place."""
-        return sum(self.ball_masses) * self.pitch_radius
-
-
-@dataclass(frozen=True)
-class Scene:
-    """One simulation: speed Ω [rad/s], imbalance m₀e [kg m], its angle [rad], duration [s], start of the support.
-
-    `couple`: χ(J_t − J_p) [kg m²] of a polar axis that leans by χ toward `couple_angle` [rad], on supports that tilt.
-    `effects`: what acts beside the support, the races and the imbalance.
-    """
-
-    name: str
-    support: Support
-    speed: float
-    imbalance: float
-    imbalance_angle: float
-    races: tuple[Race, ...]
-    duration: float
-    start_position: tuple[float, ...]
-    start_velocity: tuple[float, ...]
-    couple: float = 0.0
-    couple_angle: float = 0.0
-    effects: tuple["Effect", ...] = ()
-
-    def __post_init__(self) -> None:
-        Range("speed", 0, LARGEST, "rad/s", open_low=True).check(self.speed)
-        Range("imbalance", *_NON_NEGATIVE, "kg m").check(self.imbalance)
-        Range("duration", self.revolution, LARGEST, "s", remedy="results are means over at least one revolution").check(
-            self.duration
-        )
-        finite("imbalance angle", (self.imbalance_angle,))
-        finite("couple imbalance", (self.couple, self.couple_angle))
-        if not self.support.tilts and (self.couple or any(race.plane_offset for race in self.races)):
-            raise InputError("only a support that tilts knows a couple and places along the spindle")
-        for name, values in (("start position", self.start_position), ("start velocity", self.start_velocity)):
-            _same_length(name, values, len(self.support.names), "support coordinate")
-            finite(name, values)
+    def rotor(self) -> Rotor:
+        """The one that asks for most: a torque before a told speed before a constant one."""
+        return max((effect.rotor for effect in self.effects), key=_demands, default=STEADY)
 
     @property
-    def revolution(self) -> float:
-        """Time of one revolution, 2π/Ω [s]."""
-        return 2 * math.pi / self.speed
+    def start_speed(self) -> float:
+        """That of the scene, unless something has it start from rest."""
+        return 0.0 if any(effect.from_rest for effect in self.effects) else self.speed
 
     @property
-    def ball_masses(self) -> tuple[float, ...]:
-        """Masses of all balls [kg], race by race."""
-        return tuple(mass for race in self.races for mass in race.ball_masses)
+    def run_down(self) -> float:
+        """The longest of any effect."""
+        return max((effect.run_down for effect in self.effects), default=0.0)
 
     @property
-    def ball_moments(self) -> tuple[float, ...]:
-        """m R_p of all balls [kg m], race by race."""
-        return tuple(mass * race.pitch_radius for race in self.races for mass in race.ball_masses)
+    def ball_states(self) -> tuple[str, ...]:
+        """Of all effects."""
+        return tuple(name for effect in self.effects for name in effect.ball_states)
 
     @property
-    def static_moment(self) -> float:
-        """Σ m R_p [kg m] of all balls."""
-        return sum(self.ball_moments)
+    def balls_meet(self) -> bool:
+        """Whether any effect says so."""
+        return any(effect.balls_meet for effect in self.effects)
 
     @property
-    def start_angles(self) -> tuple[float, ...]:
-        """Start angles of all balls [rad], race by race."""
-        return tuple(angle for race in self.races for angle in race.start_angles)
+    def holding(self) -> Holding | None:
+        """Of the first effect that holds balls."""
+        found = (effect.holding(self) for effect in self.effects)
+        return next((one for one in found if one is not None), None)
 
-    def effect(self, name: str) -> "Effect | None":
+    def effect(self, name: str) -> Effect | None:
         """The effect of this name, if the scene has it."""
         return next((effect for effect in self.effects if effect.name == name), None)
+
+
+def _demands(rotor: Rotor) -> tuple[int, bool]:
+    return rotor.rows, rotor.given
 
 
 def only(scene: Scene, names: Collection[str]) -> Scene:
@@ -142,6 +75,15 @@ def only(scene: Scene, names: Collection[str]) -> Scene:
 def without(scene: Scene, names: Collection[str]) -> Scene:
     """The scene without these effects, whether it has them or not."""
     return only(scene, [effect.name for effect in scene.effects if effect.name not in names])
+
+
+def placed(scene: Scene) -> Scene:
+    """The scene started where its effects have to have it: a wheel in rigid contact on its work. Else unchanged."""
+    for effect in scene.effects:
+        position, velocity = effect.placed(scene)
+        if (position, velocity) != (scene.start_position, scene.start_velocity):
+            scene = replace(scene, start_position=position, start_velocity=velocity)
+    return scene
 
 
 def parted_angles(angles: tuple[float, ...], least: float = SMALLEST_GAP) -> tuple[float, ...]:

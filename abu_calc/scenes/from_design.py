@@ -5,27 +5,26 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final, Literal
 
-import numpy as np
-
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene import Scene, placed
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.hands import in_hands
-from abu_calc.dynamics.supports.kinds import Support, SwingArm
-from abu_calc.dynamics.supports.linear import planar
-from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
+from abu_calc.dynamics.supports.planar import planar
+from abu_calc.dynamics.supports.swing_arm import SwingArm, cutting_arm, idle_arm
 from abu_calc.errors import InputError, NotTrustworthyError, Place
 from abu_calc.formulas.ball_ring import half_angle
 from abu_calc.formulas.suspension import Hands, Springs
 from abu_calc.formulas.swing_arm import pressed_angle
-from abu_calc.scenes.durations import settling_duration
-from abu_calc.scenes.from_tables import motor_numbers, placed
+from abu_calc.scenes.durations import ball_rate_on_arm, settling_duration
+from abu_calc.scenes.from_tables import motor_numbers
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import read_arm
 from abu_calc.spec.machine import SwingArm as SwingArmTable
@@ -76,20 +75,22 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     """
     _refuse_what_is_missing(design, which)
     case, table = design.case, design.case.table
+    felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
     support: Support = _held(design)
     if table.swing_arm and which.startswith("swing-arm"):
-        support = _arm(design, table.swing_arm, cutting=which.endswith("cutting"))
-    settling = settling_duration(design, support)
-    on_arm = isinstance(support, SwingArm)
+        support = arm = _arm(design, table.swing_arm, cutting=which.endswith("cutting"))
+        felt, ball_rate = 1.0, ball_rate_on_arm(design, arm)
+    race = _race(design, start, turning=which != "run-up")
+    settling = settling_duration(design, support, race, ball_rate)
     scene = Scene(
         name=which,
         support=support,
         speed=case.speed,
-        imbalance=design.imbalance.value * (1.0 if on_arm else abs(design.autobalancer.requirement.plane_ratio)),
+        imbalance=design.imbalance.value * felt,
         imbalance_angle=0.0,
-        races=(_race(design, start, turning=which != "run-up"),),
+        races=(race,),
         duration=settling,
-        start_position=_standing(design, support, which),
+        start_position=support.resting_position(_pulled(design, which)),
         start_velocity=(0.0,) * len(support.names),
         effects=tuple(_effects(design, which)),
     )
@@ -148,15 +149,10 @@ def _arm(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArm:
     )  # fmt: skip
 
 
-def _standing(design: Design, support: Support, which: str) -> tuple[float, ...]:
-    """Where the support rests: an arm on joint and work, a machine that grinds where the cutting force holds it."""
-    if isinstance(support, SwingArm):
-        return (resting_angle(support),)
+def _pulled(design: Design, which: str) -> tuple[float, float]:
+    """The constant force [N] on a machine that grinds, which its support holds."""
     contact = _contact(design) if which == "grinding" else None
-    if contact is None:
-        return (0.0,) * len(support.names)
-    pulled = np.array(support.race_map).T @ (contact.drag * contact.press_force, 0.0)
-    return tuple(np.linalg.solve(np.array(support.stiffness), pulled).tolist())
+    return (0.0, 0.0) if contact is None else (contact.drag * contact.press_force, 0.0)
 
 
 def _race(design: Design, start: Start, *, turning: bool) -> Race:

@@ -1,21 +1,26 @@
 """From a scene file to the scene that is simulated."""
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Final, TypeVar
 
-from abu_calc.dynamics.equations.parameters import rotor_of
-from abu_calc.dynamics.scene import Race, Scene, parted_angles
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene import Scene, parted_angles, placed
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.body import with_body
-from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
-from abu_calc.dynamics.supports.linear import Pair, planar
-from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
+from abu_calc.dynamics.supports.linear import Pair
+from abu_calc.dynamics.supports.planar import planar
+from abu_calc.dynamics.supports.swing_arm import SwingArm, cutting_arm, idle_arm
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import INERTIA_FACTORS, half_angle
-from abu_calc.scenes.from_tables import effects_from, placed
-from abu_calc.spec.scene import SceneRace, SceneSwingArm, SceneTable, Tilting
+from abu_calc.scenes.from_tables import effects_from
+from abu_calc.spec.scene import SceneRace, SceneSwingArm, SceneTable
 from abu_calc.units import from_si, to_si
 from abu_calc.validity import Range
+
+Table = TypeVar("Table")
 
 POINT_MASS = 1.0
 """J of a ball whose rolling is left out."""
@@ -34,8 +39,7 @@ def scene_from(table: SceneTable) -> Scene:
     where it stands; a rigid contact places the axis itself. Raises InputError, naming the key, for an arm that does not
     stand or does not reach its work.
     """
-    speed, support = to_si(table.speed_rpm, "rpm"), _support(table)
-    position, velocity = _start(table, support)
+    speed, (support, position, velocity) = to_si(table.speed_rpm, "rpm"), SUPPORTS[table.support](table)
     couple, couple_angle = _couple(table)
     scene = Scene(
         name="scene",
@@ -55,45 +59,85 @@ def scene_from(table: SceneTable) -> Scene:
     return placed(scene)
 
 
-def _support(table: SceneTable) -> Support:
-    if table.swing_arm is not None:
-        return _arm(table.swing_arm)
+Held = tuple[Support, tuple[float, ...], tuple[float, ...]]
+"""A support, and places and velocities of its coordinates at the start."""
+
+
+def _planar(table: SceneTable) -> Held:
+    """On springs, with a further body where the file has one."""
     mass = table.mass_kg or 0.0  # which no support takes
-    if table.tilting is not None:
-        return _tilting(mass, table.tilting)
     stiffness, damping = _pair(table.stiffness_N_per_m), _pair(table.damping_N_s_per_m)
     body = table.body
     if body is None:
-        return planar(mass, stiffness, damping)
-    return with_body(
-        mass, stiffness, damping, body.mass_kg, _pair(body.stiffness_N_per_m), _pair(body.damping_N_s_per_m)
+        return _started(table, planar(mass, stiffness, damping))
+    hung = _pair(body.stiffness_N_per_m), _pair(body.damping_N_s_per_m)
+    return _started(table, with_body(mass, stiffness, damping, body.mass_kg, *hung))
+
+
+def _tilting(table: SceneTable) -> Held:
+    """On bearings."""
+    rotor = _given(table.tilting)
+    support = tilting(
+        table.mass_kg or 0.0,
+        rotor.transverse_inertia_kg_m2,
+        rotor.polar_inertia_kg_m2,
+        [to_si(position, "mm") for position in rotor.bearing_positions_mm],
+        [_pair(pair) for pair in rotor.bearing_stiffness_N_per_m],
+        [_pair(pair) for pair in rotor.bearing_damping_N_s_per_m],
+        axial_inertia=rotor.ball_tilt_inertia,
     )
+    return _started(table, support)
 
 
-def _arm(table: SceneSwingArm) -> SwingArm:
+def _arm(table: SceneTable) -> Held:
+    """On a swing arm, at rest where it stands."""
+    arm = _given(table.swing_arm)
     joint = (
-        to_si(table.arm_length_mm, "mm"),
-        table.moment_of_inertia_kg_m2,
-        table.joint_stiffness_N_per_m,
-        table.joint_damping_N_s_per_m,
+        to_si(arm.arm_length_mm, "mm"),
+        arm.moment_of_inertia_kg_m2,
+        arm.joint_stiffness_N_per_m,
+        arm.joint_damping_N_s_per_m,
     )
-    if not table.cutting:
-        return idle_arm(*joint)
-    return cutting_arm(
+    if not arm.cutting:
+        return _standing(arm, idle_arm(*joint))
+    support = cutting_arm(
         *joint,
-        table.contact_stiffness_N_per_m,
-        table.cutting_coefficient,
-        to_si(table.contact_angle_deg, "deg"),
-        to_si(table.touch_angle_deg, "deg"),
-        table.pressing_moment_N_m,
-        to_si(table.wheel_radius_mm or 0.0, "mm"),  # which no arm takes
+        arm.contact_stiffness_N_per_m,
+        arm.cutting_coefficient,
+        to_si(arm.contact_angle_deg, "deg"),
+        to_si(arm.touch_angle_deg, "deg"),
+        arm.pressing_moment_N_m,
+        to_si(arm.wheel_radius_mm or 0.0, "mm"),  # which no arm takes
     )
+    return _standing(arm, support)
 
 
-def _standing(table: SceneSwingArm, arm: SwingArm) -> float:
-    """Where the arm rests [rad], refused where it does not stand or the disk does not touch the work."""
+SUPPORTS: Final[Mapping[str, Callable[[SceneTable], Held]]] = {
+    "planar": _planar,
+    "tilting": _tilting,
+    "swing-arm": _arm,
+}
+"""How the tables of each kind of support become one in SI: by the key `support` of a scene."""
+
+
+def _given(table: Table | None) -> Table:
+    """A table that the kind of support needs, so the file has it."""
+    assert table is not None
+    return table
+
+
+def _started(table: SceneTable, support: Support) -> Held:
+    """With its axis, the first two coordinates, where the file says, and all else at rest at its place."""
+    start, rest = table.initial, (0.0,) * (len(support.names) - 2)
+    place = to_si(start.x_mm, "mm"), to_si(start.y_mm, "mm")
+    velocity = to_si(start.vx_mm_per_s, "mm_per_s"), to_si(start.vy_mm_per_s, "mm_per_s")
+    return support, (*place, *rest), (*velocity, *rest)
+
+
+def _standing(table: SceneSwingArm, arm: SwingArm) -> Held:
+    """At rest where it stands, refused where it does not, or where the disk does not touch the work."""
     try:
-        angle = resting_angle(arm)
+        (angle,) = arm.resting_position()
     except InputError as error:
         raise error.at(Place(key="scene.swing_arm.contact_angle_deg")) from None
     touch = to_si(table.touch_angle_deg, "deg")
@@ -105,19 +149,7 @@ def _standing(table: SceneSwingArm, arm: SwingArm) -> float:
             allowed=f"at least touch_angle_deg, {table.touch_angle_deg:g}°",
             remedy="a larger moment, or cutting = false",
         )
-    return angle
-
-
-def _tilting(mass: float, table: Tilting) -> LinearSupport:
-    return tilting(
-        mass,
-        table.transverse_inertia_kg_m2,
-        table.polar_inertia_kg_m2,
-        [to_si(position, "mm") for position in table.bearing_positions_mm],
-        [_pair(pair) for pair in table.bearing_stiffness_N_per_m],
-        [_pair(pair) for pair in table.bearing_damping_N_s_per_m],
-        axial_inertia=table.ball_tilt_inertia,
-    )
+    return arm, (angle,), (0.0,)
 
 
 def _pair(values: tuple[float, ...] | None) -> Pair:
@@ -136,16 +168,6 @@ def _couple(table: SceneTable) -> tuple[float, float]:
         lean.magnitude_rad * (rotor.transverse_inertia_kg_m2 - rotor.polar_inertia_kg_m2),
         to_si(lean.angle_deg, "deg"),
     )
-
-
-def _start(table: SceneTable, support: Support) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Places and velocities of the support's coordinates, of which the first two are those of the axis."""
-    if table.swing_arm is not None and isinstance(support, SwingArm):
-        return (_standing(table.swing_arm, support),), (0.0,)
-    start, rest = table.initial, (0.0,) * (len(support.names) - 2)
-    place = to_si(start.x_mm, "mm"), to_si(start.y_mm, "mm")
-    velocity = to_si(start.vx_mm_per_s, "mm_per_s"), to_si(start.vy_mm_per_s, "mm_per_s")
-    return (*place, *rest), (*velocity, *rest)
 
 
 def _race(table: SceneTable, race: SceneRace) -> Race:
@@ -175,12 +197,10 @@ def lasting(scene: Scene, duration: float | None, key: str) -> Scene:
     RangeError, told of `key`.
     """
     wanted = scene.duration if duration is None else duration
-    balls, own = len(scene.ball_masses), sum(len(effect.ball_states) for effect in scene.effects)
-    turning = 0 if rotor_of(scene) == "steady" else 1
-    states = 2 * (len(scene.support.names) + balls + turning) + own * balls
+    balls, turning = len(scene.ball_masses), len(scene.rotor.states)
+    states = 2 * len(scene.support.names) + (2 + len(scene.ball_states)) * balls + turning
     longest = MOST_VALUES / states * scene.revolution
-    run_up = scene.effect("run_up")
-    least = max(scene.revolution, getattr(run_up, "up", 0.0) + getattr(run_up, "down", 0.0))
+    least = max(scene.revolution, *(effect.least_duration for effect in scene.effects))
     remedy = "one revolution and the run-up at least; at most what this version can integrate"
     try:
         Range("duration", least, longest, "s", remedy=remedy).check(wanted)

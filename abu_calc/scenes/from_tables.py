@@ -3,10 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
-from abu_calc.dynamics.effects.effect import Effect
-from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.registry import REGISTRY
-from abu_calc.dynamics.scene import Scene
 from abu_calc.spec import duty, scene_effects
 from abu_calc.units import to_si
 
@@ -85,9 +83,3 @@ NUMBERS: Final[Mapping[str, Callable[[Any], Numbers]]] = {
     "transverse_motion": _transverse_motion,
 }
 """How each effect's table becomes its numbers in SI."""
-
-
-def placed(scene: Scene) -> Scene:
-    """The scene with its axis where a rigid contact holds it."""
-    contact = scene.effect("grinding_contact")
-    return contact.placed(scene) if isinstance(contact, GrindingContact) else scene

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene import Scene
 from abu_calc.studies.quantity import Record, record
 
 
@@ -59,7 +59,7 @@ class SceneModel(Record):
         """That of a scene."""
         return cls(
             states=assemble(scene).states,
-            support=_support(scene),
+            support=scene.support.model(),
             speed_rad_per_s=scene.speed,
             imbalance_kg_m=scene.imbalance,
             imbalance_angle_rad=scene.imbalance_angle,
@@ -78,39 +78,9 @@ class SceneModel(Record):
         return {**entries.pop("support"), **entries}
 
 
-def _support(scene: Scene) -> Mapping[str, object]:
-    """The support's own numbers."""
-    support = scene.support
-    if isinstance(support, SwingArm):
-        return {
-            "arm_length_m": support.length,
-            "moment_of_inertia_kg_m2": support.inertia,
-            "stiffness_N_per_m": support.stiffness,
-            "damping_N_s_per_m": support.damping,
-            "moment_N_m": support.moment,
-        }
-    return {
-        "mass_kg": support.mass,
-        "damping_N_s_per_m": support.damping,
-        "stiffness_N_per_m": support.stiffness,
-        "gyroscopic_kg_m2": support.gyroscopic,
-        "race_map": support.race_map,
-    }
-
-
 def in_words(scene: Scene) -> str:
     """Support, races and balls in a sentence."""
     races, balls = len(scene.races), len(scene.ball_masses)
-    contact = "" if scene.effect("ball_contact") or balls < 2 else "; balls pass through each other"
+    contact = "" if scene.balls_meet or balls < 2 else "; balls pass through each other"
     where = "one race" if races == 1 else f"{races} races"
-    return f"{_support_in_words(scene)}, {where} with {balls} balls in all, viscous rolling drag{contact}."
-
-
-def _support_in_words(scene: Scene) -> str:
-    support = scene.support
-    if isinstance(support, SwingArm):
-        return "Rotor on a swing arm"
-    if support.tilts:
-        return "Rigid rotor that moves in its plane and tilts"
-    more = len(support.names) - 2
-    return "Planar support" + (f" with {more} more coordinates" if more else "")
+    return f"{scene.support.description}, {where} with {balls} balls in all, viscous rolling drag{contact}."

@@ -12,12 +12,12 @@ from abu_calc.analysis.audit import audit
 from abu_calc.analysis.differences import amplitude, angles, difference, settling
 from abu_calc.analysis.ledger import SHARE, chosen
 from abu_calc.analysis.simulate import simulate
+from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.spec.read import read_machine
 from abu_calc.studies.subject import subject_of
 

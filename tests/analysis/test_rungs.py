@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from abu_calc.analysis.differences import QUANTITIES, difference
-from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.rungs import averaged, closed_form, offer
 from abu_calc.analysis.simulate import simulate
 from abu_calc.dynamics.effects.ball_contact import BallContact
@@ -18,14 +18,14 @@ from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.slow import envelope as envelope_module
 from abu_calc.dynamics.slow.averages import averages
 from abu_calc.dynamics.slow.envelope import envelope, not_averaged
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError
 from tests.dynamics.scenes import dimensionless, straight_grinder
 
 
 def integrated(scene, tolerance=1e-6):
-    return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_moments(scene)))
+    return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_times(scene)))
 
 
 def test_envelope_follows_the_equations_of_a_grinder():
@@ -65,7 +65,7 @@ def test_each_order_of_the_envelope_leaves_the_next_power_of_slowness():
 def test_envelope_costs_a_tenth():
     """Of evaluations, at tolerances that do for one per cent, and each is cheaper."""
     scene = straight_grinder()
-    run = scipy_.integrate(assemble(scene), 2e-4, needed_moments(scene))
+    run = scipy_.integrate(assemble(scene), 2e-4, needed_times(scene))
     assert 10 * averaged(scene, 1e-4).evaluations < run.evaluations
 
 
@@ -103,14 +103,14 @@ def test_the_motion_of_the_envelope_is_that_of_the_equations():
 )
 def test_the_envelope_is_not_taken_where_it_does_not_hold(change, reason):
     """The last is a support that never forgets its start."""
-    found = offer(replace(LIGHT, **change), 0.02, needed_moments(LIGHT))
+    found = offer(replace(LIGHT, **change), 0.02, needed_times(LIGHT))
     assert found.trajectory is None and reason in found.why
     assert found.error is None or found.error > 0.02
 
 
 def test_an_envelope_that_is_lost_leaves_the_equations(monkeypatch):
     monkeypatch.setattr(envelope_module, "MOST_STEPS", 1)
-    found = offer(LIGHT, 0.02, needed_moments(LIGHT))
+    found = offer(LIGHT, 0.02, needed_times(LIGHT))
     assert found.trajectory is None and "lost" in found.why
     assert simulate(LIGHT, 0.02).rung == "equations"
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.simulate import simulate
 from abu_calc.analysis.unreached import MOVED, _moved, unreached
 from abu_calc.dynamics.effects.gravity import Gravity
@@ -26,7 +26,7 @@ def reason(scene, accuracy, apart, changes=({}, {})):
     """What is said of a run and one that differs from it in these results."""
     equations = assemble(scene)
     choice = choose(equations, "scipy", TOLERANCE)
-    response = evaluate(scene, choice.integrate(equations, TOLERANCE, needed_moments(scene), MOST))
+    response = evaluate(scene, choice.integrate(equations, TOLERANCE, needed_times(scene), MOST))
     runs = tuple(replace(response, **change) for change in changes)
     return str(unreached(scene, accuracy, apart, runs, choice, TOLERANCE, MOST))
 

@@ -20,7 +20,7 @@ from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.linear import LinearSupport
 from tests.benchmarks.measuring import Array
 
 STEADY_INERTIA = 1e6

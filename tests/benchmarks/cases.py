@@ -11,7 +11,7 @@ import numpy as np
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
 from abu_calc.dynamics.scene import Scene, only
-from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design

@@ -48,7 +48,7 @@ def fused(scene: Scene) -> Callable[[float, np.ndarray], np.ndarray]:
     support, n, speed = scene.support, len(scene.ball_masses), scene.speed
     held, ((mass_x, mass_xy), (_, mass_y)) = -np.hstack([support.stiffness, support.damping]), support.mass
     each = [(race, m) for race in scene.races for m in race.ball_masses]
-    masses, moments = np.array(scene.ball_masses), np.array(scene.ball_moments)
+    masses, moments = np.array(scene.ball_masses), np.array(scene.static_moments)
     shared = masses / [race.inertia_factor for race, _ in each]
     levers = np.array([1 / (race.inertia_factor * race.pitch_radius) for race, _ in each])
     drags = np.array([race.drag / race.inertia_factor for race, _ in each])
@@ -126,7 +126,7 @@ def compare_scipy() -> None:
     for balls in BALLS:
         scene = grinder(balls)
         equations = assemble(scene)
-        composed, _ = functions(equations, Numbers(equations), equations.parameters.modes)
+        composed, _ = functions(equations, Numbers(equations), equations.first_modes)
         hands = fused(scene), with_floats(planar(scene))
         y = np.array(equations.initial) + 0.01
         for rhs in hands:
@@ -157,7 +157,7 @@ def compare_heyoka() -> None:
         scales, start = np.array(equations.scales), np.array(equations.initial)
         exact = heyoka_.integrate(equations, 1e-13, [end]).y[:, -1]
         heyoka_.integrate(equations, TOLERANCE, [end])
-        order, *_ = next(reversed(heyoka_._kept))
+        order, *_ = next(reversed(heyoka_._systems))
         written = hy.taylor_adaptive(by_hand(hy, scene), start, tol=order, compact_mode=False)
         done: dict[str, Any] = {}
 
@@ -167,7 +167,7 @@ def compare_heyoka() -> None:
         def bare(
             end: float = end, units: Any = scales * (TOLERANCE / order), start: Any = start, done: dict[str, Any] = done
         ) -> None:
-            compiled = next(reversed(heyoka_._kept.values())).integrator
+            compiled = next(reversed(heyoka_._systems.values())).integrator
             compiled.time, compiled.state[:] = 0.0, start / units
             done["bare"] = compiled.propagate_until(end)[3]
 

@@ -22,7 +22,7 @@ import numpy as np
 from scipy import integrate
 
 from abu_calc.analysis.differences import QUANTITIES, Told
-from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.rungs import averaged
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.equations.assemble import assemble
@@ -111,7 +111,7 @@ def envelope_study(scene: Scene, name: str) -> dict[str, Any]:
     Times include evaluation, alike for both; where no envelope gets there, its loosest one of nearly its best error
     is told instead.
     """
-    moments, equations = needed_moments(scene), assemble(scene)
+    moments, equations = needed_times(scene), assemble(scene)
 
     def integrated(tolerance: float) -> Told:
         return evaluate(scene, scipy_.integrate(equations, tolerance, moments))

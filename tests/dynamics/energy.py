@@ -23,13 +23,12 @@ import numpy as np
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import STEP
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
-from abu_calc.dynamics.motion import motion_of
+from abu_calc.dynamics.equations.right_hand_side import accelerations, motion_of, with_states
+from abu_calc.dynamics.motion import Array
+from abu_calc.dynamics.parameters import Acting, Modes
+from abu_calc.dynamics.rotor import GUIDED
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
-
-Modes = tuple[Any, ...]
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 
 ACROSS = "transverse_motion"
 """The effect whose states are the balls' ways across the race and their rates."""
@@ -48,17 +47,18 @@ def energy(scene: Scene, t: Any, y: Array, modes: Modes | None = None) -> Any:
     x, v = bodies.split(t, y)
     spin = bodies.spinning(y)
     kinetic = v @ bodies.mass(x) @ v / 2 + (bodies.rolling * spin) @ spin / 2
-    return kinetic + _potential(bodies, x, v, _parameters(scene, modes))
+    return kinetic + _potential(bodies, x, v, _acting(scene, modes))
 
 
 def power(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> float:
     """dE/dt [W] by all that is not conservative: dampers, drag, effects, and the drive that keeps the rotor's speed."""
-    p = _parameters(scene, modes)
+    acting = _acting(scene, modes)
+    p = acting.parameters
     _, v = Bodies(scene).split(t, y)
-    motion, _, solved = accelerations(np, t, y, p)
+    motion, _, solved = accelerations(np, t, y, acting)
     total = resisting(scene, t, y) @ v
-    total += sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in owned(y, p))
-    if p.rotor != "driven":
+    total += sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in with_states(y, acting))
+    if not scene.rotor.rows:
         total += demanded(scene, t, y, modes)[-1] * v[-1]
     return float(total)
 
@@ -87,9 +87,9 @@ def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> Ar
 
     In all coordinates, the turn's included, whoever drives it. Derivatives by the complex step, exact to rounding.
     """
-    bodies, p = Bodies(scene), _parameters(scene, modes)
+    bodies, acting = Bodies(scene), _acting(scene, modes)
     x, v = bodies.split(t, y)
-    motion, _, solved = accelerations(np, t, y, p)
+    motion, _, solved = accelerations(np, t, y, acting)
     across = [solved.across] if bodies.across else []
     a = np.concatenate([solved.support, solved.balls / motion.radii, *across, [solved.rotor]])
     moved, sped = x + 1j * STEP * v, v + 1j * STEP * a
@@ -97,7 +97,7 @@ def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> Ar
     for j in range(len(x)):
         aside = x.astype(complex)
         aside[j] += 1j * STEP
-        L = v @ bodies.mass(aside) @ v / 2 - _potential(bodies, aside, v, p)
+        L = v @ bodies.mass(aside) @ v / 2 - _potential(bodies, aside, v, acting)
         slope[j] = L.imag / STEP
     found: Array = (bodies.mass(moved) @ sped).imag / STEP - slope
     return found
@@ -143,8 +143,7 @@ class Bodies:
     @property
     def freedoms(self) -> int:
         """How many of the coordinates are free."""
-        driven = any(effect.rotor == "driven" for effect in self.scene.effects)
-        return self.size + self.balls * (1 + self.across) + driven
+        return self.size + self.balls * (1 + self.across) + self.scene.rotor.rows
 
     def split(self, t: Any, y: Array) -> tuple[Array, Array]:
         """x and v of a state."""
@@ -261,25 +260,26 @@ class Bodies:
         return np.stack([(place(x + step) - place(x - step)) / 2 for step in np.diag(steps)], axis=-1)
 
 
-def _potential(bodies: Bodies, x: Array, v: Array, p: Parameters) -> Any:
+def _potential(bodies: Bodies, x: Array, v: Array, acting: Acting) -> Any:
     """V [J] of springs and effects."""
     arm, q = bodies.arm, x[: bodies.size]
     K = np.array([[arm.stiffness * arm.length**2]]) if arm else np.array(bodies.scene.support.stiffness)
-    own = q @ K @ q / 2 - (arm.moment * q[0] if arm else 0.0)
+    own = q @ K @ q / 2 - (arm.torque * q[0] if arm else 0.0)
     (q, theta, w, turn), (q_rate, rate, w_rate, speed) = bodies.parts(x), bodies.parts(v)
     spin = np.zeros(bodies.balls * (bodies.across and bodies.groove.free_spin))
     # Whoever turns the rotor: its turn is told here, so that energies can be asked for at any.
-    told, y = replace(p, rotor="guided"), np.concatenate([q, q_rate, theta, rate, w, w_rate, spin, turn, speed])
-    motion, parts = motion_of(np, 0.0, y, told), owned(y, told)
+    p = replace(acting.parameters, rotor=GUIDED)
+    y = np.concatenate([q, q_rate, theta, rate, w, w_rate, spin, turn, speed])
+    motion, parts = motion_of(np, 0.0, y, p), with_states(y, acting)
     for effect, mode, states in parts:
         effect.move(motion, mode, states)
-    return own + sum(effect.energy(motion, states, told) for effect, _, states in parts)
+    return own + sum(effect.energy(motion, states, p) for effect, _, states in parts)
 
 
-def _parameters(scene: Scene, modes: Modes | None) -> Parameters:
+def _acting(scene: Scene, modes: Modes | None) -> Acting:
     """The numbers of a scene in these modes, those of the start by default."""
-    p = assemble(scene).parameters
-    return p if modes is None else replace(p, modes=modes)
+    equations = assemble(scene)
+    return equations.acting if modes is None else equations.in_mode(modes)
 
 
 def _each(scene: Scene, name: str) -> Array:

@@ -10,18 +10,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
-from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.scene import Race, Scene, placed
+from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.supports.linear import LinearSupport
+from abu_calc.dynamics.supports.planar import PlanarSupport, planar
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.units import GRAVITY
 
@@ -93,8 +95,7 @@ def random_scene(seed: int) -> Scene:
     )
     scene = replace(scene, duration=_duration(scene, rotor, dice))
     scene = replace(scene, effects=_effects(scene, rotor, dice))
-    contact = scene.effect("grinding_contact")
-    return contact.placed(scene) if isinstance(contact, GrindingContact) else scene
+    return placed(scene)
 
 
 def _support(kind: str, rotor: Rotor, dice: Dice) -> Support:
@@ -122,7 +123,7 @@ def _with_hand(own: LinearSupport, dice: Dice) -> LinearSupport:
     M, C, K = (np.array(matrix) for matrix in (own.mass, own.damping, own.stiffness))
     link = np.array(((1.0, -1.0), (-1.0, 1.0)))
     ground = np.diag((1.0, 0.0))
-    return LinearSupport(
+    return PlanarSupport(
         mass=_rows(np.kron(np.diag((1.0, share)), M)),
         damping=_rows(np.kron(ground, C) + share * np.kron(link, C)),
         stiffness=_rows(np.kron(ground, K) + share * np.kron(link, K)),

@@ -4,12 +4,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, Support, SwingArm
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.supports.linear import LinearSupport
+from abu_calc.dynamics.supports.planar import PlanarSupport, planar
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.supports.tilting import tilting
 
 
@@ -61,7 +63,7 @@ def straight_grinder() -> Scene:
 
 def coupled_support() -> LinearSupport:
     """Three coordinates, all coupled, the race centre a mixture of them: nothing of it is diagonal."""
-    return LinearSupport(
+    return PlanarSupport(
         mass=((2.0, 0.3, 0.1), (0.3, 1.5, -0.2), (0.1, -0.2, 0.8)),
         damping=((0.3, 0.1, 0.0), (0.1, 0.4, 0.05), (0.0, 0.05, 0.2)),
         stiffness=((5.0, -1.0, 0.5), (-1.0, 4.0, 0.2), (0.5, 0.2, 3.0)),
@@ -91,7 +93,7 @@ def hand_support() -> LinearSupport:
     def both(a: float, b: float, c: float) -> tuple[tuple[float, ...], ...]:
         return ((a, 0.0, c, 0.0), (0.0, a, 0.0, c), (c, 0.0, b, 0.0), (0.0, c, 0.0, b))
 
-    return LinearSupport(
+    return PlanarSupport(
         mass=both(2.0, 0.5, 0.0),
         damping=both(0.4, 0.3, -0.2),
         stiffness=both(10.0, 3.0, -3.0),
@@ -112,7 +114,7 @@ SUPPORTS: dict[str, Support] = {
     "hand": hand_support(),
     "tilting": bearings(axial_inertia=False),
     "tilting, axial": bearings(axial_inertia=True),
-    "swing arm": SwingArm(length=1.3, inertia=9.0, stiffness=5.0, damping=0.3, moment=0.7),
+    "swing arm": SwingArm(length=1.3, inertia=9.0, stiffness=5.0, damping=0.3, torque=0.7),
 }
 """Every kind of support, in numbers near 1, with nothing that is symmetric by chance."""
 
@@ -127,7 +129,7 @@ ROTORS: dict[str, tuple[Effect, ...]] = {
 def scene_on(support: str, *effects: Effect) -> Scene:
     """Unequal balls in two unlike races, an imbalance, and a couple and places along the spindle where it tilts."""
     held = SUPPORTS[support]
-    offsets, couple = ((0.4, -0.3), 0.2) if held.tilts else ((0.0, 0.0), 0.0)
+    offsets, couple = ((0.4, -0.3), 0.2) if held.couples else ((0.0, 0.0), 0.0)
     rest = (0.0,) * len(held.names)
     return Scene(
         name=support,

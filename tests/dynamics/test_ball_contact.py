@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.effect import Effect
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import Equations, assemble
@@ -220,7 +220,7 @@ def test_every_start_holds(masses, coefficient, position, middle, apart):
     scene = replace(scene, races=(replace(scene.races[0], ball_masses=tuple(masses)),), start_position=position)
     equations = assemble(scene)
     state, modes = starting(equations)
-    values = np.array(watched(equations, 0.0, state, equations.in_mode(modes)))
+    values = np.array(watched(0.0, state, equations.in_mode(modes)))
     assert (values >= 0).all()
 
 
@@ -236,11 +236,11 @@ def test_an_elastic_impact_of_balls_across_their_race_keeps_the_energy(balls, ac
     equations = assemble(scene)
     y = np.array(equations.initial)
     y[4 + 2 * count : 4 + 3 * count] = across[:count]
-    state, modes = settled(equations, 0.0, y, equations.parameters.modes)
+    state, modes = settled(equations, 0.0, y, equations.first_modes)
     # Where a rebound is too slow to count, a millionth of the fastest at most, its energy is lost.
     assert energy(scene, 0.0, state, modes) == pytest.approx(energy(scene, 0.0, y), rel=1e-5)
     assert (np.diff(state[4 + count : 4 + 2 * count]) >= -1e-9).all()
-    assert (np.array(watched(equations, 0.0, state, equations.in_mode(modes))) >= 0).all()
+    assert (np.array(watched(0.0, state, equations.in_mode(modes))) >= 0).all()
 
 
 def test_balls_that_overlap_or_fill_the_race_are_refused():

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from abu_calc.dynamics.effect import Effect, Weight
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.effect import Effect, Weight
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
@@ -21,9 +21,9 @@ from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.equations.jacobian import STEP
-from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
+from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.linear import LinearSupport
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.errors import InputError
 from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
@@ -98,7 +98,7 @@ def raw_state(scene: Scene, t: float, rng: np.random.Generator) -> np.ndarray:
     first, balls = 2 * len(scene.support.names), len(scene.ball_masses)
     rates = slice(first + balls, first + 2 * balls)
     y[rates] = np.where(rng.random(balls) < 0.4, 0.0, y[rates])
-    if equations.parameters.rotor != "steady":
+    if scene.rotor.states:
         y[-2:] = rng.uniform(0, 6), scene.speed * rng.uniform(0.8, 1.1)
     contact = scene.effect("ball_contact")
     if contact is not None and rng.random() < 0.7:
@@ -114,8 +114,7 @@ def on_work(scene: Scene, t: float, y: np.ndarray) -> np.ndarray:
         return y
     assert isinstance(support, LinearSupport)
     row, size = np.array(support.race_map[1]), len(support.names)
-    steady = assemble(scene).parameters.rotor == "steady"
-    turn, speed = (scene.speed * t, scene.speed) if steady else y[-2:]
+    turn, speed = scene.rotor.turning(t, y, scene.speed)
     place = turn + contact.runout_angle
     wanted = -contact.runout * np.sin(place), -contact.runout * np.cos(place) * speed
     for part, target in zip((slice(size), slice(size, 2 * size)), wanted, strict=True):
@@ -129,7 +128,7 @@ def samples(scene: Scene, count: int, seed: int = 1) -> Iterator[Sample]:
     for _ in range(count):
         t = float(rng.uniform(0, 2))
         y = raw_state(scene, t, rng)
-        modes = at_break(equations, t, equations.parameters.modes)
+        modes = at_break(equations, t, equations.first_modes)
         state, modes = settled(equations, t, y, modes)
         yield Sample(equations, t, state, modes)
 
@@ -172,11 +171,11 @@ def test_conservative_force_is_the_slope_of_its_energy(support, name):
 
 def power_of(sample: Sample, name: str) -> float:
     """Of one effect alone."""
-    p = sample.equations.in_mode(sample.modes)
-    motion, _, solved = accelerations(np, sample.t, sample.y, p)
+    p, acting = sample.equations.parameters, sample.equations.in_mode(sample.modes)
+    motion, _, solved = accelerations(np, sample.t, sample.y, acting)
     return sum(
         float(effect.power(motion, mode, own, solved, p))
-        for effect, mode, own in owned(sample.y, p)
+        for effect, mode, own in with_states(sample.y, acting)
         if effect is EXAMPLES[name]
     )
 
@@ -189,7 +188,7 @@ def test_dissipative_effects_take_energy_only(support, name):
     taken_out = 0.0
     for _ in range(10):
         y = raw_state(scene, 0.0, rng)
-        state, modes = settled(equations, 0.0, y, equations.parameters.modes)
+        state, modes = settled(equations, 0.0, y, equations.first_modes)
         lost = energy(scene, 0.0, state, modes) - energy(scene, 0.0, y, modes)
         rate = power_of(Sample(equations, 0.0, state, modes), name)
         assert lost <= 1e-12
@@ -209,9 +208,9 @@ def test_an_effect_of_no_strength_does_nothing(support, nothing):
         scene = scene_on(support, *rotor)
         y = np.array(assemble(scene).initial) + rng.uniform(-0.1, 0.1, len(assemble(scene).states))
         plain, equations = assemble(scene), assemble(with_effects(scene, *rotor, nothing))
-        y, modes = settled(equations, 0.0, y, equations.parameters.modes)
+        y, modes = settled(equations, 0.0, y, equations.first_modes)
         found = equations.rhs(np, 0.0, y, equations.in_mode(modes))
-        np.testing.assert_array_equal(found, plain.rhs(np, 0.0, y, plain.parameters))
+        np.testing.assert_array_equal(found, plain.rhs(np, 0.0, y, plain.acting))
         assert power(equations.scene, 0.0, y, modes) == pytest.approx(power(scene, 0.0, y), rel=1e-12)
 
 
@@ -321,7 +320,7 @@ def check_turned(scene: Scene, angle: float) -> None:
     for sample in samples(scene, 3):
         y = sample.y.copy()
         y[first : first + 5] += angle
-        modes = at_break(equations, sample.t, equations.parameters.modes)
+        modes = at_break(equations, sample.t, equations.first_modes)
         state, modes = settled(equations, sample.t, y, modes)
         np.testing.assert_allclose(state, y, rtol=0, atol=1e-12)
         found = equations.rhs(np, sample.t, state, equations.in_mode(modes))
@@ -337,7 +336,7 @@ def test_mirror_case_turns_the_other_way(support, name, rotor):
     seen = replace(seen, parameters=p)
     for sample in samples(scene, 3):
         y = mirrored_state(scene, sample.y)
-        modes = at_break(seen, sample.t, p.modes)
+        modes = at_break(seen, sample.t, seen.first_modes)
         modes = tuple(-m if isinstance(e, RunUp) else m for e, m in zip(seen.scene.effects, modes, strict=True))
         state, modes = settled(seen, sample.t, y, modes)
         np.testing.assert_allclose(state, y, rtol=0, atol=1e-12)
@@ -354,10 +353,10 @@ def test_balls_have_no_order(support, name):
     first = 2 * len(scene.support.names)
     for sample in samples(scene, 3):
         index = np.arange(len(sample.y))
-        count = (len(sample.y) - first - (2 if equations.parameters.rotor != "steady" else 0)) // 5
+        count = (len(sample.y) - first - (2 if scene.rotor.states else 0)) // 5
         for start in (first + 5 * k for k in range(count)):
             index[start : start + 3] = [start + k for k in order]
-        modes = at_break(equations, sample.t, equations.parameters.modes)
+        modes = at_break(equations, sample.t, equations.first_modes)
         state, modes = settled(equations, sample.t, sample.y[index], modes)
         found = equations.rhs(np, sample.t, state, equations.in_mode(modes))
         np.testing.assert_allclose(found, sample.rhs[index], rtol=1e-9, atol=1e-10)
@@ -373,7 +372,7 @@ def test_units_do_not_matter(support, name):
     np.testing.assert_allclose(other.initial, units * np.array(one.initial), rtol=1e-12)
     np.testing.assert_allclose(other.scales, units * np.array(one.scales), rtol=1e-12)
     for sample in samples(scene, 3):
-        modes = at_break(other, sample.t * time, other.parameters.modes)
+        modes = at_break(other, sample.t * time, other.first_modes)
         state, modes = settled(other, sample.t * time, units * sample.y, modes)
         found = other.rhs(np, sample.t * time, state, other.in_mode(modes))
         np.testing.assert_allclose(found / units * time, sample.rhs, rtol=1e-8, atol=1e-9)

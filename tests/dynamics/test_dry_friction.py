@@ -251,10 +251,9 @@ def test_power_is_what_friction_takes():
     effect = DryRollingFriction(0.01 * RADIUS, RADIUS)
     equations = assemble(replace(heavy, races=(race,), effects=(effect,)))
     state, modes = starting(equations)
-    parameters = equations.in_mode(modes)
-    motion, _, solved = accelerations(np, 0.0, state, parameters)
+    motion, _, solved = accelerations(np, 0.0, state, equations.in_mode(modes))
     expected = -BALL * 0.01 * ((SPEED + 0.3) ** 2 * 0.3 + (SPEED - 0.2) ** 2 * 0.2)
-    assert effect.power(motion, modes[0], None, solved, parameters) == pytest.approx(expected, rel=1e-9)
+    assert effect.power(motion, modes[0], None, solved, equations.parameters) == pytest.approx(expected, rel=1e-9)
 
 
 def test_weight_is_the_band_over_the_amplitude_it_is_weighed_by():

@@ -8,15 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import STEP, jacobian
+from abu_calc.dynamics.parameters import Acting
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
+from abu_calc.dynamics.supports.linear import LinearSupport
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.errors import InputError
 from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
 from tests.dynamics.scenes import ROTORS, SUPPORTS, coupled_scene, dimensionless, scene_on, with_effects
@@ -30,7 +32,7 @@ moments = st.floats(0, 10)
 
 def rhs_of(scene: Scene, t: float, y: np.ndarray) -> np.ndarray:
     equations = assemble(scene)
-    return equations.rhs(np, t, y, equations.parameters)
+    return equations.rhs(np, t, y, equations.acting)
 
 
 def state_of(scene: Scene, seed: int) -> np.ndarray:
@@ -171,13 +173,14 @@ def test_space_knows_no_direction(support, rotor, seed, angle, t):
 def test_mirror_case_turns_the_other_way(support, rotor, seed, t):
     """All angles and the sense of rotation reversed; a scene itself always turns from +x to +y."""
     scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
-    p, seen = assemble(scene).parameters, assemble(mirrored(scene, mirrored_effect))
-    modes = tuple(-mode if isinstance(effect, RunUp) else mode for effect, mode in zip(p.effects, p.modes, strict=True))
-    q = replace(seen.parameters, speed=-p.speed, modes=modes)
+    one, seen = assemble(scene), assemble(mirrored(scene, mirrored_effect))
+    pairs = zip(scene.effects, one.first_modes, strict=True)
+    modes = tuple(-mode if isinstance(effect, RunUp) else mode for effect, mode in pairs)
+    acting = Acting(replace(seen.parameters, speed=-scene.speed), modes)
     y = state_of(scene, seed)
-    found = seen.rhs(np, t, mirrored_state(scene, y), q)
+    found = seen.rhs(np, t, mirrored_state(scene, y), acting)
     # Of a rate, the mirror takes no angle away.
-    expected = mirrored_state(scene, seen.rhs(np, t, y, p)) - mirrored_state(scene, np.zeros(len(y)))
+    expected = mirrored_state(scene, one.rhs(np, t, y, one.acting)) - mirrored_state(scene, np.zeros(len(y)))
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-10)
 
 
@@ -219,8 +222,8 @@ def test_units_do_not_matter(support, rotor, imbalance):
     np.testing.assert_allclose(other.scales, units * np.array(one.scales), rtol=1e-12)
     y = state_of(scene, 3)
     np.testing.assert_allclose(
-        other.rhs(np, 0.7 * time, units * y, other.parameters),
-        units / time * one.rhs(np, 0.7, y, one.parameters),
+        other.rhs(np, 0.7 * time, units * y, other.acting),
+        units / time * one.rhs(np, 0.7, y, one.acting),
         rtol=1e-9,
     )
 
@@ -287,9 +290,9 @@ def test_object_arrays_serve_as_well_as_numbers():
 
     equations = assemble(coupled_scene())
     y = np.linspace(-1, 2, 14)
-    symbolic = equations.rhs(Namespace, 0.7, y.astype(object), equations.parameters)
+    symbolic = equations.rhs(Namespace, 0.7, y.astype(object), equations.acting)
     assert symbolic.dtype == object
-    np.testing.assert_allclose(symbolic.astype(float), equations.rhs(np, 0.7, y, equations.parameters), rtol=1e-12)
+    np.testing.assert_allclose(symbolic.astype(float), equations.rhs(np, 0.7, y, equations.acting), rtol=1e-12)
 
 
 def test_jacobian_is_the_limit_of_differences():
@@ -304,7 +307,7 @@ def test_jacobian_is_the_limit_of_differences():
 
 
 def rhs_at(equations, y):
-    return equations.rhs(np, 0.7, y, equations.parameters)
+    return equations.rhs(np, 0.7, y, equations.acting)
 
 
 def rotating_frame_eigenvalues(scene: Scene, angles: tuple[float, float]) -> np.ndarray:

@@ -19,8 +19,9 @@ from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.scipy_ import integrate
 from abu_calc.dynamics.scene import Scene, with_parted_balls
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
+from abu_calc.dynamics.supports.linear import LinearSupport
 from abu_calc.dynamics.supports.receptance import receptance
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.suspension import dynamic_stiffness
@@ -107,7 +108,7 @@ def test_body_hangs_on_the_rotor_and_starts_at_rest(tmp_path):
 def test_tilting_scene_in_si(tmp_path):
     found = scene(tmp_path, TILTING.replace("duration_s = 1\n", "duration_s = 1\ninitial = { y_mm = 1 }\n"))
     support = found.support
-    assert support.tilts and support.axial_inertia
+    assert support.couples and support.axial_inertia
     assert [support.mass[k][k] for k in range(4)] == [0.8, 0.8, 0.0138, 0.0138]
     assert support.gyroscopic[2][3] == 0.00124
     assert support.bearings == pytest.approx((0.11, -0.15))
@@ -132,7 +133,7 @@ def test_arm_starts_where_it_stands(tmp_path):
     angle = (20.0 + contact * touch) / (2000 * length**2 + contact)
     assert found.start_position == pytest.approx((angle,), rel=1e-12)
     idle = scene(tmp_path, ARM.replace("cutting = true", "cutting = false"))
-    assert (idle.support.stiffness, idle.support.damping, idle.support.moment) == (2000.0, 40.0, 0.0)
+    assert (idle.support.stiffness, idle.support.damping, idle.support.torque) == (2000.0, 40.0, 0.0)
     assert idle.start_position == (0.0,)
 
 
@@ -279,7 +280,7 @@ def test_presets_make_each_of_their_scenes(designs, name, which):
     design = design_of(designs, name)
     found = scene_of_design(design, which)
     assert found.name == which
-    assert found.support.tilts is False
+    assert found.support.couples is False
     horizontal = design.case.table.machine.spindle_axis == "horizontal"
     names = [effect.name for effect in found.effects]
     assert ("gravity" in names) == horizontal

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.switching.modes import Modes, settled, watched, watches
+from abu_calc.dynamics.switching.modes import settled, watched, watches
 from abu_calc.dynamics.tracing import plain
 from abu_calc.dynamics.tracing.traced import Numbers
 from abu_calc.errors import NotTrustworthyError
@@ -22,12 +23,12 @@ ROUNDING = 1e-11
 
 def both(equations: Equations, modes: Modes, t: float, y: np.ndarray) -> None:
     """Rates and watched numbers, plain and by arrays."""
-    parameters = equations.in_mode(modes)
+    acting = equations.in_mode(modes)
     rates, numbers = plain.functions(equations, Numbers(equations), modes)
-    expected = equations.rhs(np, t, y, parameters) / equations.scales
+    expected = equations.rhs(np, t, y, acting) / equations.scales
     np.testing.assert_allclose(rates(t, y) / np.array(equations.scales), expected, 1e-9, ROUNDING * np.ptp(expected))
     if watches(equations):
-        values = np.array(watched(equations, t, y, parameters))
+        values = np.array(watched(t, y, acting))
         np.testing.assert_allclose(numbers(t, y), values, 1e-9, ROUNDING * np.abs(values).max())
 
 
@@ -38,9 +39,9 @@ def everywhere(scene: Scene, count: int = 5) -> None:
         t = float(rng.uniform(0, scene.revolution))
         y = np.array(equations.initial) + 0.1 * rng.normal(size=len(equations.states)) * np.array(equations.scales)
         try:
-            y, modes = settled(equations, t, y, equations.parameters.modes)
+            y, modes = settled(equations, t, y, equations.first_modes)
         except NotTrustworthyError:  # balls anywhere may overlap
-            modes = equations.parameters.modes
+            modes = equations.first_modes
         both(equations, modes, t, y)
 
 
@@ -65,7 +66,7 @@ def test_random_scenes(seed):
 
 
 def test_written_once_for_all_designs_of_a_structure(monkeypatch):
-    plain._kept.clear()
+    plain._makers.clear()
     written = []
     write = plain._write
     monkeypatch.setattr(plain, "_write", lambda *parts: written.append(1) or write(*parts))
@@ -78,7 +79,7 @@ def test_written_once_for_all_designs_of_a_structure(monkeypatch):
 def test_what_is_no_number_is_told_as_one():
     """Plain Python would raise where arrays go on with NaN."""
     equations = assemble(straight_grinder())
-    rates, _ = plain.functions(equations, Numbers(equations), equations.parameters.modes)
+    rates, _ = plain.functions(equations, Numbers(equations), equations.first_modes)
     y = np.array(equations.initial)
     y[4] = math.inf
     assert all(math.isnan(value) for value in rates(0.0, y))

@@ -11,8 +11,7 @@ from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.scene import Race, only, parted_angles, with_parted_balls, without
-from abu_calc.dynamics.supports.kinds import LinearSupport
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.planar import PlanarSupport, planar
 from abu_calc.errors import InputError
 from abu_calc.spec.scene_effects import Effects
 from tests.dynamics.scenes import dimensionless
@@ -61,7 +60,7 @@ def test_scene_refuses_less_than_one_revolution_and_wrong_starts():
 def test_support_refuses_wrong_shapes_and_numbers():
     square = ((1.0, 0.0), (0.0, 1.0))
     with pytest.raises(InputError, match="2 × 2"):
-        LinearSupport(square, ((1.0,),), square, square, ("x", "y"))
+        PlanarSupport(square, ((1.0,),), square, square, ("x", "y"))
     with pytest.raises(InputError, match="support stiffness"):
         planar(1.0, (1.0, math.nan), (0.0, 0.0))
     with pytest.raises(InputError, match="support mass"):
@@ -108,7 +107,7 @@ def test_balls_of_all_races_are_told_race_by_race():
     second = Race(2.0, (0.3,), 0.1, 1.0, (5.0,), (0.0,))
     scene = replace(SCENE, races=(*SCENE.races, second))
     assert scene.ball_masses == (0.05, 0.05, 0.3)
-    assert scene.ball_moments == (0.05, 0.05, 0.6)
+    assert scene.static_moments == (0.05, 0.05, 0.6)
     assert scene.start_angles == (0.0, 1.0, 5.0)
     assert scene.static_moment == pytest.approx(0.7)
 

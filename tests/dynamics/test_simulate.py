@@ -10,15 +10,15 @@ from abu_calc.analysis import simulate as simulate_module
 from abu_calc.analysis.response import (
     amplitude_window,
     evaluate,
-    needed_moments,
-    settling_moments,
+    needed_times,
     settling_time,
+    settling_times,
 )
 from abu_calc.analysis.simulate import difference, simulate
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.supports.planar import PlanarSupport
 from abu_calc.dynamics.supports.receptance import receptance, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
@@ -58,7 +58,7 @@ def test_receptance_of_a_mass_on_a_mass():
     def both(a: float, b: float, c: float) -> tuple[tuple[float, ...], ...]:
         return ((a, 0.0, c, 0.0), (0.0, a, 0.0, c), (c, 0.0, b, 0.0), (0.0, c, 0.0, b))
 
-    support = LinearSupport(
+    support = PlanarSupport(
         mass=both(m1, m2, 0.0),
         damping=both(c2, c2, -c2),
         stiffness=both(k1 + k2, k2, -k2),
@@ -74,8 +74,8 @@ def test_receptance_of_a_mass_on_a_mass():
 
 def made_trajectory(scene: Scene, states) -> Trajectory:
     """A trajectory by formula, as an integrator would hand it on."""
-    t = needed_moments(scene)
-    return Trajectory(t, states(t), "formula", 1e-6, 0, 0, "finished", "")
+    t = needed_times(scene)
+    return Trajectory(t, states(t), "formula", 1e-6, 0, 0)
 
 
 def test_results_follow_their_definitions():
@@ -172,7 +172,7 @@ def test_amplitude_window(turns):
     assert window.times[-1] - window.times[0] == pytest.approx(length * math.pi, rel=1e-12)
     assert window.whole == int(length) * 64
     assert window.whole < len(window.times)
-    assert settling_moments(scene)[[0, -1]].tolist() == [0.0, scene.duration]
+    assert settling_times(scene)[[0, -1]].tolist() == [0.0, scene.duration]
 
 
 def test_straight_grinder_settles_as_known():
@@ -203,7 +203,7 @@ def test_claimed_accuracy_is_kept(scene):
     """Against a run at a tolerance no user asks for. The finer of two runs is reported: the claim is generous."""
     simulation = simulate(scene)
     parted, _ = with_parted_balls(scene)
-    exact = evaluate(parted, scipy_.integrate(assemble(parted), 1e-12, needed_moments(parted)))
+    exact = evaluate(parted, scipy_.integrate(assemble(parted), 1e-12, needed_times(parted)))
     assert difference(parted, simulation.response, exact) <= simulation.error_estimate <= 0.01
 
 

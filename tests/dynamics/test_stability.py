@@ -18,7 +18,7 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.dynamics.scenes import dimensionless
 

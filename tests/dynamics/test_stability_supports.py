@@ -22,7 +22,8 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import Support, SwingArm
+from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.supports.tilting import tilting
 from tests.dynamics.scenes import coupled_scene, hand_support
 

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.body import with_body
 from abu_calc.dynamics.supports.hands import in_hands
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.linear import LinearSupport
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.receptance import receptance, unbalanced_amplitude
-from abu_calc.dynamics.supports.swing_arm import resting_angle
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError, RangeError
 from abu_calc.formulas.suspension import Hands, dynamic_stiffness
@@ -39,7 +39,7 @@ def acceleration(scene: Scene, position: np.ndarray, velocity: np.ndarray, t: fl
     equations = assemble(scene)
     balls, size = len(scene.ball_masses), len(position)
     y = np.concatenate([position, velocity, scene.start_angles, np.zeros(balls)])
-    return equations.rhs(np, t, y, equations.parameters)[size : 2 * size]
+    return equations.rhs(np, t, y, equations.acting)[size : 2 * size]
 
 
 def assert_steady(scene: Scene, phasors: np.ndarray, frequency: float | None = None) -> None:
@@ -172,7 +172,7 @@ class Held(Effect):
     kind = "dissipative"
 
     def act(self, m, mode, own, levers, loads, p):
-        loads.free = 0.0 * m.cos
+        loads.own(free=0.0 * m.cos)
 
 
 @pytest.mark.parametrize(("axial", "count"), [(True, 3), (True, 5), (False, 4)])
@@ -222,17 +222,17 @@ def test_supports_refuse_what_is_no_body():
 
 
 def test_arm_stands_where_spring_and_moment_are_in_balance():
-    assert resting_angle(SwingArm(0.35, 0.62, 2000.0, 40.0, 24.5)) == pytest.approx(24.5 / 245)
-    assert resting_angle(SwingArm(0.35, 0.62, 0.0, 40.0)) == 0.0
+    assert SwingArm(0.35, 0.62, 2000.0, 40.0, 24.5).resting_position()[0] == pytest.approx(24.5 / 245)
+    assert SwingArm(0.35, 0.62, 0.0, 40.0).resting_position()[0] == 0.0
     for arm in (SwingArm(0.35, 0.62, 0.0, 40.0, 1.0), SwingArm(0.35, 0.62, -5.0, 40.0)):
         with pytest.raises(InputError, match="does not stand"):
-            resting_angle(arm)
+            arm.resting_position()[0]
 
 
 def test_arm_without_balls_swings_as_a_pendulum_on_springs():
     arm = SwingArm(0.35, 0.62, 2000.0, 0.0, 24.5)
     scene = scene_on(arm, imbalance=0.0)
-    stands = resting_angle(arm)
+    stands = arm.resting_position()[0]
     assert acceleration(scene, np.array([stands]), np.zeros(1)) == pytest.approx([0.0], abs=1e-12)
     found = acceleration(scene, np.array([stands + 0.01]), np.zeros(1))
     assert found == pytest.approx([-2000.0 * 0.35**2 / 0.62 * 0.01], rel=1e-9)

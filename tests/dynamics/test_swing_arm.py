@@ -9,8 +9,7 @@ import pytest
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
-from abu_calc.dynamics.supports.swing_arm import cutting_arm, idle_arm, resting_angle
+from abu_calc.dynamics.supports.swing_arm import SwingArm, cutting_arm, idle_arm
 from abu_calc.errors import InputError, RangeError
 from abu_calc.formulas.swing_arm import Arm, pressed_angle
 
@@ -113,7 +112,7 @@ def cutting(**changes: float) -> tuple[SwingArm, Arm]:
 def test_resting_angle_balances_all_moments():
     """(5'): M_p − c_sh l²φ = [l sin Z + f (R − l cos Z)] N, N = c_n l (φ − φ₀) sin Z."""
     support, arm = cutting()
-    angle = resting_angle(support)
+    angle = support.resting_position()[0]
     l, R, Z, f = 0.35, 0.115, 1.2, 0.45  # noqa: E741
     N = 1e5 * l * (angle - 0.03) * math.sin(Z)
     lever = l * math.sin(Z) + f * (R - l * math.cos(Z))
@@ -121,16 +120,16 @@ def test_resting_angle_balances_all_moments():
     assert angle == pytest.approx(pressed_angle(arm))
     # Pressed where M_p > c_sh l² φ₀ only.
     assert angle > 0.03
-    assert resting_angle(cutting(pressing_moment=5.0)[0]) < 0.03
+    assert cutting(pressing_moment=5.0)[0].resting_position()[0] < 0.03
 
 
 def test_a_resting_arm_stays_at_rest():
     support, _ = cutting()
-    angle = resting_angle(support)
+    angle = support.resting_position()[0]
     equations = assemble(Scene("cutting", support, 300.0, 0.0, 0.0, (), 1.0, (angle,), (0.0,)))
-    assert np.abs(equations.rhs(np, 0.0, np.array((angle, 0.0)), equations.parameters)).max() < 1e-9
+    assert np.abs(equations.rhs(np, 0.0, np.array((angle, 0.0)), equations.acting)).max() < 1e-9
     assert idle_arm(0.35, 0.62, 2000.0, 40.0) == SwingArm(0.35, 0.62, 2000.0, 40.0, 0.0)
-    assert resting_angle(idle_arm(0.35, 0.62, 0.0, 40.0)) == 0
+    assert idle_arm(0.35, 0.62, 0.0, 40.0).resting_position()[0] == 0
 
 
 def test_an_arm_that_lifts_itself_does_not_stand():
@@ -139,10 +138,10 @@ def test_an_arm_that_lifts_itself_does_not_stand():
         support, _ = cutting(joint_stiffness=joint, contact_angle=0.144, wheel_radius=0.33 * 0.35)
         assert (support.stiffness > 0) == stands
         if stands:
-            resting_angle(support)
+            support.resting_position()[0]
         else:
             with pytest.raises(InputError, match="does not stand"):
-                resting_angle(support)
+                support.resting_position()[0]
 
 
 @pytest.mark.parametrize(

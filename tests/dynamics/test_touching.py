@@ -6,12 +6,11 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effects.effect import Effect, Kind
+from abu_calc.dynamics.effect import Effect, Kind, SwitchPoint
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.equations.parameters import Parameters
 from abu_calc.dynamics.equations.right_hand_side import accelerations, derivative
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.switching.modes import Moment
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.switching.touching import Responses, responses
 from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import SUPPORTS, with_effects
@@ -32,21 +31,22 @@ class Twist(Effect):
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """Along the race."""
-        loads.grip = np.zeros(p.balls) if loads.grip is None else loads.grip
+        if loads.grip is None:
+            loads.own(grip=np.zeros(p.balls))
         loads.add(pull=np.array(self.torques) / (p.masses * m.radii))
 
 
 def asked(sample: Sample) -> Responses:
-    moment = Moment(sample.equations, sample.t, sample.y, sample.modes, 0)
+    moment = SwitchPoint(sample.equations, sample.t, sample.y, sample.modes, 0)
     return responses(moment, [0], [1])
 
 
 def twisted(sample: Sample, torques: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """θ'', normal forces per mass, and the rates of all states."""
     scene = with_effects(sample.scene, *sample.scene.effects, Twist(tuple(torques.tolist())))
-    p = assemble(scene).in_mode((*sample.modes, None))
-    motion, _, solved = accelerations(np, sample.t, sample.y, p)
-    return solved.balls / motion.radii, solved.normal, derivative(motion, solved, sample.y, p)
+    acting = assemble(scene).in_mode((*sample.modes, None))
+    motion, _, solved = accelerations(np, sample.t, sample.y, acting)
+    return solved.balls / motion.radii, solved.normal, derivative(motion, solved, sample.y, acting)
 
 
 @pytest.mark.parametrize("rotor", ROTORS)

@@ -6,17 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
+from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.errors import NotTrustworthyError, RangeError
 from tests.dynamics.scenes import scene_on
@@ -113,9 +113,9 @@ def test_in_the_middle_of_the_groove_nothing_changes(support, rotor, free):
     first = 2 * len(scene.support.names) + 10
     y = np.random.default_rng(2).normal(size=len(plain.initial))
     both = np.concatenate([y[:first], np.zeros(5 * len(effect.ball_states)), y[first:]])
-    found = equations.rhs(np, 0.3, both, equations.parameters)
+    found = equations.rhs(np, 0.3, both, equations.acting)
     rest = np.concatenate([found[:first], found[first + 5 * len(effect.ball_states) :]])
-    np.testing.assert_allclose(rest, plain.rhs(np, 0.3, y, plain.parameters), rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(rest, plain.rhs(np, 0.3, y, plain.acting), rtol=1e-12, atol=1e-12)
     assert not found[first : first + 5 * len(effect.ball_states)].any()
 
 
@@ -135,7 +135,7 @@ def test_mirrored_along_the_spindle(free):
     y = np.random.default_rng(4).normal(size=len(equations.initial)) * 0.3
     mirror = np.ones(len(y))
     mirror[16:] = -1
-    here, there = (equations.rhs(np, 0.3, state, equations.parameters) for state in (y, mirror * y))
+    here, there = (equations.rhs(np, 0.3, state, equations.acting) for state in (y, mirror * y))
     np.testing.assert_allclose(there, mirror * here, rtol=1e-12, atol=1e-14)
 
 
@@ -193,12 +193,12 @@ def test_drag_takes_what_its_power_says(free):
     """dE/dt by the complex step = −Σ m R_p² h₀ θ'² and what the effect adds, at a state far from the middle."""
     scene = free_scene(free, drag=0.3)
     equations = assemble(scene)
-    p = equations.parameters
+    p, acting = equations.parameters, equations.acting
     y = np.random.default_rng(6).normal(size=len(equations.initial)) * 0.3
-    slope = equations.rhs(np, 0.4, y, p)
+    slope = equations.rhs(np, 0.4, y, acting)
     gained = relative_energy(0.4 + 1j * STEP, y + 1j * STEP * slope, free).imag / STEP
-    motion, _, solved = accelerations(np, 0.4, y, p)
-    added = sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in owned(y, p))
+    motion, _, solved = accelerations(np, 0.4, y, acting)
+    added = sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in with_states(y, acting))
     assert added < 0
     assert gained == pytest.approx(added - 0.3 * p.masses @ (0.8 * y[7:10]) ** 2, rel=1e-10)
 
@@ -214,7 +214,7 @@ def test_a_point_ball_is_pushed_by_its_surface_alone(rotor):
     scene = replace(free_scene(False), races=(race,), effects=effects)
     equations = assemble(scene)
     y = np.random.default_rng(8).normal(size=len(equations.initial)) * 0.3
-    slope = equations.rhs(np, 0.4, y, equations.parameters)
+    slope = equations.rhs(np, 0.4, y, equations.acting)
     b = 0.4
 
     def velocity(t: complex, y: np.ndarray) -> np.ndarray:
@@ -253,7 +253,7 @@ def test_a_rolling_ball_is_turned_by_friction_alone(free):
     small = 1e-4
     y = np.random.default_rng(9).normal(size=len(equations.initial)) * 0.3
     y[10:] *= small
-    slope = equations.rhs(np, 0.4, y, equations.parameters)
+    slope = equations.rhs(np, 0.4, y, equations.acting)
     r, b, W = 0.1, 0.4, 1.7
 
     def frame(t: complex, y: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
+from abu_calc.dynamics.supports.linear import LinearSupport
+from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.tilting import TiltingSupport
 
 Matrix = tuple[tuple[float, ...], ...]
 Units = dict[str, tuple[int, int, int]]
@@ -67,7 +69,7 @@ def mirrored(scene: Scene, effect: Callable[[Effect, float], Effect]) -> Scene:
     """
     support, whole = scene.support, mirror_angle(scene)
     if isinstance(support, SwingArm):
-        seen: Any = replace(support, moment=-support.moment)
+        seen: Any = replace(support, torque=-support.torque)
     else:
         flip = np.diag((-1.0, 1.0) * (len(support.race_map) // 2))
         spinning = _rows(-np.array(support.gyroscopic)) if support.gyroscopic else ()
@@ -133,7 +135,7 @@ def in_units(scene: Scene, length: float, mass: float, time: float) -> Scene:
             inertia=support.inertia * mass * length**2,
             stiffness=support.stiffness * mass / time**2,
             damping=support.damping * mass / time,
-            moment=support.moment * energy,
+            torque=support.torque * energy,
         )
     else:
         of_frame = np.array((length, length, 1.0, 1.0))[: len(support.race_map), None]
@@ -146,8 +148,9 @@ def in_units(scene: Scene, length: float, mass: float, time: float) -> Scene:
             gyroscopic=_rows(np.array(support.gyroscopic) * energy * time**2 / np.outer(u, u))
             if support.gyroscopic
             else (),
-            bearings=tuple(z * length for z in support.bearings),
         )
+        if isinstance(told, TiltingSupport):
+            told = replace(told, bearings=tuple(z * length for z in told.bearings))
     return replace(
         scene,
         support=told,

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 
 from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.simulate import Simulation, simulate
-from abu_calc.dynamics.effects.effect import Effect
+from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import integrate_with, unfit
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
-from abu_calc.dynamics.supports.kinds import Support
-from abu_calc.dynamics.supports.linear import planar
+from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.dynamics.trajectory import Trajectory
 from tests.dynamics.energy import Bodies, energy, power
@@ -91,7 +91,7 @@ def check_claim(scene: Scene, accuracy: float = 0.01, claim: float = CLAIM) -> S
     simulation = simulate(scene, accuracy, integrator="scipy")
     parted, _ = with_parted_balls(scene)
     other, tight = second_way(assemble(parted))
-    exact = evaluate(parted, run(parted, needed_moments(parted), other, tight))
+    exact = evaluate(parted, run(parted, needed_times(parted), other, tight))
     assert simulation.error_estimate <= accuracy
     wrong = difference(parted, simulation.response, exact)
     assert wrong <= accuracy
@@ -107,7 +107,7 @@ def check_energy(scene: Scene, begin: float, end: float, within: float, samples:
     equations, stored, rates = assemble(scene), [], []
     times = np.linspace(begin, end, samples)
     for t, y in zip(times, run(scene, times, tolerance=1e-10).y.T, strict=True):
-        state, modes = settled(equations, t, y, at_break(equations, t, equations.parameters.modes))
+        state, modes = settled(equations, t, y, at_break(equations, t, equations.first_modes))
         stored.append(float(energy(scene, t, state, modes)))
         rates.append(power(scene, t, state, modes))
     E, P, step = np.array(stored), np.array(rates), times[1] - times[0]
@@ -131,7 +131,7 @@ def jacobi(scene: Scene, trajectory: Trajectory) -> np.ndarray:
 def resultant(scene: Scene, angles: np.ndarray) -> complex:
     """Imbalance of rotor and balls [kg m]."""
     own = scene.imbalance * np.exp(1j * scene.imbalance_angle)
-    return complex(own + np.array(scene.ball_moments) @ np.exp(1j * angles))
+    return complex(own + np.array(scene.static_moments) @ np.exp(1j * angles))
 
 
 def balls_at_end(scene: Scene, trajectory: Trajectory) -> np.ndarray:

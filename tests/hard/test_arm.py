@@ -9,7 +9,7 @@ import pytest
 from abu_calc.analysis.simulate import simulate
 from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.swing_arm import cutting_arm, resting_angle
+from abu_calc.dynamics.supports.swing_arm import cutting_arm
 from abu_calc.errors import InputError, NotTrustworthyError
 from tests.cli.runner import abu
 from tests.dynamics.test_swing_arm import bare
@@ -79,7 +79,7 @@ def test_work_that_pushes_the_arm_away() -> None:
     scene = pushed_away()
     arm = scene.support
     with pytest.raises(InputError, match="the arm does not stand"):
-        resting_angle(arm)
+        arm.resting_position()[0]
     rate = float(np.roots([arm.inertia, arm.damping * 0.35**2, arm.stiffness * 0.35**2]).real.max())
     assert stability(scene).growth_rate == pytest.approx(rate, rel=1e-3)
     ends = run(scene, [1.0, 1.4], tolerance=1e-10).y[0]

@@ -12,7 +12,7 @@ from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.errors import InputError
 from tests.cli.runner import abu
 from tests.hard.scenes import (

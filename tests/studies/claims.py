@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import Response, evaluate, needed_moments
+from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import WIDEST, offer
 from abu_calc.analysis.simulate import simulate
 from abu_calc.dynamics.equations.assemble import assemble
@@ -72,7 +72,7 @@ def limited(seconds: int) -> Iterator[None]:
 
 def reference(scene: Scene) -> tuple[Response, float]:
     """The better of two runs, and how far they are apart."""
-    equations, moments = assemble(scene), needed_moments(scene)
+    equations, moments = assemble(scene), needed_times(scene)
     runs = [
         evaluate(scene, choice.integrate_with(name, equations, tolerance, moments, MOST_EVALUATIONS))
         for name, tolerance in choice.verifiers(equations, TIGHT)
@@ -108,7 +108,7 @@ def averaged_and_judged(seed: int) -> list[Verdict]:
     scene, _ = with_parted_balls(only(scene, [one.name for one in scene.effects if one.name == "race_eccentricity"]))
     turns = min(SLOW_TIMES / (ball_rate(scene) * scene.revolution), MOST_TURNS)
     scene = replace(scene, duration=max(turns, 10) * scene.revolution)
-    slow = offer(scene, WIDEST, needed_moments(scene))
+    slow = offer(scene, WIDEST, needed_times(scene))
     if slow.trajectory is None or slow.error is None:
         return []
     with limited(SECONDS):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from abu_calc.analysis.differences import Told, amplitude, angles, level, settling
-from abu_calc.analysis.response import evaluate, needed_moments
+from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.rungs import WIDEST, Estimate, averaged, closed_form, offer
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import scipy_
@@ -62,14 +62,14 @@ def smooth(name: str) -> Scene:
 
 def integrated(scene: Scene, tolerance: float) -> Told:
     """The equations."""
-    return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_moments(scene)))
+    return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_times(scene)))
 
 
 def ladder(name: str) -> Ladder:
     """All rungs of one preset."""
     scene = smooth(name)
     # Asked for little, it is run and tells its error.
-    stated = offer(scene, WIDEST, needed_moments(scene)).error or 0.0
+    stated = offer(scene, WIDEST, needed_times(scene)).error or 0.0
     return Ladder(name, scene, closed_form(scene), averaged(scene, ENVELOPE), integrated(scene, REFERENCE), stated)
 
 

@@ -22,7 +22,7 @@ what is left of its error is a fifteenth of that."""
 
 
 def multipliers(matrices: Matrices, end: float, after: Array) -> NDArray[np.complex128]:
-    """Eigenvalues of `after` · Φ, Φ the map z(0) → z(end) of z' = A(t) z; `matrices` gives A at many moments, stacked.
+    """Eigenvalues of `after` · Φ, Φ the map z(0) → z(end) of z' = A(t) z; `matrices` gives A at many times, stacked.
 
     Φ by `magnus`, its steps halved until the largest multiplier settles, or the map itself where two multipliers all
     but agree and rounding parts them. Raises NotTrustworthyError when it does not, or is no finite number.

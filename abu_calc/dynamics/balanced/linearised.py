@@ -7,7 +7,7 @@ machines are alike.
 Linear supports are seen from the rotor: their coordinates are taken in pairs along x and y, in the order in which they
 stand, and turned with it. On an isotropic support A is constant then, which is how one is known; on any other it
 repeats with every half turn. Pairs that are none cost time, not truth: any such turning is a change of coordinates.
-Supports with an odd number of coordinates, and the swing arm, stay as they are.
+Supports with an odd number of coordinates, and those that turn with the rotor, stay as they are.
 """
 
 import math
@@ -22,7 +22,6 @@ from abu_calc.dynamics.balanced import floquet
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
 from abu_calc.errors import NotTrustworthyError
 
 Array = NDArray[np.float64]
@@ -58,14 +57,14 @@ class BalancedMotion:
     def coupled(self) -> tuple[Array, ...]:
         """Of each race, columns: motions of its balls that are not free of the support.
 
-        Free are those that leave Σ m e^{iθ} as it is, and on a swing arm Σ m too: each has the rates 0 and −h₀/J. Where
-        the axis moves none is taken as free: balls then also move along the spindle, each as it stands.
+        Free are those that leave Σ m e^{iθ} as it is, and where the support turns Σ m too: each has the rates 0 and
+        −h₀/J. Where the axis moves none is taken as free: balls then also move along the spindle, each as it stands.
         """
         found, first = [], 0
         for race in self.scene.races:
             masses = np.array(race.ball_masses)
             theta = np.array(self.angles[first : first + len(masses)])
-            rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self._on_arm else [])]
+            rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self._turns else [])]
             found.append(np.eye(len(masses)) if self.motion else _span(np.array(rows)))
             first += len(masses)
         return tuple(found)
@@ -78,7 +77,7 @@ class BalancedMotion:
     @cached_property
     def held(self) -> Array:
         """Columns in terms of the basis: places of the balls that the support feels. The others are neutral."""
-        moments, theta = np.array(self.scene.ball_moments), np.array(self.angles)
+        moments, theta = np.array(self.scene.static_moments), np.array(self.angles)
         places = np.array([race.plane_offset for race in self.scene.races for _ in race.ball_masses])
         shares = places / (np.abs(places).max(initial=0.0) or 1.0)
         x, y = -moments * np.sin(theta), moments * np.cos(theta)
@@ -134,7 +133,7 @@ class BalancedMotion:
         def matrices(phases: Array) -> Array:
             return np.asarray(np.einsum("tk,kij->tij", np.exp(phases[:, None] * orders), terms).real, dtype=float)
 
-        turns = 1 if self._on_arm else 2
+        turns = 1 if self._turns else 2
         own = floquet.multipliers(matrices, 2 * math.pi / turns, self._half_turn) ** turns
         free = [complex(math.exp(rate * 2 * math.pi / speed)) for rate in self._free]
         return tuple(sorted([*own.tolist(), *free], key=lambda value: (-abs(value), value.real, value.imag)))
@@ -160,28 +159,26 @@ class BalancedMotion:
         return len(self.scene.support.names)
 
     @property
-    def _on_arm(self) -> bool:
-        return isinstance(self.scene.support, SwingArm)
+    def _turns(self) -> bool:
+        return self.scene.support.turns
 
     @property
     def _turned(self) -> bool:
         """Whether the support is seen from the rotor."""
-        return not self._on_arm and self._size % 2 == 0
+        return not self._turns and self._size % 2 == 0
 
     @property
     def _half_turn(self) -> Array:
         """What stands upside down after half a turn, unless it turns with the rotor."""
         signs = np.ones(self.states)
-        if not self._on_arm and not self._turned:
+        if not self._turns and not self._turned:
             signs[: 2 * self._size] = -1
         return np.diag(signs)
 
     @cached_property
     def _plain(self) -> Scene:
-        """The scene without effects, and without a constant moment, which only moves the arm's place of rest."""
-        support = self.scene.support
-        support = replace(support, moment=0.0) if isinstance(support, SwingArm) else support
-        return replace(self.scene, effects=(), support=support)
+        """The scene without effects, and without a constant force of the support, which only moves where it stands."""
+        return replace(self.scene, effects=(), support=self.scene.support.without_steady_force())
 
     @cached_property
     def _parts(self) -> Complex:
@@ -195,8 +192,8 @@ class BalancedMotion:
             present = np.flatnonzero(sizes > NOTHING * sizes[0])
             last = int(present[-1]) if len(present) else 0
             if last < count // 2 - 1:
-                kept = terms[:, : last + 1]
-                return kept if self.motion else np.tensordot(_inverse_powers(), kept, axes=1)
+                found = terms[:, : last + 1]
+                return found if self.motion else np.tensordot(_inverse_powers(), found, axes=1)
             if count == MOST_PHASES:
                 raise NotTrustworthyError("the linear motion about the balanced state turns too sharply to be judged")
             count *= 2
@@ -224,8 +221,8 @@ class BalancedMotion:
             spun[:size, :size] = spun[size : 2 * size, size : 2 * size] = spin
             matrix = np.asarray(np.linalg.solve(B, matrix @ B - spun @ B), dtype=float)
         scaled = matrix * self.scales / self.scales[:, None] / speed
-        kept = _diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
-        return np.asarray(kept.T @ scaled @ kept, dtype=float)
+        counted = _diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
+        return np.asarray(counted.T @ scaled @ counted, dtype=float)
 
 
 def growth_of(multipliers: tuple[complex, ...], speed: float) -> float:

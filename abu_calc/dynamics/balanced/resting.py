@@ -12,10 +12,7 @@ from abu_calc.dynamics.balanced.linearised import QUARTER, Complex
 from abu_calc.dynamics.balanced.stationary import NotKnownError, needed_resultants, still_axis
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
-from abu_calc.dynamics.equations.right_hand_side import rhs
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport
-from abu_calc.dynamics.supports.receptance import dynamic_stiffness
 
 TOUCHING = 1e-9
 """Balls that overlap by less than this [rad] touch."""
@@ -54,8 +51,8 @@ def resting_state(scene: Scene, half_angle: float = 0.0) -> Rest | None:
     found: dict[int, tuple[float, ...]] = dict.fromkeys(range(len(scene.races)), ())
     for place, resultant in needed.items():
         races = {k: race for k, race in enumerate(scene.races) if race.plane_offset == place}
-        moments = [mass * race.pitch_radius for race in races.values() for mass in race.ball_masses]
-        turns = _polygon([abs(resultant), *moments])
+        sides = [mass * race.pitch_radius for race in races.values() for mass in race.ball_masses]
+        turns = _polygon([abs(resultant), *sides])
         if turns is None:
             _refuse_other_splits(needed)
             return None
@@ -87,7 +84,7 @@ def _refuse_other_splits(needed: dict[float, complex]) -> None:
 
 def _own_half_angle(scene: Scene, race: Race) -> float:
     """Half the angle between touching balls [rad]; balls have a size only where they can meet."""
-    return math.asin(race.ball_radius / race.pitch_radius) if scene.effect("ball_contact") else 0.0
+    return math.asin(race.ball_radius / race.pitch_radius) if scene.balls_meet else 0.0
 
 
 def _narrowest(angles: tuple[float, ...]) -> float:
@@ -100,9 +97,9 @@ def _motion(scene: Scene, needed: dict[float, complex]) -> Complex:
     """Q of the support under the imbalance, the couple and balls whose races do not move."""
     U = cmath.rect(scene.imbalance, scene.imbalance_angle) + sum(needed.values())
     W = cmath.rect(scene.couple, scene.couple_angle) + sum(place * V for place, V in needed.items())
-    support: LinearSupport = scene.support  # type: ignore[assignment]
+    support = scene.support.small_motion(scene.speed)
     force = scene.speed**2 * np.array((U, -1j * U, W, -1j * W))
-    moved = np.linalg.solve(dynamic_stiffness(support, scene.speed), np.array(support.race_map).T @ force)
+    moved = np.linalg.solve(support.dynamic_stiffness(scene.speed), support.frame.T @ force)
     return np.asarray(moved, dtype=complex)
 
 
@@ -124,7 +121,7 @@ def _settled(scene: Scene, angles: tuple[float, ...], motion: Complex) -> Rest:
     inward = np.diag([W**2] * N + [0.0] * sums.shape[1])
     for _ in range(MOST_STEPS):
         y = at_rest + state @ unknown
-        slope, matrix = rhs(np, 0.0, y, equations.parameters), jacobian(equations, 0.0, y)
+        slope, matrix = equations.rhs(np, 0.0, y, equations.acting), jacobian(equations, 0.0, y)
         picked = [
             np.vstack([part[N : 2 * N], sums.T @ part[2 * N + len(theta) :]]) for part in (slope[:, None], matrix)
         ]

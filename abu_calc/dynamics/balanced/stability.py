@@ -16,11 +16,7 @@ import numpy as np
 from abu_calc.dynamics.balanced.linearised import Array, BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import resting_state
 from abu_calc.dynamics.balanced.stationary import NotKnownError
-from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport, SwingArm
-from abu_calc.errors import InputError
-from abu_calc.formulas.swing_arm import Arm, damping_limit
 from abu_calc.validity import Range
 
 MARGIN: Final = 1e-9
@@ -104,21 +100,11 @@ def stability(scene: Scene, half_angle: float = 0.0) -> Stability:
 
 
 def critical_damping(scene: Scene) -> float | None:
-    """Joint damping [N·s/m] that parametric resonance of a swing arm cannot overcome as long as nothing is balanced.
+    """Damping of the support [N·s/m] that parametric resonance cannot overcome as long as nothing is balanced.
 
-    (m₀e/l)·ω₀·(1 + 17κ²/64), see `formulas.swing_arm.damping_limit`; ω₀ = l√(c/J_O) of the scene's stiffness, with the
-    balls' inertia in J_O. None on other supports, on an arm that does not stand, and beyond κ = 0.3. Source: Kovalenko
-    2010, (24).
+    None where there is none: see `SwingArm.critical_damping`.
     """
-    if not isinstance(scene.support, SwingArm) or scene.support.stiffness <= 0:
-        return None
-    arm = _loaded(scene)
-    natural = arm.length * math.sqrt(arm.stiffness / arm.inertia)
-    joint = Arm(arm.length, arm.inertia, arm.stiffness, arm.damping, *(0.0,) * 6)
-    try:
-        return damping_limit(joint, scene.imbalance, natural)
-    except InputError:
-        return None
+    return scene.support.critical_damping(scene.imbalance, scene.balls)
 
 
 def boundaries(
@@ -136,7 +122,7 @@ def boundaries(
     state, motion = _judged(scene, half_angle)
     if state == "arm alone" and scene.ball_masses:
         return ()
-    moves = motion.motion if motion else isinstance(scene.support, LinearSupport) and scene.support.tilts
+    moves = motion.motion if motion else scene.support.couples
     if motion is None and not moves:
         return ()
 
@@ -157,19 +143,13 @@ def boundaries(
 def _judged(scene: Scene, half_angle: float) -> tuple[State | None, BalancedMotion | None]:
     """What is judged of a scene, if there is anything."""
     rest = resting_state(scene, half_angle)
-    if rest is not None and (scene.ball_masses or not isinstance(scene.support, SwingArm)):
+    support = scene.support
+    if rest is not None and (scene.ball_masses or not support.turns):
         return "race still" if rest.motion else "balanced", BalancedMotion(scene, rest.angles, rest.motion)
-    if not isinstance(scene.support, SwingArm):
+    if not support.turns:
         return None, None
     races = tuple(replace(race, ball_masses=(), start_angles=(), start_speeds=()) for race in scene.races)
-    return "arm alone", BalancedMotion(replace(scene, support=_loaded(scene), races=races), ())
-
-
-def _loaded(scene: Scene) -> SwingArm:
-    """The arm with the inertia of its balls, m (l² + R_p²) each, as J_O of Kovalenko 2010, (2), has it."""
-    arm: SwingArm = scene.support  # type: ignore[assignment]
-    added = sum(m * (arm.length**2 + race.pitch_radius**2) for race in scene.races for m in race.ball_masses)
-    return replace(arm, inertia=arm.inertia + added)
+    return "arm alone", BalancedMotion(replace(scene, support=support.holding(scene.balls), races=races), ())
 
 
 def _at(scene: Scene, speed: float) -> Scene:
@@ -215,33 +195,14 @@ def _between(speeds: Sequence[float], low: float, high: float) -> list[float]:
 
 
 def _first_grid(scene: Scene, low: float, high: float, intervals: int, most: int) -> list[float]:
-    """Evenly spaced in ratio, and at natural frequencies; of up to `most` of them beside and half-way between too.
-
-    On a swing arm twice its natural frequency and what that is divided by 2 and 3: parametric resonance.
-    """
-    natural = _natural_frequencies(scene)
-    if isinstance(scene.support, SwingArm):
-        natural = [2 * natural[0] / k for k in (1, 2, 3)]
+    """Evenly spaced in ratio, and at resonances; of up to `most` of them beside and half-way between too."""
+    natural = scene.support.resonances(scene.balls)
     places = natural
     if len(natural) <= most:
         places = [place * factor for place in natural for factor in (0.99, 1.0, 1.01)]
         places += [f(a, b) for a, b in combinations(natural, 2) for f in (_mean, _root_mean_square)]
     inside = (float(place) for place in places if low < place < high)
     return sorted({*np.geomspace(low, high, intervals + 1).tolist(), low, high, *inside})
-
-
-def _natural_frequencies(scene: Scene) -> list[float]:
-    """Speeds [rad/s] that are natural frequencies with the balls held, the rotor turning as fast."""
-    support = scene.support
-    if isinstance(support, SwingArm):
-        arm = _loaded(scene)
-        return [arm.length * math.sqrt(max(arm.stiffness, 0.0) / arm.inertia)]
-    P = np.array(support.race_map)
-    mass = np.array(support.mass) + P.T @ assemble(_at(scene, scene.speed)).parameters.ball_mass @ P
-    spinning = np.array(support.gyroscopic) if support.gyroscopic else 0.0
-    # Of e^{iΩt} at the speed Ω itself; what is negative is a motion that turns backward, or none.
-    squares = np.linalg.eigvals(np.linalg.solve(mass - 1j * spinning, np.array(support.stiffness))).real
-    return [float(value) for value in np.sqrt(np.maximum(squares, 0.0))]
 
 
 def _mean(a: float, b: float) -> float:

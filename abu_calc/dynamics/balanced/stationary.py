@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.receptance import receptance
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError
 
@@ -41,7 +41,7 @@ def needed_resultants(scene: Scene) -> dict[float, complex]:
     """
     own = -cmath.rect(scene.imbalance, scene.imbalance_angle)
     planes = {race.plane_offset: 0.0 for race in scene.races if race.ball_masses}
-    if not isinstance(scene.support, LinearSupport) or not scene.support.tilts or not planes:
+    if not scene.support.couples or not planes:
         return dict.fromkeys(planes, own)
     couple = -cmath.rect(scene.couple, scene.couple_angle)
     for race in scene.races:
@@ -64,7 +64,7 @@ def needed_resultants(scene: Scene) -> dict[float, complex]:
 def still_axis(scene: Scene) -> bool:
     """Whether balls can leave nothing at all of imbalance and couple: force and couple vanish together."""
     planes = {race.plane_offset for race in scene.races if race.ball_masses}
-    if not scene.support.tilts or len(planes) > 1:
+    if not scene.support.couples or len(planes) > 1:
         return True
     U = cmath.rect(scene.imbalance, scene.imbalance_angle)
     W = cmath.rect(scene.couple, scene.couple_angle)
@@ -74,7 +74,7 @@ def still_axis(scene: Scene) -> bool:
     return abs(W - moment) <= SAME * (abs(W) + abs(moment))
 
 
-def _forward(support: LinearSupport, speed: float) -> Complex:
+def _forward(support: Support, speed: float) -> Complex:
     """x + iy and θ_y − iθ_x, rotating with the rotor, by a force and a couple that rotate with it: 2 × 2."""
     h = receptance(support, speed)
     straight, crossed = h[::2, ::2], h[::2, 1::2]

@@ -10,21 +10,19 @@ Glocker 2001, Set-Valued Force Laws.
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import Effect, Kind, SwitchPoint, Weight
+from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.switching.sticking import AT_REST
 from abu_calc.dynamics.switching.touching import Responses, approaches, impacts, pressing, responses
 from abu_calc.errors import InputError
 from abu_calc.validity import Range
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.switching.modes import Moment
 
 TOUCHING = 1e-9
 """Gaps [rad] up to this are closed: events are located no better."""
@@ -116,12 +114,13 @@ class BallContact(Effect):
     kind: ClassVar[Kind] = "dissipative"
     about: ClassVar[str] = "Balls of one race cannot pass each other: they meet, press and part"
     switches: ClassVar[bool] = True
+    balls_meet: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         Range("ball radius", 0, math.inf, "m", open_low=True).check(self.ball_radius)
         Range("restitution", 0, 1).check(self.restitution)
 
-    def first_mode(self, scene: Scene) -> Any:
+    def first_mode(self, scene: Circumstances) -> Any:
         """The neighbours at the start, none joined. Raises InputError where balls overlap or fill their race."""
         behind: list[int] = []
         ahead: list[int] = []
@@ -162,7 +161,7 @@ class BallContact(Effect):
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """Joined balls move together."""
         if mode is not None and mode.mates is not None:
-            loads.mates, loads.leads = mode.mates, mode.leads
+            loads.own(mates=mode.mates, leads=mode.leads)
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """Gaps that are open: gap − 2β. Joined: what the chain behind pushes with, and what the chain ahead resists.
@@ -175,35 +174,35 @@ class BallContact(Effect):
         gaps, joined = mode.gaps(m.theta) - mode.least, mode.joined
         if mode.mates is None:
             return [*gaps]
-        left, unit = m.moments * solved.left, self._margin(p)
-        held = 0.0 * left if loads.hold is None else loads.hold * m.moments * solved.normal * (1 - loads.free)
+        left, unit = m.static_moments * solved.left, self._margin(p)
+        held = 0.0 * left if loads.hold is None else loads.hold * m.static_moments * solved.normal * (1 - loads.free)
         push, resist = mode.rear.dot(left + held) / unit + 1, mode.front.dot(held - left) / unit + 1
         return [*(joined * push + (1 - joined) * gaps), *(joined * resist + (1 - joined))]
 
     def _margin(self, p: Parameters) -> Any:
         """What counts as no torque between two balls [N m]."""
-        return MARGIN * (p.moments * p.radii).mean() * p.speed**2
+        return MARGIN * (p.static_moments * p.radii).mean() * p.speed**2
 
-    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+    def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Impacts of what meets; then which of the touching pairs press and stay together."""
-        mode: Neighbours | None = moment.mode
+        mode: Neighbours | None = at.mode
         if mode is None:
-            return moment.y, mode
-        p, first = moment.parameters, 2 * moment.parameters.size
-        theta, rates = moment.y[first : first + p.balls], slice(first + p.balls, first + 2 * p.balls)
+            return at.y, mode
+        p, first = at.parameters, 2 * at.parameters.size
+        theta, rates = at.y[first : first + p.balls], slice(first + p.balls, first + 2 * p.balls)
         touching = np.flatnonzero((mode.joined > 0) | (mode.gaps(theta) - mode.touching <= TOUCHING))
         joined = np.zeros(len(mode.joined))
         if len(touching):
-            answer = responses(moment, [mode.behind[i] for i in touching], [mode.ahead[i] for i in touching])
-            slow = moment.equations.scales[rates.start]
-            y = self._after_impacts(answer, moment.y, rates, slow, self._margin(p) / 2)
-            moment = replace(moment, y=y)
+            answer = responses(at, [mode.behind[i] for i in touching], [mode.ahead[i] for i in touching])
+            slow = at.equations.scales[rates.start]
+            y = self._after_impacts(answer, at.y, rates, slow, self._margin(p) / 2)
+            at = replace(at, y=y)
             joined[touching] = self._pressing(answer, y[rates], slow, self._margin(p) / 2, mode.joined[touching])
         # A gap that has just been found to open must be clearly above its bound, or rounding would close it at once.
         least = mode.least + _rounding(theta) / 2
         if np.array_equal(joined, mode.joined) and np.all((mode.gaps(theta) >= least) | (joined > 0)):
-            return moment.y, mode
-        return moment.y, mode.joining(joined, theta)
+            return at.y, mode
+        return at.y, mode.joining(joined, theta)
 
     def _after_impacts(self, answer: Responses, y: Array, rates: slice, slow: float, margin: float) -> Array:
         """The state after all impacts; the very same where there are none."""
@@ -223,7 +222,7 @@ class BallContact(Effect):
         found[together], _ = pressing(answer.among(together), directions, joined[together], margin)
         return found
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """Not estimated: without it balls pass through each other."""
         return Weight(None, "balls that meet stop each other; without it they would pass")
 

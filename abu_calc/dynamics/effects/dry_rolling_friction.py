@@ -12,24 +12,19 @@ arm k_r; balls may rest where |Im(w e^{−iθ})| ≤ f R_p. The inner side is ta
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Parameters
-from abu_calc.dynamics.equations.right_hand_side import accelerations
+from abu_calc.dynamics.circumstances import Circumstances, Holding
+from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
+from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.validity import Range
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.equations.assemble import Equations
-    from abu_calc.dynamics.switching.modes import Moment
-    from abu_calc.dynamics.trajectory import Trajectory
 
 LEAVES = 1e-4
 """A ball pulled inward by more of m R_p Ω² than this is told of: near standstill less means nothing."""
@@ -58,7 +53,7 @@ class DryRollingFriction(Effect):
         """f = k_r/r."""
         return self.lever_arm / self.ball_radius
 
-    def first_mode(self, scene: Scene) -> Any:
+    def first_mode(self, scene: Circumstances) -> Any:
         """All balls stick, pressed outward; None without friction."""
         balls = len(scene.ball_masses)
         return Rolling(np.zeros(balls), np.ones(balls), np.ones(balls)) if self.lever_arm and balls else None
@@ -69,12 +64,12 @@ class DryRollingFriction(Effect):
             return
         sigma, f = mode.direction, self.coefficient * mode.side
         if loads.across is None:
-            loads.grip, loads.free, loads.hold = f * sigma, sigma * sigma, f + 0.0 * sigma
+            loads.own(grip=f * sigma, free=sigma * sigma, hold=f + 0.0 * sigma)
             return
         along = m.radii * m.rate
         # Balls that stick have no velocity, and need none.
         share = f * sigma / m.xp.sqrt(sigma * (along * along + m.rolled * m.rolled) + (1 - sigma))
-        loads.grip, loads.free, loads.hold = share * along, sigma, f * (1 - sigma)
+        loads.own(grip=share * along, free=sigma, hold=f * (1 - sigma))
         loads.across.grip, loads.across.free = share * m.rolled, sigma
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
@@ -97,9 +92,9 @@ class DryRollingFriction(Effect):
         pressed = mode.side * solved.normal / flung + CROSSES
         return [*(rolls * goes_on + (1 - rolls)), *(sticks * holds + (1 - sticks)), *pressed]
 
-    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+    def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Which balls stick and which roll, and on which side."""
-        return (moment.y, None) if moment.mode is None else decided(moment, self.coefficient)
+        return (at.y, None) if at.mode is None else decided(at, self.coefficient)
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
         """−Σ m f |n| |(R_p θ', v)| [W]."""
@@ -111,18 +106,19 @@ class DryRollingFriction(Effect):
             speed = sigma * m.xp.sqrt(sigma * (along * along + m.rolled * m.rolled) + (1 - sigma))
         return -self.coefficient * (p.masses * mode.side * solved.normal).dot(speed)
 
-    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
+    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
         """The first sample at which a ball is off the outer side of its race, counting all balls as rolling."""
         p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
-        index = p.effects.index(self)
-        if p.modes[index] is None:
+        index, first_modes = p.effects.index(self), equations.first_modes
+        if first_modes[index] is None:
             return ()
         for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
             sigma = np.sign(y[first : first + p.balls])
-            direction = sigma if equations.scene.effect("transverse_motion") is None else np.abs(sigma)
+            direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
             mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
-            modes = (*p.modes[:index], mode, *p.modes[index + 1 :])
-            outward = accelerations(np, t, y, equations.in_mode(modes))[2].normal / (p.radii * p.speed**2)
+            modes = (*first_modes[:index], mode, *first_modes[index + 1 :])
+            _, _, solved = equations.accelerations(np, t, y, equations.in_mode(modes))
+            outward = solved.normal / (p.radii * p.speed**2)
             if outward.min() < -LEAVES:
                 return (
                     f"dry rolling friction: ball {1 + int(outward.argmin())} is pulled off the outer side of its race "
@@ -131,7 +127,11 @@ class DryRollingFriction(Effect):
                 )
         return ()
 
-    def weight(self, scene: Scene) -> Weight:
+    def holding(self, scene: Circumstances) -> Holding | None:
+        """By f of their normal force; without friction by none of it."""
+        return Holding(self.coefficient, self.weight(scene).value)
+
+    def weight(self, scene: Circumstances) -> Weight:
         """The largest displacement at which two balls stick beside their places, relative to the axis amplitude."""
         why = "balls stick anywhere within a band about their places"
         if not self.lever_arm or not scene.static_moment:

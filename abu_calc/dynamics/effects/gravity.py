@@ -7,22 +7,18 @@ equilibrium. Source: Kladiev 1996, (1), the term −(g/R) cos γ.
 """
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Parameters, rotor_of
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import Effect, Kind, Laws, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError
 from abu_calc.units import GRAVITY
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.equations.assemble import Equations
-    from abu_calc.dynamics.trajectory import Trajectory
 
 SHAKES = 0.1
 """Share of what dry friction holds from which gravity is taken to help balls loose: they are pulled otherwise, too."""
@@ -37,63 +33,66 @@ class Gravity(Effect):
     name: ClassVar[str] = "gravity"
     kind: ClassVar[Kind] = "conservative"
     about: ClassVar[str] = "Gravity on the balls of a horizontal spindle, toward −y"
+    averaged: ClassVar[bool] = True
+
+    @property
+    def falling(self) -> float:
+        """g."""
+        return self.acceleration
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """−g along y on each ball, and its moment about the rotor where that turns freely."""
         g = self.acceleration
         loads.add(pull=-g * m.cos, press=-g * m.sin)
-        turning = [0] if p.arm_length is not None else []
-        turning += [-1] if p.rotor == "driven" else []
-        if turning:
-            moment = m.moments.dot(m.cos) + p.imbalance * m.xp.cos(m.turn + p.imbalance_angle)
+        if p.frame.turning:
+            aside = m.static_moments.dot(m.cos) + p.imbalance * m.xp.cos(m.turn + p.imbalance_angle)
             if m.offset is not None:
-                moment = moment + p.masses.sum() * m.offset[0]
-            rows = np.zeros(len(p.frame_mass))
-            rows[turning] = -1.0
-            loads.add(frame=rows * (g * moment))
+                aside = aside + p.masses.sum() * m.offset[0]
+            rows = np.zeros(len(p.frame.mass))
+            rows[list(p.frame.turning)] = -1.0
+            loads.add(frame=rows * (g * aside))
 
     def energy(self, m: Motion, own: Any, p: Parameters) -> Any:
         """V [J]."""
-        height = m.moments.dot(m.sin) + p.imbalance * m.xp.sin(m.turn + p.imbalance_angle)
+        height = m.static_moments.dot(m.sin) + p.imbalance * m.xp.sin(m.turn + p.imbalance_angle)
         if m.offset is not None:
             height = height + p.masses.sum() * m.offset[1]
         return self.acceleration * height
 
-    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
+    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
         """Told when a ball would fall off its race: R_p γ'² < g sin γ. The equations hold it there."""
         scene = equations.scene
         first, balls = 2 * len(scene.support.names), len(scene.ball_masses)
         places, rates = trajectory.y[first : first + balls], trajectory.y[first + balls : first + 2 * balls]
-        steady = rotor_of(scene) == "steady"
-        turn, speed = (scene.speed * trajectory.t, scene.speed) if steady else trajectory.y[-2:]
-        if isinstance(scene.support, SwingArm):
-            turn, speed = turn + trajectory.y[0], speed + trajectory.y[1]
+        turn, speed = scene.rotor.turning(trajectory.t, trajectory.y, scene.speed)
+        carried = equations.parameters.geometry.turning(trajectory.y[:first])
+        if carried is not None:
+            turn, speed = turn + carried[0], speed + carried[1]
         radii = np.array([[race.pitch_radius] for race in scene.races for _ in race.ball_masses])
         falls = radii * (rates + speed) ** 2 < self.acceleration * np.sin(places + turn) if balls else np.zeros((0, 1))
         if not falls.any():
             return ()
-        moment = int(falls.any(axis=0).argmax())
-        ball = 1 + int(falls[:, moment].argmax())
+        sample = int(falls.any(axis=0).argmax())
+        ball = 1 + int(falls[:, sample].argmax())
         return (
-            f"gravity: ball {ball} would fall off its race at t = {trajectory.t[moment]:.4g} s, where it is pulled "
+            f"gravity: ball {ball} would fall off its race at t = {trajectory.t[sample]:.4g} s, where it is pulled "
             "harder than it is pressed; here it is held",
         )
 
-    def _shakes(self, scene: Scene, friction: float) -> bool:
+    def _shakes(self, scene: Circumstances, friction: float) -> bool:
         held = [friction * race.pitch_radius * scene.speed**2 for race in scene.races]
         return any(self.acceleration > SHAKES * hold for hold in held)
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """Where gravity pulls harder than dry friction holds, f R_p Ω², it shakes out all that friction does, too."""
-        own, friction = self._swings(scene), scene.effect("dry_rolling_friction")
-        if friction is None or own.value is None or not self._shakes(scene, getattr(friction, "coefficient", 0.0)):
+        own = self._swings(scene)
+        if own.value is None or (holding := scene.holding) is None or not self._shakes(scene, holding.friction):
             return own
-        shaken = friction.weight(scene).value
-        if shaken is not None and shaken <= own.value:
+        if holding.weight is not None and holding.weight <= own.value:
             return own
-        return Weight(shaken, "shakes balls that stick by dry friction loose in every turn")
+        return Weight(holding.weight, "shakes balls that stick by dry friction loose in every turn")
 
-    def _swings(self, scene: Scene) -> Weight:
+    def _swings(self, scene: Circumstances) -> Weight:
         """Balls swing by a = g/(J R_p Ω²) [rad] once per turn, and the axis with them, driven by Σ m R_p a/2 at 2Ω.
 
         m R_p e^{i(γ + a cos γ)} has the part i (a/2) m R_p e^{2iγ}, which adds up where balls are in one line. A ball
@@ -103,17 +102,17 @@ class Gravity(Effect):
         if not scene.ball_masses:
             return Weight(0.0, "no balls")
         why = "swings the balls once per turn, and the axis twice"
-        if isinstance(scene.support, SwingArm):
+        if scene.support.turns:
             return Weight(None, f"{why}; on a swing arm not estimated")
-        moment, pushed = 0.0, 0.0
+        aside, pushed = 0.0, 0.0
         for race in scene.races:
             swing = self.acceleration / (race.inertia_factor * race.pitch_radius * scene.speed**2)
-            moment += swing / 2 * sum(race.ball_masses) * race.pitch_radius
+            aside += swing / 2 * sum(race.ball_masses) * race.pitch_radius
             if not race.drag:
                 return Weight(None, f"{why}; without drag they drift")
             pushed = max(pushed, swing, swing * scene.speed * race.inertia_factor / race.drag)
         try:
-            driven = unbalanced_amplitude(replace(scene, speed=2 * scene.speed), moment)
+            driven = unbalanced_amplitude(replace(scene, speed=2 * scene.speed), aside)
         except InputError:
             return Weight(None, f"{why}, which meets a resonance that nothing damps")
         return Weight(max(pushed, driven / weighing_amplitude(scene)), why)

@@ -20,24 +20,18 @@ with its cube, so that it is infinite after a finite time. Compliance, one-sided
 import math
 import sys
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.equations.right_hand_side import accelerations
-from abu_calc.dynamics.motion import Bound, Levers, Loads, Motion, Solved
-from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import Effect, Kind, Laws, SwitchPoint, Weight
+from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import receptance, reference_moment, weighing_amplitude
+from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.equations.assemble import Equations
-    from abu_calc.dynamics.switching.modes import Moment
-    from abu_calc.dynamics.trajectory import Trajectory
 
 Contact = Literal["compliant", "rigid", "face"]
 
@@ -97,36 +91,28 @@ class GrindingContact(Effect):
         """s f: T per N."""
         return self.rotation_sense * self.cutting_coefficient
 
-    def first_mode(self, scene: Scene) -> Any:
+    def first_mode(self, scene: Circumstances) -> Any:
         """Touching; raises InputError on supports that have no such contact."""
         self._row(scene)
         return TOUCHING if self.contact == "compliant" else None
 
-    def _row(self, scene: Scene) -> Array:
+    def _row(self, scene: Circumstances) -> Array:
         """y_w per unit of each coordinate of the support."""
-        support = scene.support
-        if not isinstance(support, LinearSupport):
-            raise InputError(
-                "a swing arm has a contact of its own", remedy="describe the cutting in the arm's own table"
-            )
-        if self.plane_offset and not support.tilts:
-            raise InputError("only a support that tilts knows where along the spindle the wheel is")
-        P = np.array(support.race_map)
-        return np.asarray(P[1] + self.plane_offset * P[3] if support.tilts else P[1])
+        return np.asarray(scene.support.plane(self.plane_offset)[1])
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """N and T on the frame, or the constraint."""
         if self.contact == "rigid":
-            loads.bound = self._bound(m, p)
+            loads.own(bound=self._bound(m, p))
             loads.add(frame=-self.press_force * self._held(p))
-        elif self.contact == "compliant" or p.rotor == "driven":
+        elif self.contact == "compliant" or p.rotor.rows:
             loads.add(frame=self._force(m, p, self.pressed(m, mode, p)))
 
     def _surface(self, m: Motion, p: Parameters) -> tuple[Any, Any, Any, Any]:
         """h, h' without the turning of the rotor, and ε (cos, sin)(turn + φ₀)."""
         place = m.turn + self.runout_angle
         x, y = self.runout * m.xp.cos(place), self.runout * m.xp.sin(place)
-        row = p.race_map[1] + self.plane_offset * p.race_map[3] if len(p.race_map) == 4 else p.race_map[1]  # type: ignore[index,arg-type]
+        row = p.geometry.plane(self.plane_offset)[1]
         return row.dot(m.support[: p.size]) + y, row.dot(m.support[p.size :]), x, y
 
     def pressed(self, m: Motion, mode: Any, p: Parameters) -> Any:
@@ -137,9 +123,7 @@ class GrindingContact(Effect):
 
     def _rows(self, x: Any, y: Any, turning: Any, p: Parameters) -> Array:
         """A force (x, y) at the wheel and a torque on the rotor, as the frame feels them."""
-        z = self.plane_offset
-        rows = [x, y, z * x, z * y] if len(p.race_map) == 4 else [x, y]  # type: ignore[arg-type]
-        return np.array([*rows, turning] if p.rotor == "driven" else rows)
+        return p.rotor.on_frame(p.geometry.forces(x, y, self.plane_offset), turning)
 
     def _held(self, p: Parameters) -> Array:
         """The press."""
@@ -180,25 +164,24 @@ class GrindingContact(Effect):
         unloaded = self.press_force / self.contact_stiffness
         return [(2 * mode - 1) * (unloaded - self._surface(m, p)[0]) / (unloaded + self.runout + LEAST_DEPTH)]
 
-    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+    def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Touching where the wheel is in the work; at its very surface, where it is about to be.
 
         Raises NotTrustworthyError when a rigid contact drives the balls to ever higher speeds.
         """
         if self.contact == "rigid":
-            _check_speeds(moment)
+            _check_speeds(at)
         if self.contact != "compliant":
-            return moment.y, moment.mode
-        m, _, solved = moment.solved(APART)
-        p = moment.parameters
+            return at.y, at.mode
+        m, _, solved = at.solved(APART)
+        p = at.parameters
         h, moved, x, y = self._surface(m, p)
         unloaded = self.press_force / self.contact_stiffness
         rows = self._rows(0.0, 1.0, x, p)
-        turning = 0.0 if p.rotor == "driven" else x * solved.rotor
         depth, deeper = unloaded - h, -(moved + x * m.speed)
-        ever = -(float(rows.dot(solved.frame)) + turning - y * m.speed * m.speed)
+        ever = -(float(rows.dot(solved.frame)) + x * m.acceleration - y * m.speed * m.speed)
         mode = TOUCHING if _inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
-        return moment.y, moment.mode if mode == moment.mode else mode
+        return at.y, at.mode if mode == at.mode else mode
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
         """Of N − N₀, T and, where it is driven, the torque, by the motion of frame and rotor [W].
@@ -207,21 +190,20 @@ class GrindingContact(Effect):
         is the drive's, not of the coordinates.
         """
         normal = solved.reaction if self.contact == "rigid" else self.pressed(m, mode, p)
-        rates = p.race_map.dot(m.support[p.size :])  # type: ignore[union-attr]
-        return self._force(m, p, normal).dot(np.append(rates, m.speed) if p.rotor == "driven" else rates)
+        return self._force(m, p, normal).dot(p.rotor.on_frame(p.geometry.rates(m, p), m.speed))
 
-    def normal_forces(self, equations: "Equations", trajectory: "Trajectory") -> Array:
+    def normal_forces(self, equations: Laws, trajectory: Trajectory) -> Array:
         """N [N] at the samples of a run; 0 where wheel and work are apart, and negative where a rigid contact pulls.
 
         Balls that stick by dry friction count as rolling.
         """
-        p = equations.parameters
-        moments = [accelerations(np, t, y, p) for t, y in zip(trajectory.t, trajectory.y.T, strict=True)]
+        p, acting = equations.parameters, equations.in_mode(equations.first_modes)
+        found = [equations.accelerations(np, t, y, acting) for t, y in zip(trajectory.t, trajectory.y.T, strict=True)]
         if self.contact == "rigid":
-            return np.array([solved.reaction for _, _, solved in moments], dtype=float)
-        return np.array([max(self.pressed(m, TOUCHING, p), 0.0) for m, _, _ in moments], dtype=float)
+            return np.array([solved.reaction for _, _, solved in found], dtype=float)
+        return np.array([max(self.pressed(m, TOUCHING, p), 0.0) for m, _, _ in found], dtype=float)
 
-    def remarks(self, equations: "Equations", trajectory: "Trajectory") -> tuple[str, ...]:
+    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
         """Whether wheel and work part in the last twentieth of the run."""
         late = trajectory.t >= 0.95 * equations.scene.duration
         last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
@@ -233,18 +215,16 @@ class GrindingContact(Effect):
         doubt = "; nothing damps their contact, so how far they bounce may depend on the start"
         return (told.format("part again and again") + doubt,)
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
 
         N~ = −(y + E)/(1/c_n + h_wn), y of the wheel without contact, E = −iε e^{iφ₀}, h_wn its motion by the contact.
         And what is left near the end of swinging about the place to which T moves it.
         """
-        from abu_calc.dynamics.slow.averages import loaded, swinging
-
         self._row(scene)
         if self.contact == "face":
-            driven = any(effect.rotor == "driven" for effect in scene.effects)
-            return Weight(None, self._braking) if driven else Weight(0.0, "presses along the spindle alone")
+            braked = scene.rotor.rows
+            return Weight(None, self._braking) if braked else Weight(0.0, "presses along the spindle alone")
         h = receptance(scene.support, scene.speed)
         wheel = np.vstack([np.eye(2), self.plane_offset * np.eye(2)])[: len(h)]
         moment = reference_moment(scene) * scene.speed**2 * np.exp(1j * scene.imbalance_angle)
@@ -255,7 +235,7 @@ class GrindingContact(Effect):
         normal = -(free - 1j * self.runout * np.exp(1j * self.runout_angle)) / (give + seen)
         X, Y = normal * answer
         changed = float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
-        changed += swinging(loaded(scene), wheel @ (self.drag * self.press_force, 0.0), 0.95 * scene.duration)
+        changed += scene.small_motion.swinging(wheel @ (self.drag * self.press_force, 0.0), 0.95 * scene.duration)
         return Weight(changed / weighing_amplitude(scene), f"holds the axis, and runout drives it; {self._braking}")
 
     @property
@@ -266,19 +246,18 @@ class GrindingContact(Effect):
             else "no wheel radius: cutting does not brake the rotor"
         )
 
-    def placed(self, scene: Scene) -> Scene:
-        """The scene started on the constraint of a rigid contact, h = h' = 0, by the shortest way; else unchanged."""
-        row = self._row(scene)
+    def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """On the constraint of a rigid contact, h = h' = 0, by the shortest way."""
+        row, start = self._row(scene), (scene.start_position, scene.start_velocity)
         if self.contact != "rigid":
-            return scene
-        speed = 0.0 if getattr(scene.effect("run_up"), "up", 0.0) else scene.speed
-        wanted = -self.runout * math.sin(self.runout_angle), -self.runout * math.cos(self.runout_angle) * speed
-        start = scene.start_position, scene.start_velocity
+            return start
+        runout, speed = self.runout, scene.start_speed
+        wanted = -runout * math.sin(self.runout_angle), -runout * math.cos(self.runout_angle) * speed
         position, velocity = (
             tuple((np.array(now) + row * (target - row @ now) / (row @ row)).tolist())
             for now, target in zip(start, wanted, strict=True)
         )
-        return replace(scene, start_position=position, start_velocity=velocity)
+        return position, velocity
 
 
 def _inside(depth: float, deeper: float, ever: float, near: float) -> bool:
@@ -293,13 +272,13 @@ def _inside(depth: float, deeper: float, ever: float, near: float) -> bool:
     return (deeper or ever) >= 0
 
 
-def _check_speeds(moment: "Moment") -> None:
+def _check_speeds(at: SwitchPoint) -> None:
     """Refuse balls that run away."""
-    p, first = moment.parameters, 2 * moment.parameters.size + moment.parameters.balls
-    fast = np.abs(moment.y[first : first + p.balls]) / p.speed
+    p, first = at.parameters, 2 * at.parameters.size + at.parameters.balls
+    fast = np.abs(at.y[first : first + p.balls]) / p.speed
     if np.linalg.norm(fast) > 0.999 * RUNAWAY:
         raise NotTrustworthyError(
-            f"ball {int(fast.argmax()) + 1} runs away at t = {moment.t:.6g} s: a rigid contact cannot part, and its "
+            f"ball {int(fast.argmax()) + 1} runs away at t = {at.t:.6g} s: a rigid contact cannot part, and its "
             "cutting force T = f N feeds the balls\n"
             "  give the race more drag or the contact a stiffness, or lower the cutting coefficient"
         )

@@ -12,10 +12,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Parameters, Rotor
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.rotor import DRIVEN, Rotor
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Motor(Effect):
     @property
     def rotor(self) -> Rotor:
         """Its torque is given."""
-        return "driven"
+        return DRIVEN
 
     @property
     def rotor_inertia(self) -> float:
@@ -41,31 +42,27 @@ class Motor(Effect):
         return self.inertia
 
     def torque(self, m: Motion, mode: Any, p: Parameters) -> Any:
-        """M [N m] at the speed of the moment, relative to the arm on an arm; `mode` is 0 where it is switched off."""
-        speed = m.speed if p.arm_length is None else m.speed - m.support[1]
-        return mode * self.stall_torque * (1 - speed / self.no_load_speed)
+        """M [N m] at the present speed against what carries it; `mode` is 0 where it is switched off."""
+        return mode * self.stall_torque * (1 - m.own_speed / self.no_load_speed)
 
-    def first_mode(self, scene: Scene) -> Any:
+    def first_mode(self, scene: Circumstances) -> Any:
         """Switched on."""
         return 1.0
 
-    def mode_at(self, scene: Scene, t: float, mode: Any) -> Any:
+    def mode_at(self, scene: Circumstances, t: float, mode: Any) -> Any:
         """Switched off in a run-down."""
-        run_up = scene.effect("run_up")
-        down = getattr(run_up, "down", 0.0)
-        return 0.0 if down and t >= scene.duration - down else 1.0
+        return 0.0 if scene.run_down and t >= scene.duration - scene.run_down else 1.0
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """The torque turns the rotor."""
-        unit = np.zeros(len(p.frame_mass))
+        unit = np.zeros(len(p.frame.mass))
         unit[-1] = 1.0
         loads.add(frame=unit * self.torque(m, mode, p))
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
         """M Ω [W]."""
-        speed = m.speed if p.arm_length is None else m.speed - m.support[1]
-        return self.torque(m, mode, p) * speed
+        return self.torque(m, mode, p) * m.own_speed
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """Not estimated: capture at a resonance is all or nothing."""
         return Weight(None, "the speed itself may differ: it can stick at a resonance")

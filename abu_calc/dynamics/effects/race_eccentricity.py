@@ -5,13 +5,14 @@
 The balls centre the race, so the axis keeps a whirl of radius Δ, whatever the speed. Source: derived.
 """
 
+import cmath
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Parameters
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import weighing_amplitude
 
 
@@ -27,6 +28,12 @@ class RaceEccentricity(Effect):
     about: ClassVar[str] = (
         "Race eccentricity: the races' centres stand off the axis of rotation by Δ at the angle φ in the rotor"
     )
+    averaged: ClassVar[bool] = True
+
+    @property
+    def offset(self) -> complex:
+        """Δ e^{iφ}."""
+        return self.magnitude * cmath.exp(1j * self.angle)
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:
         """The races stand off the axis."""
@@ -40,11 +47,10 @@ class RaceEccentricity(Effect):
         ax, ay = -square * x - a * y, -square * y + a * x
         levers.carry(ay * m.cos - ax * m.sin, ax * m.cos + ay * m.sin)
         along, outward = x * m.cos + y * m.sin, x * m.sin - y * m.cos
-        turning = [0] if p.arm_length is not None else []
-        for row in [*turning, *([-1] if p.rotor == "driven" else [])]:
+        for row in p.frame.turning:
             levers.along[row] = levers.along[row] + along
             levers.outward[row] = levers.outward[row] + outward
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """Δ, relative to the axis amplitude without it."""
         return Weight(self.magnitude / weighing_amplitude(scene), "the axis whirls with it, whatever the speed")

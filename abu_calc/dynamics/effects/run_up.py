@@ -10,10 +10,10 @@ it is switched off.
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Rotor
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Motion
-from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.rotor import GUIDED, Rotor
 from abu_calc.errors import InputError
 
 
@@ -33,13 +33,28 @@ class RunUp(Effect):
     @property
     def rotor(self) -> Rotor:
         """Its speed is given."""
-        return "guided"
+        return GUIDED
+
+    @property
+    def from_rest(self) -> bool:
+        """In a run-up."""
+        return bool(self.up)
+
+    @property
+    def run_down(self) -> float:
+        """At the end."""
+        return self.down
+
+    @property
+    def least_duration(self) -> float:
+        """Both together."""
+        return self.up + self.down
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:
         """The rotor accelerates evenly."""
         m.acceleration = mode
 
-    def breaks(self, scene: Scene) -> tuple[float, ...]:
+    def breaks(self, scene: Circumstances) -> tuple[float, ...]:
         """Ends of the run-up, begin of the run-down."""
         if self.up + self.down > scene.duration:
             raise InputError(
@@ -51,9 +66,9 @@ class RunUp(Effect):
         ends = (self.up if self.up else 0.0, scene.duration - self.down if self.down else 0.0)
         return tuple(sorted({end for end in ends if 0 < end < scene.duration}))
 
-    def mode_at(self, scene: Scene, t: float, mode: Any) -> Any:
+    def mode_at(self, scene: Circumstances, t: float, mode: Any) -> Any:
         """Ω' [rad/s²] from t on; nothing is given where a motor drives."""
-        if scene.effect("motor"):
+        if not scene.rotor.given:
             return 0.0
         if t < self.up:
             return scene.speed / self.up
@@ -61,10 +76,10 @@ class RunUp(Effect):
             return -scene.speed / self.down
         return 0.0
 
-    def first_mode(self, scene: Scene) -> Any:
+    def first_mode(self, scene: Circumstances) -> Any:
         """Ω' at t = 0."""
         return self.mode_at(scene, 0.0, None)
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """It is the scene itself."""
         return Weight(None, "the speed itself: without it there is no run-up")

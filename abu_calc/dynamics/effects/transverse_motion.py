@@ -25,21 +25,18 @@ still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b 
 import math
 import sys
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.effects.effect import Effect, Kind, Weight
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.equations.right_hand_side import owned
-from abu_calc.dynamics.motion import Across, Levers, Loads, Motion, Solved
-from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, SwitchPoint, Weight
+from abu_calc.dynamics.motion import Across, Array, Axial, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.validity import Range
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.switching.modes import Moment
 
 _LARGEST = sys.float_info.max
 _EDGE = 1e-9
@@ -68,7 +65,7 @@ class TransverseMotion(Effect):
     @property
     def ball_states(self) -> tuple[str, ...]:  # type: ignore[override]
         """w, w' and, where it is free, ν."""
-        return ("across", "across'", "spin") if self.free_spin else ("across", "across'")
+        return ("across", ACROSS_RATE, "spin") if self.free_spin else ("across", ACROSS_RATE)
 
     @property
     def bend(self) -> float:
@@ -84,7 +81,7 @@ class TransverseMotion(Effect):
         """Balls off the middle stand nearer to the axis."""
         w, rolled, _ = self._split(own)
         radii = m.radii - w * w / (2 * self.bend)
-        m.moments = m.moments * (radii / m.radii)
+        m.static_moments = m.static_moments * (radii / m.radii)
         m.radii, m.rolled = radii, rolled
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
@@ -96,40 +93,40 @@ class TransverseMotion(Effect):
         drive = drive - rolling * m.swing * (m.radii * m.rate * lean + spin)
         if levers.carried_outward is not None:
             drive = drive + lean * levers.carried_outward
-        if levers.height is not None:
+        if levers.leaning is not None:
             self._lean(m, w, v, levers, loads, p)
         if self.axial_runout:
             self._shake(m, levers, loads, p)
         if levers.axial is not None:
-            lever, drive = lever + levers.axial[0], drive - levers.axial[1]
+            lever, drive = lever + levers.axial.lever, drive - levers.axial.carried
         levers.carry(2 * nearer * m.swing, -curved)
         loads.add(pull=-rolling * (nearer * (m.rate + m.swing) - spin * v / self.bend))
-        turning = _turning(p)
-        if turning:  # what turns the rotor turns the balls
-            rows = np.zeros(len(p.frame_mass))
-            rows[turning] = 1.0
+        if p.frame.turning:  # what turns the rotor turns the balls
+            rows = np.zeros(len(p.frame.mass))
+            rows[list(p.frame.turning)] = 1.0
             loads.add(frame=rows * (p.masses * p.spins).dot(nearer * m.rate))
-        loads.across = Across(lever, p.inertia_factors + lean * lean, drive, -lean)
+        loads.own(across=Across(lever, p.inertia_factors + lean * lean, drive, -lean))
 
     def _lean(self, m: Motion, w: Array, v: Array, levers: Levers, loads: Loads, p: Parameters) -> None:
         """On a race that leans, a ball off its plane is nearer to the axis or further from it: −½ m γ'² 2 w w_t."""
-        (height, rise), (lever, _, slope) = levers.height, levers.axial  # type: ignore[misc]
+        leaning, axial = levers.leaning, levers.axial
+        assert leaning is not None and axial is not None
         outward = m.swing * m.swing * w
-        loads.add(pull=-slope * outward, frame=-lever.dot(p.masses * outward))
-        levers.sunk = levers.sunk + 2 * w * height
-        levers.sinking = levers.sinking + 2 * m.swing * (w * rise + v * height)
+        loads.add(pull=-axial.slope * outward, frame=-axial.lever.dot(p.masses * outward))
+        levers.sunk = levers.sunk + 2 * w * leaning.height
+        levers.sinking = levers.sinking + 2 * m.swing * (w * leaning.rise + v * leaning.height)
 
     def _shake(self, m: Motion, levers: Levers, loads: Loads, p: Parameters) -> None:
         """The races' own acceleration along the spindle, and how the turning of a driven rotor makes it."""
         c, s, zero = m.xp.cos(m.turn), m.xp.sin(m.turn), 0.0 * m.cos
         shaken = zero - self.axial_runout * (m.speed * m.speed * c + m.acceleration * s)
         rows = [zero] * len(levers.outward)
-        for row in _turning(p):
+        for row in p.frame.turning:
             rows[row] = zero - self.axial_runout * s
-        lever, carried, slope = levers.axial or (0.0, 0.0, zero)
-        if levers.height is not None:  # this way is none of the lean, and sees the going round of the other
-            loads.add(frame=np.array(rows).dot(p.masses * m.swing * m.swing * levers.height[0]))
-        levers.axial = (lever + np.array(rows), carried + shaken, slope)
+        before = levers.axial or Axial(0.0, 0.0, zero)
+        if levers.leaning is not None:  # this way is none of the lean, and sees the going round of the other
+            loads.add(frame=np.array(rows).dot(p.masses * m.swing * m.swing * levers.leaning.height))
+        levers.axial = Axial(before.lever + np.array(rows), before.carried + shaken, before.slope)
         if levers.sunk is None:
             levers.sunk = levers.sinking = zero
 
@@ -139,11 +136,11 @@ class TransverseMotion(Effect):
         spun = [v * (m.swing - m.radii * m.rate / self.bend)] if self.free_spin else []
         return np.concatenate([v, solved.across, *spun])
 
-    def start(self, scene: Scene) -> tuple[float, ...]:
+    def start(self, scene: Circumstances) -> tuple[float, ...]:
         """Balls at rest in the middle of the groove."""
         return (0.0,) * (len(self.ball_states) * len(scene.ball_masses))
 
-    def scales(self, scene: Scene) -> tuple[float, ...]:
+    def scales(self, scene: Circumstances) -> tuple[float, ...]:
         """The axial runout, or a hundredth of the ball; rates at the speed of the rotor."""
         balls, way = len(scene.ball_masses), max(self.axial_runout, 0.01 * self.ball_radius)
         return (way,) * balls + (way * scene.speed,) * (balls * (len(self.ball_states) - 1))
@@ -153,18 +150,17 @@ class TransverseMotion(Effect):
         w, _, _ = self._split(own)
         return [*(1 - w * w / self.bend**2), *(1 - w * w / (self.bend * p.radii))]
 
-    def settle(self, moment: "Moment") -> tuple[Any, Any]:
+    def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Nothing changes; raises NotTrustworthyError when a ball has climbed out of its groove."""
-        motion, loads, solved = moment.solved(moment.mode)
-        _, mode, own = owned(moment.y, moment.parameters)[moment.index]
-        left = self.watch(motion, mode, own, loads, solved, moment.parameters)
+        motion, loads, solved = at.solved(at.mode)
+        left = self.watch(motion, at.mode, at.own, loads, solved, at.parameters)
         if left and min(left) < _EDGE:
-            ball = 1 + int(np.argmin(left)) % moment.parameters.balls
+            ball = 1 + int(np.argmin(left)) % at.parameters.balls
             raise NotTrustworthyError(
-                f"ball {ball} climbs out of its groove at t = {moment.t:.6g} s\n"
+                f"ball {ball} climbs out of its groove at t = {at.t:.6g} s\n"
                 "  less axial runout, more rolling drag, or a groove radius whose resonance is further from the speed"
             )
-        return moment.y, moment.mode
+        return at.y, at.mode
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
         """Drag across, −Σ m h₀ w'², and what the drag along the race takes at R beyond what it takes at R_p [W].
@@ -175,7 +171,7 @@ class TransverseMotion(Effect):
         drag = p.drags / p.radii
         return -(p.masses * drag).dot(v * v + p.radii * (m.radii - p.radii) * m.rate * m.rate)
 
-    def weight(self, scene: Scene) -> Weight:
+    def weight(self, scene: Circumstances) -> Weight:
         """Σ m w²/2b as an imbalance, w the way across at steady state; None at a resonance that nothing damps."""
         why = "balls off the middle of the groove stand nearer to the axis"
         if not self.axial_runout:
@@ -185,14 +181,9 @@ class TransverseMotion(Effect):
             return Weight(None, f"{why}; the axial runout meets their resonance")
         return Weight(unbalanced_amplitude(scene, sum(lost)) / weighing_amplitude(scene), why)
 
-    def _way(self, scene: Scene, race: Race) -> float:
+    def _way(self, scene: Circumstances, race: Race) -> float:
         """Amplitude of w by the axial runout [m], as far as the groove reaches."""
         J, speed = race.inertia_factor, scene.speed
         stiffness = race.pitch_radius / self.bend + (J - 1 if self.free_spin else 0.0) - J
         resistance = abs(complex(stiffness, race.drag / speed))
         return min(self.axial_runout / resistance, self.bend) if resistance > 1e-12 else math.inf
-
-
-def _turning(p: Parameters) -> list[int]:
-    """Rows of the frame that turn the rotor: the arm's and a driven rotor's own."""
-    return [*([0] if p.arm_length is not None else []), *([-1] if p.rotor == "driven" else [])]

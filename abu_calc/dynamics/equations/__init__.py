@@ -1,1 +1,17 @@
-"""The one set of equations: from a scene to what is integrated."""
+"""The one set of equations of motion, and how y flows through them.
+
+    y = (q, q', θ, θ', states of effects, turn, speed)
+        │
+        ├─ right_hand_side.motion_of     where everything is: e_r, e_t, γ' of the balls         → Motion
+        ├─ Effect.move                   each effect may change that (a race off its axis)      → Motion
+        ├─ Geometry.levers               what balls feel of the frame's accelerations A         → Levers
+        ├─ Effect.act                    what each effect adds: forces, directions, constraints → Levers, Loads
+        ├─ elimination.solve_all         balls eliminated, d equations for A, then back         → Solved
+        └─ right_hand_side.derivative    Effect.rates for states of effects                     → y'
+
+    build        Scene → Parameters: every number, combined once       assemble   Scene → Equations, ready to integrate
+    jacobian     ∂y'/∂y, exact                                          linear     small systems by plain arithmetic
+
+The same arithmetic serves numbers, complex numbers (exact derivatives) and symbols (`tracing`). Modes of effects come
+beside the numbers, as `Acting`. What is watched for events is computed from `Solved` by `switching.modes.watched`.
+"""

@@ -5,51 +5,57 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from abu_calc.dynamics.equations.parameters import Array, Parameters, parameters_of
-from abu_calc.dynamics.equations.right_hand_side import rhs
+from abu_calc.dynamics.equations import right_hand_side
+from abu_calc.dynamics.equations.build import parameters_of
+from abu_calc.dynamics.motion import Array, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports import linear, swing_arm, tilting
-from abu_calc.dynamics.supports.kinds import SwingArm
 
-Rhs = Callable[[Any, Any, Any, Parameters], Array]
+Rhs = Callable[[Any, Any, Any, Acting], Array]
 
 
 @dataclass(frozen=True, eq=False)
 class Equations:
-    """A system to integrate: `rhs(xp, t, y, parameters)` in the order of `states`.
+    """A system to integrate: `rhs(xp, t, y, acting)` in the order of `states`; what `effect.Laws` promises.
 
+    first_modes: those of all effects, before they are settled.
     scales: what counts as a whole unit of each state; an error of tolerance × scale per step is allowed.
     relative: whether a state's own size may loosen that (not for angles: they grow without meaning anything).
     longest_step [s]: no step may be longer, whatever the error estimate says.
-    breaks [s]: moments at which the equations change, whatever the state.
+    breaks [s]: times at which the equations change, whatever the state.
     """
 
     scene: Scene
     states: tuple[str, ...]
     rhs: Rhs
     parameters: Parameters
+    first_modes: Modes
     initial: tuple[float, ...]
     scales: tuple[float, ...]
     relative: tuple[bool, ...]
     longest_step: float
     breaks: tuple[float, ...]
 
-    def in_mode(self, modes: tuple[Any, ...]) -> Parameters:
-        """The parameters while the effects act in these modes."""
-        return self.parameters.in_mode(modes)
+    def in_mode(self, modes: Modes) -> Acting:
+        """The numbers while the effects act in these modes."""
+        return Acting(self.parameters, modes)
+
+    def accelerations(self, xp: Any, t: Any, y: Any, acting: Acting) -> tuple[Motion, Loads, Solved]:
+        """Kinematics, loads and all accelerations at one time."""
+        return right_hand_side.accelerations(xp, t, y, acting)
+
+    @property
+    def acting(self) -> Acting:
+        """The numbers in the first modes."""
+        return Acting(self.parameters, self.first_modes)
 
 
 def assemble(scene: Scene) -> Equations:
     """The equations of a scene. Raises InputError when the support's mass matrix is not symmetric positive definite."""
-    on_arm = isinstance(scene.support, SwingArm)
-    geometry = swing_arm.levers if on_arm else tilting.levers if scene.support.tilts else linear.levers
-    parameters = parameters_of(scene, geometry, swing_arm.imbalance if on_arm else linear.imbalance)
-    names, balls, steady = scene.support.names, range(1, parameters.balls + 1), parameters.rotor == "steady"
+    parameters, effects = parameters_of(scene), scene.effects
+    names, balls, rotor = scene.support.names, range(1, parameters.balls + 1), scene.rotor
     support_scales, rate_scale = scales_of(scene)
-    own = [name for effect in scene.effects for name in effect.ball_states]
-    speed = 0.0 if getattr(scene.effect("run_up"), "up", 0.0) else scene.speed
+    own, turning = scene.ball_states, rotor.states
     return Equations(
         scene=scene,
         states=(
@@ -58,36 +64,37 @@ def assemble(scene: Scene) -> Equations:
             *(f"θ{k}" for k in balls),
             *(f"θ{k}'" for k in balls),
             *(f"{name}{k}" for name in own for k in balls),
-            *(() if steady else ("turn", "turn'")),
+            *turning,
         ),
-        rhs=rhs,
+        rhs=right_hand_side.rhs,
         parameters=parameters,
+        first_modes=tuple(effect.first_mode(scene) for effect in effects),
         initial=(
             *scene.start_position,
             *scene.start_velocity,
             *scene.start_angles,
             *(value for race in scene.races for value in race.start_speeds),
-            *(value for effect in scene.effects for value in effect.start(scene)),
-            *(() if steady else (0.0, speed)),
+            *(value for effect in effects for value in effect.start(scene)),
+            *rotor.start(scene.start_speed),
         ),
         scales=(
             *support_scales,
             *(scale * scene.speed for scale in support_scales),
             *(1.0 for _ in balls),
             *(rate_scale for _ in balls),
-            *(value for effect in scene.effects for value in effect.scales(scene)),
-            *(() if steady else (1.0, rate_scale)),
+            *(value for effect in effects for value in effect.scales(scene)),
+            *(1.0, rate_scale)[: len(turning)],
         ),
         relative=(
             *(True for _ in 2 * names),
             *(False for _ in balls),
             *(True for _ in balls),
             *(True for _ in own for _ in balls),
-            *(() if steady else (False, False)),
+            *(False for _ in turning),
         ),
         # An imbalance goes round once per revolution: a longer step might not see it.
         longest_step=scene.revolution,
-        breaks=tuple(sorted({moment for effect in scene.effects for moment in effect.breaks(scene)})),
+        breaks=tuple(sorted({time for effect in effects for time in effect.breaks(scene)})),
     )
 
 
@@ -98,27 +105,10 @@ def scales_of(scene: Scene) -> tuple[list[float], float]:
     hundredth of the balls' own moment stands in where there is next to no imbalance. The second is the rate of the
     balls' slow motion, Ω√(Σm/2M), on which they find their places: measured in Ω, that would be lost in the tolerance.
     """
-    support, balls = scene.support, sum(scene.ball_masses)
-    if isinstance(support, SwingArm):
-        own, shares = support.inertia / support.length**2, [support.length]
-    else:
-        P = np.array(support.race_map)
-        compliance = P @ np.linalg.solve(np.array(support.mass), P.T)
-        own = 2 / float(compliance[0, 0] + compliance[1, 1])
-        # A coordinate that moves the race by less than its own amount may move more; one that does not, like the race.
-        shares = _shares(scene, P)
-    mass = own + balls
+    balls = sum(scene.ball_masses)
+    mass = scene.support.felt_mass + balls
     largest = max((race.pitch_radius for race in scene.races), default=0.0)
     reach = max(scene.imbalance, 0.01 * scene.static_moment, 1e-9 * mass * largest) / mass
     rate = scene.speed * math.sqrt(balls / (2 * mass)) if balls else scene.speed
-    return [reach / share if share > 0 else reach for share in shares], rate
-
-
-def _shares(scene: Scene, P: Array) -> list[float]:
-    """By how much a unit of each coordinate moves the races."""
-    moved = [np.hypot(*P[:2])]
-    if len(P) == 4:
-        moved += [np.hypot(*(P[:2] + race.plane_offset * P[2:])) for race in scene.races]
-        tilting_ones = np.hypot(*P[2:]) * max((race.pitch_radius for race in scene.races), default=0.0)
-        moved.append(tilting_ones)
-    return [float(value) for value in np.max(moved, axis=0)]
+    # A coordinate that moves the race by less than its own amount may move more; one that does not, like the race.
+    return [reach / share if share > 0 else reach for share in scene.support.shares(scene.races)], rate

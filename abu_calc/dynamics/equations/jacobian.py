@@ -18,10 +18,10 @@ def jacobian(
 
     J[i, j] = Im rhs_i(y + i·h·e_j)/h.
     """
-    parameters = equations.parameters if modes is None else equations.in_mode(modes)
+    acting = equations.acting if modes is None else equations.in_mode(modes)
     columns = np.empty((len(y), len(y)))
     for j in range(len(y)):
         moved = np.array(y, dtype=complex)
         moved[j] += 1j * STEP
-        columns[:, j] = equations.rhs(np, t, moved, parameters).imag / STEP
+        columns[:, j] = equations.rhs(np, t, moved, acting).imag / STEP
     return columns

@@ -2,6 +2,5 @@
 
 run.py      what they share: from event to event      choice.py   which one, and why
 scipy_.py   always there                              heyoka_.py  fast, optional
-plain.py    equations as plain Python, for SciPy      events.py   where SciPy's runs switch
-traced.py   the one right-hand side told to either    symbols.py  what stands for its numbers meanwhile
+events.py   where SciPy's runs switch
 """

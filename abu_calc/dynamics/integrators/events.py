@@ -1,4 +1,4 @@
-"""Events of SciPy's runs: the moments at which one of the watched numbers falls below zero, on the dense output."""
+"""Events of SciPy's runs: the times at which one of the watched numbers falls below zero, on the dense output."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +15,7 @@ CHECKS = (0.25, 0.5, 0.75)
 
 @dataclass
 class Watcher:
-    """Looks for the first moment at which one of the watched numbers falls below zero."""
+    """Looks for the first time at which one of the watched numbers falls below zero."""
 
     watched: Function
     t: float
@@ -32,10 +32,10 @@ class Watcher:
         return np.array(self.watched(t, y), dtype=float)
 
     def event(self, dense: Any, start: float, end: float) -> float | None:
-        """The first event between two moments, None when there is none."""
+        """The first event between two times, None when there is none."""
         times, rows = [self.since], [self.before]
-        moments = [*(start + part * (end - start) for part in CHECKS), end]
-        for t, y in zip(moments, dense(np.array(moments)).T, strict=True):
+        checks = [*(start + part * (end - start) for part in CHECKS), end]
+        for t, y in zip(checks, dense(np.array(checks)).T, strict=True):
             values = self._values(t, y)
             times.append(t)
             rows.append(values)

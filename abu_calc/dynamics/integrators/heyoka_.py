@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.equations.parameters import Parameters
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
-from abu_calc.dynamics.switching.modes import Modes, watches
+from abu_calc.dynamics.parameters import Acting, Modes
+from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.tracing.plain import functions
-from abu_calc.dynamics.tracing.traced import kept, numbers_of, trace
+from abu_calc.dynamics.tracing.traced import cached, numbers_of, trace
 from abu_calc.dynamics.trajectory import Trajectory
 
 COMPILED = 1e-9, 1e-12, 1e-15
@@ -64,8 +64,8 @@ def integrate(
     """The motion from t = 0 to the last of `sample_times` [s], ascending.
 
     The error of a step is held below tolerance × (scale of the state). A step of order p counts as p evaluations, for
-    it computes as many derivatives. Raises InputError for moments that do not ascend from 0, RangeError for the
-    tolerance, and NotTrustworthyError, naming the moment, when the motion leaves the finite numbers, stalls in events,
+    it computes as many derivatives. Raises InputError for times that do not ascend from 0, RangeError for the
+    tolerance, and NotTrustworthyError, naming the time, when the motion leaves the finite numbers, stalls in events,
     or the steps become too many.
     """
     return _Run(equations, tolerance, sample_times, most_evaluations).trajectory()
@@ -89,9 +89,9 @@ class _Run(Run):
 
     def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
         """Through all samples; heyoka stops at an event."""
-        parameters = self.equations.in_mode(modes)
+        acting = self.equations.in_mode(modes)
         structure, numbers = self.numbers.of(modes)
-        system = kept(_kept, (self.compiled, *structure), lambda: _compile(self.equations, parameters, self.compiled))
+        system = cached(_systems, (self.compiled, *structure), lambda: _compile(self.equations, acting, self.compiled))
         integrator = system.integrator
         integrator.pars[:] = system.values([*self.units.tolist(), *numbers])
         self._put(integrator, t, state)
@@ -101,8 +101,8 @@ class _Run(Run):
         passed = int(np.searchsorted(self.samples, t, side="right")) - self.done
         self.fill(np.repeat(state[:, None], max(passed, 0), axis=1))
         wanted = self.samples[self.done : np.searchsorted(self.samples, bound, side="right")]
-        moments = np.concatenate([[t], wanted, [bound] if bound not in wanted[-1:] else []])
-        rows, stopped = self._propagate(integrator, moments)
+        times = np.concatenate([[t], wanted, [bound] if bound not in wanted[-1:] else []])
+        rows, stopped = self._propagate(integrator, times)
         states = (rows * self.units).T
         self.fill(states[:, 1 : 1 + len(wanted)])
         if stopped:
@@ -114,14 +114,14 @@ class _Run(Run):
         if integrator.with_events:
             integrator.reset_cooldowns()
 
-    def _propagate(self, integrator: Any, moments: Array) -> tuple[Array, bool]:
-        """States at the moments, as far as they were reached, and whether an event ended it."""
+    def _propagate(self, integrator: Any, times: Array) -> tuple[Array, bool]:
+        """States at these times, as far as they were reached, and whether an event ended it."""
         import heyoka
 
         order = integrator.order
         left = max(1, (self.most_evaluations - self.evaluations) // order)
         outcome, _, _, steps, _, rows = integrator.propagate_grid(
-            moments, max_steps=left, max_delta_t=self.equations.longest_step
+            times, max_steps=left, max_delta_t=self.equations.longest_step
         )
         self.steps, self.evaluations = self.steps + steps, self.evaluations + steps * order
         if outcome == heyoka.taylor_outcome.step_limit:
@@ -160,17 +160,17 @@ class _Compiled:
     values: Callable[[Sequence[float]], list[float]]
 
 
-_kept: dict[Any, _Compiled] = {}
+_systems: dict[Any, _Compiled] = {}
 
 
-def _compile(equations: Equations, parameters: Parameters, tolerance: float) -> _Compiled:
+def _compile(equations: Equations, acting: Acting, tolerance: float) -> _Compiled:
     import heyoka
 
     # It would warn on the standard output, of roots at the very start of a step, which are looked for here.
     heyoka.set_logger_level_error()
     _keep_apart(heyoka.llvm_state)
     states = [heyoka.expression(f"z{k}") for k in range(len(equations.states))]
-    traced = trace(equations, parameters, heyoka, states, scaled=True)
+    traced = trace(equations, acting, heyoka, states, scaled=True)
     nothing = 0.0 * traced.t
     parts = zip(states, traced.rates, traced.units, strict=True)
     rates = [(z, ((rate + nothing) / unit).expression()) for z, rate, unit in parts]

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.switching.modes import Modes, at_break, settled, starting
+from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
@@ -60,11 +61,11 @@ class Run(ABC):
 
     @abstractmethod
     def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
-        """Toward the bound, at most up to the next event: moment and state reached, and whether it is an event."""
+        """Toward the bound, at most up to the next event: time and state reached, and whether it is an event."""
 
     def trajectory(self) -> Trajectory:
-        """The whole run. Raises NotTrustworthyError, naming the moment, when it cannot be finished."""
-        # Overflow and invalid numbers are looked for as the run goes on, where the moment can be told.
+        """The whole run. Raises NotTrustworthyError, naming the time, when it cannot be finished."""
+        # Overflow and invalid numbers are looked for as the run goes on, where the time can be told.
         with np.errstate(all="ignore"):
             self._go()
         return Trajectory(
@@ -75,8 +76,6 @@ class Run(ABC):
             evaluations=self.evaluations,
             steps=self.steps,
             events=self.events,
-            status="finished",
-            message=f"reached the end at {self.samples[-1]:g} s",
         )
 
     def fill(self, states: Array) -> None:
@@ -90,10 +89,10 @@ class Run(ABC):
         state, modes = starting(equations)
         if self.samples[0] == 0:
             self.fill(state[:, None])
-        ends = [*(moment for moment in equations.breaks if 0 < moment < end), end]
+        ends = [*(time for time in equations.breaks if 0 < time < end), end]
         t, stalled = 0.0, 0
         while t < end:
-            before, bound = t, next(moment for moment in ends if moment > t)
+            before, bound = t, next(time for time in ends if time > t)
             t, state, happened = self.segment(t, state, modes, bound)
             if happened:
                 self.events += 1

@@ -13,7 +13,8 @@ from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators.events import Watcher
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
-from abu_calc.dynamics.switching.modes import Modes, starting, watches
+from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.switching.modes import starting, watches
 from abu_calc.dynamics.tracing.plain import Function, functions
 from abu_calc.dynamics.tracing.traced import numbers_of
 from abu_calc.dynamics.trajectory import Trajectory
@@ -62,8 +63,8 @@ def integrate(
     """The motion from t = 0 to the last of `sample_times` [s], ascending.
 
     The error of a step is held below tolerance × (scale of the state, plus its size where `relative`). Events are
-    located on the dense output. Raises InputError for moments that do not ascend from 0, RangeError for the tolerance,
-    and NotTrustworthyError, naming the moment, when the motion leaves the finite numbers, stalls in events, or the
+    located on the dense output. Raises InputError for times that do not ascend from 0, RangeError for the tolerance,
+    and NotTrustworthyError, naming the time, when the motion leaves the finite numbers, stalls in events, or the
     steps become too small or too many.
     """
     return _Run(equations, tolerance, sample_times, most_evaluations, method=method).trajectory()

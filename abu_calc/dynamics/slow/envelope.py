@@ -23,8 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.slow.averages import AVERAGED, SLOW, TURNED, Averages, averages, dying, loaded
-from abu_calc.dynamics.supports.kinds import SwingArm
+from abu_calc.dynamics.slow.averages import SLOW, TURNED, Averages, averages, dying
 from abu_calc.errors import NotTrustworthyError
 
 Complex = NDArray[np.complex128]
@@ -34,12 +33,12 @@ RESONANT = 1e-9
 """Distance from a natural frequency, as a share of the speed, that is none."""
 
 MOST_STEPS = 100_000
-"""Between two moments."""
+"""Between two times."""
 
 
 @dataclass(frozen=True)
 class Envelope:
-    """The slow motion: `theta` and `rate` [ball, moment] at `t` [s], and the work."""
+    """The slow motion: `theta` and `rate` [ball, time] at `t` [s], and the work."""
 
     t: Array
     theta: Array
@@ -63,12 +62,12 @@ def envelope(scene: Scene, tolerance: float, sample_times: Array, order: int = 2
     scales = tolerance * np.repeat((1.0, ball_rate(scene)), balls)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what went wrong is asked for
-        y, told = solve(slow_motion(model, order), start, sample_times, rtol=tolerance, atol=scales, tfirst=True,
+        y, report = solve(slow_motion(model, order), start, sample_times, rtol=tolerance, atol=scales, tfirst=True,
                         full_output=True, mxstep=MOST_STEPS)  # fmt: skip
-    if "successful" not in told["message"] or not np.isfinite(y).all():
+    if "successful" not in report["message"] or not np.isfinite(y).all():
         raise NotTrustworthyError("the averaged motion is lost: it needs too many steps\n  take the equations instead")
     theta, rate = y.T[:balls], y.T[balls:]
-    return Envelope(sample_times, theta, rate, int(told["nfe"][-1]), int(told["nst"][-1]))
+    return Envelope(sample_times, theta, rate, int(report["nfe"][-1]), int(report["nst"][-1]))
 
 
 Rates = Callable[[float, Array], list[float]]
@@ -80,8 +79,8 @@ def slow_motion(model: Averages, order: int = 2) -> Rates:
     held, slope = W**4 * model.forward, 4 * W**3 * model.forward + W**4 * model.slope
     still = held @ model.own + W**2 * model.offset
     # What each ball does to each race, by its place and by its speed.
-    places = held[:, of_race] * model.moments
-    speeds = slope[:, of_race] * model.moments if order > 1 else 0.0 * places
+    places = held[:, of_race] * model.static_moments
+    speeds = slope[:, of_race] * model.static_moments if order > 1 else 0.0 * places
     shares, drags = 1 / (model.radii * model.factors), model.drags / model.factors
     numbers = [part.ravel().tolist() for part in (still, places, speeds, shares, drags)]
     return _written(tuple(model.race.tolist()), len(still))(*numbers)
@@ -117,16 +116,16 @@ def _written(race: tuple[int, ...], races: int) -> Callable[..., Rates]:
 
 
 def whirl(scene: Scene, theta: Array, rate: Array) -> tuple[Complex, Complex]:
-    """Q, Q' [coordinate, moment]: the support moves as Re(Q e^{iΩt}), with the balls at θ and moving."""
-    model, support, W = averages(scene), loaded(scene), scene.speed
+    """Q, Q' [coordinate, time]: the support moves as Re(Q e^{iΩt}), with the balls at θ and moving."""
+    model, support, W = averages(scene), scene.small_motion, scene.speed
     planes = np.array([(1.0, race.plane_offset) for race in scene.races]).T
-    turned = model.moments[:, None] * np.exp(1j * theta)
+    turned = model.static_moments[:, None] * np.exp(1j * theta)
     still = model.own[:2] + planes @ model.own[2:]
     sums, changes = still[:, None] + planes[:, model.race] @ turned, planes[:, model.race] @ (1j * rate * turned)
     answer, slope = support.answer(W)
 
-    def by(moments: Complex, answers: Complex) -> Complex:
-        forces = (moments[:, None] * TURNED[:, None]).reshape(4, -1)[: answers.shape[1]]
+    def by(unbalances: Complex, answers: Complex) -> Complex:
+        forces = (unbalances[:, None] * TURNED[:, None]).reshape(4, -1)[: answers.shape[1]]
         return np.asarray(answers @ forces, dtype=complex)
 
     rates = by(changes, W**2 * answer)
@@ -135,7 +134,7 @@ def whirl(scene: Scene, theta: Array, rate: Array) -> tuple[Complex, Complex]:
 
 def motion(scene: Scene, slow: Envelope) -> Array:
     """The states of the equations that it stands for: whirl and free motion of the support, the balls."""
-    model, support = averages(scene), loaded(scene)
+    model, support = averages(scene), scene.small_motion
     Q, rates = whirl(scene, slow.theta, slow.rate)
     turn = np.exp(1j * scene.speed * slow.t)
     V, dying_out = dying(support, model.free, slow.t)
@@ -144,21 +143,19 @@ def motion(scene: Scene, slow: Envelope) -> Array:
 
 
 def free_amplitude(scene: Scene, t: float) -> float:
-    """The most the free motion of the support still moves the axis at the moment t [m]."""
-    support = loaded(scene)
+    """The most the free motion of the support still moves the axis at the time t [m]."""
+    support = scene.small_motion
     V, dying_out = dying(support, averages(scene).free, np.array([t]))
     return float(np.abs((support.frame[:2] @ V[: len(support.mass)]) * dying_out[:, 0]).sum())
 
 
 def not_averaged(scene: Scene) -> str | None:
     """Why the averages do not hold for a scene; None where they do."""
-    others = [effect.name for effect in scene.effects if effect.name not in AVERAGED]
+    others = [effect.name for effect in scene.effects if not effect.averaged]
     if others:
         return f"{', '.join(others)} cannot be averaged"
-    if isinstance(scene.support, SwingArm) and any(
-        (scene.support.moment, *scene.start_position, *scene.start_velocity)
-    ):
-        return "the arm does not start at rest in its middle position"
+    if away := scene.support.not_averaged(scene.start_position, scene.start_velocity):
+        return away
     gap = natural_gap(scene)
     # At a resonance that nothing damps there is no whirl to average.
     rate = ball_rate(scene) if gap > RESONANT * scene.speed else math.inf
@@ -174,7 +171,9 @@ def ball_rate(scene: Scene) -> float:
     """Fastest rate of the balls' slow motion [rad/s], √(κ n/J) with κ = m Ω⁴ |h⁺| of theory for each race."""
     model = averages(scene)
     races = model.forward.shape[0]
-    sizes = [float((model.moments * (model.race == i) / model.radii / model.factors).sum()) for i in range(races)]
+    sizes = [
+        float((model.static_moments * (model.race == i) / model.radii / model.factors).sum()) for i in range(races)
+    ]
     return scene.speed**2 * math.sqrt(
         max((abs(model.forward[i, 2 + i]) * size for i, size in enumerate(sizes)), default=0)
     )
@@ -182,4 +181,4 @@ def ball_rate(scene: Scene) -> float:
 
 def natural_gap(scene: Scene) -> float:
     """Distance of the speed from the nearest natural frequency of the support with the balls' mass [rad/s]."""
-    return float(np.abs(scene.speed - np.abs(np.linalg.eigvals(loaded(scene).motion).imag)).min())
+    return float(np.abs(scene.speed - np.abs(np.linalg.eigvals(scene.small_motion.motion).imag)).min())

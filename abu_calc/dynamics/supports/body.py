@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from abu_calc.dynamics.equations.parameters import Array
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.motion import Array
 from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, rows
+from abu_calc.dynamics.supports.planar import PlanarSupport
 
 ROTOR, BETWEEN = np.array(((1.0, 0.0), (0.0, 0.0))), np.array(((1.0, -1.0), (-1.0, 1.0)))
 """Which of rotor and body an element acts on: from the rotor to the ground, or between the two."""
@@ -12,7 +12,7 @@ ROTOR, BETWEEN = np.array(((1.0, 0.0), (0.0, 0.0))), np.array(((1.0, -1.0), (-1.
 
 def with_body(
     mass: float, stiffness: Pair, damping: Pair, body_mass: float, body_stiffness: Pair, body_damping: Pair
-) -> LinearSupport:
+) -> PlanarSupport:
     """M x'' + b x' + k x = F + R, m_b x_b'' = −R, R = k_b (x_b − x) + b_b (x_b' − x'); likewise y.
 
     A rotor on springs to the ground, the body on the rotor: masses [kg], stiffness [N/m] and damping [N·s/m] along x
@@ -23,7 +23,7 @@ def with_body(
     (0.0, 9.0, 0.0, -3.0)
     """
     own, hung = MASS.check(mass), MASS.check(body_mass)
-    return LinearSupport(
+    return PlanarSupport(
         mass=rows(np.diag((own, own, hung, hung))),
         damping=rows(_joined([DAMPING.check(b) for b in damping], [DAMPING.check(b) for b in body_damping])),
         stiffness=rows(_joined([STIFFNESS.check(k) for k in stiffness], [STIFFNESS.check(k) for k in body_stiffness])),

@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from abu_calc.dynamics.equations.parameters import Array
-from abu_calc.dynamics.supports.kinds import LinearSupport
+from abu_calc.dynamics.motion import Array
 from abu_calc.dynamics.supports.linear import MASS, rows
+from abu_calc.dynamics.supports.planar import PlanarSupport
 from abu_calc.standards.hands import Hand
 
 MACHINE, PALM, FINGERS = np.eye(3)
 
 
-def in_hands(mass: float, axes: tuple[Hand, Hand]) -> LinearSupport:
+def in_hands(mass: float, axes: tuple[Hand, Hand]) -> PlanarSupport:
     """A point mass [kg] in two hands that move alike, `axes` the hand along x and along y.
 
     Element 1 stands between ground and palm (mass m₁), 2 between palm and fingers (m₂), 3 between palm and handle, 4
@@ -23,7 +23,7 @@ def in_hands(mass: float, axes: tuple[Hand, Hand]) -> LinearSupport:
     ('x', 'y', 'palm_x', 'palm_y', 'fingers_x', 'fingers_y')
     """
     own = MASS.check(mass)
-    return LinearSupport(
+    return PlanarSupport(
         mass=rows(_both([_masses(own, hand) for hand in axes])),
         damping=rows(_both([_elements(hand.damping) for hand in axes])),
         stiffness=rows(_both([_elements(hand.stiffness) for hand in axes])),

@@ -1,14 +1,113 @@
 """A rigid rotor on bearings, which moves in its plane and tilts, with gyroscopic moments."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.motion import Levers, Motion
-from abu_calc.dynamics.supports.kinds import LARGEST, LinearSupport
-from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, rows, turned
+from abu_calc.dynamics.motion import Array, Axial, Leaning, Levers, Motion
+from abu_calc.dynamics.parameters import Geometry, Parameters
+from abu_calc.dynamics.race import LARGEST, Race
+from abu_calc.dynamics.support import Unbalance
+from abu_calc.dynamics.supports.linear import (
+    DAMPING,
+    MASS,
+    STIFFNESS,
+    LinearGeometry,
+    LinearSupport,
+    Pair,
+    rows,
+)
 from abu_calc.validity import Range
+
+
+@final
+@dataclass(frozen=True)
+class TiltingGeometry(LinearGeometry):
+    """A = (x'', y'', Θ''). `tilt_map` (4 × 2N): the tilts and their rates, where balls move axially with them."""
+
+    tilt_map: Array | None
+
+    def levers(self, m: Motion, p: Parameters) -> Levers:
+        """T = (e_t, z e_t), N = (e_r, z e_r); along the spindle a ball moves by −R_p Θ·e_r."""
+        plane: Array = np.array(((m.cos, m.sin), (-m.sin, m.cos)))
+        outward, along = np.concatenate([plane, p.places * plane], axis=1)
+        found = Levers(along, outward, p.frame.whole)
+        leaning = None if self.tilt_map is None else self._lean(m, p, self.tilt_map, found)
+        return p.rotor.carry(m, found, leaning)
+
+    def _lean(self, m: Motion, p: Parameters, tilt_map: Array, levers: Levers) -> Array:
+        """−R_p Θ·e_r along the spindle, its rate −R_p (Θ'·e_r + γ' Θ·e_t), and so on; R_p even off a groove's middle.
+
+        A race that leans is narrower, seen along the spindle: R_p² less the square of that way. So what goes round with
+        it flies outward a little less, which makes up for the pull the way along the spindle would have by itself.
+        Returns the way along the spindle per turn.
+        """
+        tx, ty, vx, vy = tilt_map.dot(m.support)
+        zero = 0.0 * m.cos
+        swept: Array = p.radii * (tx * m.sin - ty * m.cos)
+        carried = 2 * p.radii * m.swing * (vx * m.sin - vy * m.cos)
+        height = -p.radii * (tx * m.cos + ty * m.sin)
+        rise = swept * m.swing - p.radii * (vx * m.cos + vy * m.sin)
+        lever = np.array([zero, zero, -p.radii * m.cos, -p.radii * m.sin])
+        levers.axial, levers.leaning = Axial(lever, carried, swept / m.radii), Leaning(height, rise)
+        levers.sunk, levers.sinking = height * height, 2 * m.swing * height * rise
+        return swept
+
+    def plane(self, z: Any) -> Array:
+        """x + z θ_y and y − z θ_x."""
+        found: Array = self.race_map[:2] + z * self.race_map[2:]
+        return found
+
+    def forces(self, x: Any, y: Any, z: Any) -> list[Any]:
+        """With their moments about the centre of mass."""
+        return [x, y, z * x, z * y]
+
+
+@final
+@dataclass(frozen=True)
+class TiltingSupport(LinearSupport):
+    """A linear support whose frame has the rows x, y of the centre of mass and the tilts θ_y, −θ_x.
+
+    A race at z moves by (x + z θ_y, y − z θ_x). `axial_inertia`: the balls move axially with a race that tilts.
+    """
+
+    couples: ClassVar[bool] = True
+
+    axial_inertia: bool = False
+    bearings: tuple[float, ...] = ()
+
+    def geometry(self, unbalance: Unbalance) -> Geometry:
+        """In planes that tilt."""
+        P = np.array(self.race_map)
+        return TiltingGeometry(P, *self.turning(unbalance), np.kron(np.eye(2), P[2:]) if self.axial_inertia else None)
+
+    def shares(self, races: Sequence[Race]) -> list[float]:
+        """The most of axis, races, and balls along the spindle."""
+        P = np.array(self.race_map)
+        moved = [np.hypot(*P[:2]), *(np.hypot(*(P[:2] + race.plane_offset * P[2:])) for race in races)]
+        moved.append(np.hypot(*P[2:]) * max((race.pitch_radius for race in races), default=0.0))
+        return [float(value) for value in np.max(moved, axis=0)]
+
+    def plane(self, z: float) -> NDArray[np.float64]:
+        """x and y there."""
+        return self._at(z)
+
+    def tilt(self, q: NDArray[np.float64]) -> tuple[float, float] | None:
+        """θ_y, −θ_x."""
+        x, y = (np.array(self.race_map)[2:] @ q).tolist()
+        return x, y
+
+    def _at(self, plane: float) -> NDArray[np.float64]:
+        P = np.array(self.race_map)
+        return np.asarray(P[:2] + plane * P[2:], dtype=float)
+
+    @property
+    def description(self) -> str:
+        """What it is."""
+        return "Rigid rotor that moves in its plane and tilts"
 
 
 def tilting(
@@ -19,7 +118,7 @@ def tilting(
     stiffness: Sequence[Pair],
     damping: Sequence[Pair],
     axial_inertia: bool = True,
-) -> LinearSupport:
+) -> TiltingSupport:
     """m r'' = F, J_t Θ'' − i J_p Ω Θ' = moment, Θ = θ_y − iθ_x, on bearings at z [m] with r_z = r + z Θ.
 
     Coordinates x, y, θ_y, −θ_x: tilts small, so that a place at z moves by z Θ. Mass [kg], inertias without balls
@@ -36,7 +135,7 @@ def tilting(
     for limit, pairs in ((STIFFNESS, stiffness), (DAMPING, damping)):
         for value in (value for pair in pairs for value in pair):
             limit.check(value)
-    return LinearSupport(
+    return TiltingSupport(
         mass=rows(np.diag((MASS.check(mass), mass, transverse_inertia, transverse_inertia))),
         damping=rows(_of_bearings(positions, damping)),
         stiffness=rows(_of_bearings(positions, stiffness)),
@@ -53,34 +152,3 @@ def _of_bearings(positions: Sequence[float], values: Sequence[Pair]) -> Array:
     pairs = zip(positions, values, strict=True)
     total: Array = sum((np.kron(np.array(((1, z), (z, z * z))), np.diag(pair)) for z, pair in pairs), np.zeros((4, 4)))
     return total
-
-
-def levers(m: Motion, p: Parameters) -> Levers:
-    """A = (x'', y'', Θ''): T = (e_t, z e_t), N = (e_r, z e_r); along the spindle a ball moves by −R_p Θ·e_r."""
-    plane: Array = np.array(((m.cos, m.sin), (-m.sin, m.cos)))
-    outward, along = np.concatenate([plane, p.places * plane], axis=1)
-    found = Levers(along, outward, p.whole_mass)
-    if p.tilt_map is not None:
-        _add_axial(m, p, found)
-    return turned(m, p, found)
-
-
-def _add_axial(m: Motion, p: Parameters, levers: Levers) -> None:
-    """−R_p Θ·e_r along the spindle, its rate −R_p (Θ'·e_r + γ' Θ·e_t), and so on; R_p even off a groove's middle.
-
-    A race that leans is narrower, seen along the spindle: R_p² less the square of that way. So what goes round with it
-    flies outward a little less, which makes up for the pull the way along the spindle would have by itself.
-    """
-    tx, ty, vx, vy = p.tilt_map.dot(m.support)  # type: ignore[union-attr]
-    zero = 0.0 * m.cos
-    swept = p.radii * (tx * m.sin - ty * m.cos)
-    carried = 2 * p.radii * m.swing * (vx * m.sin - vy * m.cos)
-    height = -p.radii * (tx * m.cos + ty * m.sin)
-    rise = swept * m.swing - p.radii * (vx * m.cos + vy * m.sin)
-    lever = [zero, zero, -p.radii * m.cos, -p.radii * m.sin]
-    if p.rotor == "guided":
-        carried = carried + swept * m.acceleration
-    if p.rotor == "driven":
-        lever.append(swept)
-    levers.axial = (np.array(lever), carried, swept / m.radii)
-    levers.height, levers.sunk, levers.sinking = (height, rise), height * height, 2 * m.swing * height * rise

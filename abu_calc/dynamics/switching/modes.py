@@ -1,54 +1,24 @@
 """Modes: the discrete ways in which effects act (sticking or rolling, touching or apart), switched at events."""
 
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.dynamics.effect import SwitchPoint
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.equations.parameters import Parameters
-from abu_calc.dynamics.equations.right_hand_side import accelerations, owned
-from abu_calc.dynamics.motion import Loads, Motion, Solved
+from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
+from abu_calc.dynamics.parameters import Acting, Modes
 from abu_calc.errors import NotTrustworthyError
-
-Modes = tuple[Any, ...]
 
 MOST_ROUNDS = 100
 """Effects may have to agree on their modes in turns; a scene that takes more has no answer."""
 
 
-@dataclass(frozen=True)
-class Moment:
-    """A state at which modes are decided, and the effect that decides: `index` is its place among the effects."""
-
-    equations: Equations
-    t: float
-    y: NDArray[np.float64]
-    modes: Modes
-    index: int
-
-    @property
-    def mode(self) -> Any:
-        """The mode of the effect that decides."""
-        return self.modes[self.index]
-
-    @cached_property
-    def parameters(self) -> Parameters:
-        """The numbers in these modes."""
-        return self.equations.in_mode(self.modes)
-
-    def solved(self, mode: Any) -> tuple[Motion, Loads, Solved]:
-        """The accelerations if its mode were another."""
-        modes = (*self.modes[: self.index], mode, *self.modes[self.index + 1 :])
-        return accelerations(np, self.t, self.y, self.equations.in_mode(modes))
-
-
 def starting(equations: Equations) -> tuple[NDArray[np.float64], Modes]:
     """State and modes at t = 0."""
     state = np.array(equations.initial, dtype=float)
-    return settled(equations, 0.0, state, at_break(equations, 0.0, equations.parameters.modes))
+    return settled(equations, 0.0, state, at_break(equations, 0.0, equations.first_modes))
 
 
 def at_break(equations: Equations, t: float, modes: Modes) -> Modes:
@@ -66,7 +36,7 @@ def settled(equations: Equations, t: float, y: NDArray[np.float64], modes: Modes
     agreed = 0
     for turn in range(MOST_ROUNDS * len(deciding)):
         index = deciding[turn % len(deciding)]
-        state, mode = equations.scene.effects[index].settle(Moment(equations, t, y, modes, index))
+        state, mode = equations.scene.effects[index].settle(SwitchPoint(equations, t, y, modes, index))
         changed = mode is not modes[index] or state is not y
         # Who has just decided need not be asked again before somebody else has changed something.
         agreed = 1 if changed else agreed + 1
@@ -79,13 +49,13 @@ def settled(equations: Equations, t: float, y: NDArray[np.float64], modes: Modes
     raise NotTrustworthyError(f"at t = {t:.6g} s sticking, rolling and touching contradict each other")
 
 
-def watched(equations: Equations, t: float, y: Any, parameters: Parameters, xp: Any = np) -> list[Any]:
+def watched(t: float, y: Any, acting: Acting, xp: Any = np) -> list[Any]:
     """What stays at or above zero as long as the modes hold, of all effects."""
-    motion, loads, solved = accelerations(xp, t, y, parameters)
+    motion, loads, solved = accelerations(xp, t, y, acting)
     return [
         value
-        for effect, mode, own in owned(y, parameters)
-        for value in effect.watch(motion, mode, own, loads, solved, parameters)
+        for effect, mode, own in with_states(y, acting)
+        for value in effect.watch(motion, mode, own, loads, solved, acting.parameters)
     ]
 
 

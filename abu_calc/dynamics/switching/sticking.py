@@ -6,17 +6,15 @@ all slow balls at rest, until they and the accelerations that follow from them a
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.equations.right_hand_side import loaded
-from abu_calc.dynamics.motion import Loads, Motion, Solved
+from abu_calc.dynamics.effect import ACROSS_RATE, SwitchPoint
+from abu_calc.dynamics.equations.right_hand_side import prepared
+from abu_calc.dynamics.motion import Array, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.errors import NotTrustworthyError
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.switching.modes import Moment
 
 AT_REST = 1e-9
 """A ball slower than this, relative to the slow motion of the balls, is at rest: events are located no better."""
@@ -55,7 +53,7 @@ def forces(f: Any, m: Motion, mode: Rolling, loads: Loads, solved: Solved, p: Pa
 
     Of balls together their sums: torques, for their angles are bound.
     """
-    masses = m.moments / p.radii
+    masses = m.static_moments / p.radii
     pull, most = masses * solved.left, f * masses * (mode.side * solved.normal)
     aside = 0.0 * pull if loads.across is None else masses * solved.across_left
     if loads.mates is None:
@@ -63,30 +61,30 @@ def forces(f: Any, m: Motion, mode: Rolling, loads: Loads, solved: Solved, p: Pa
     return loads.mates.dot(pull), loads.mates.dot(aside), loads.mates.dot(most)
 
 
-def decided(moment: "Moment", f: float) -> tuple[Array, Rolling]:
+def decided(at: SwitchPoint, f: float) -> tuple[Array, Rolling]:
     """State and mode with which the balls can go on; balls that come to rest get the speed 0 exactly.
 
     The very same objects where nothing changes. Raises NotTrustworthyError when no combination is consistent.
     """
-    mode: Rolling = moment.mode
-    p, first = moment.parameters, 2 * moment.parameters.size + moment.parameters.balls
-    motion, _, loads = loaded(np, moment.t, moment.y, p)
+    mode: Rolling = at.mode
+    p, first = at.parameters, 2 * at.parameters.size + at.parameters.balls
+    motion, _, loads = prepared(np, at.t, at.y, at.acting)
     if loads.across is not None:
-        return _decided_across(moment, f, motion, loads)
-    rates = moment.y[first : first + p.balls]
+        return _decided_across(at, f, motion, loads)
+    rates = at.y[first : first + p.balls]
     # One ball of those that move together decides for all.
     leader = np.arange(p.balls) if loads.mates is None else loads.mates.argmax(axis=1)
-    rests = (np.abs(rates) <= AT_REST * moment.equations.scales[first])[leader]
+    rests = (np.abs(rates) <= AT_REST * at.equations.scales[first])[leader]
     if np.any(rates[rests] != 0):
-        y = moment.y.copy()
+        y = at.y.copy()
         y[first : first + p.balls][rests] = 0.0
-        moment = replace(moment, y=y)
+        at = replace(at, y=y)
     start = replace(mode, direction=np.where(rests, 0.0, np.sign(rates[leader])))
-    found = _decided_along(moment, f, rests, start, leader)
-    return moment.y, mode if found.like(mode) else found
+    found = _decided_along(at, f, rests, start, leader)
+    return at.y, mode if found.like(mode) else found
 
 
-def _decided_along(moment: "Moment", f: float, rests: Array, mode: Rolling, leader: Array) -> Rolling:
+def _decided_along(at: SwitchPoint, f: float, rests: Array, mode: Rolling, leader: Array) -> Rolling:
     """Sides of all balls and directions, of those at rest by what acts on them.
 
     From all sticking, every ball whose assumption fails changes it, and after some rounds only the first of them. The
@@ -95,59 +93,58 @@ def _decided_along(moment: "Moment", f: float, rests: Array, mode: Rolling, lead
     """
     balls = len(rests)
     for attempt in range(20 + 10 * balls):
-        wrong, better, mode = _failing(moment, f, mode)
+        wrong, better, mode = _failing(at, f, mode)
         wrong, better = rests & wrong[leader], better[leader]
         if not wrong.any():
             return mode
         if attempt > 10 + balls:
             wrong &= leader == leader[wrong.argmax()]
         mode = replace(mode, direction=np.where(wrong, better, mode.direction))
-    raise _inconsistent(moment, f, "no combination of sticking and rolling balls is consistent")
+    raise _inconsistent(at, f, "no combination of sticking and rolling balls is consistent")
 
 
-def _failing(moment: "Moment", f: float, mode: Rolling) -> tuple[Array, Array, Rolling]:
+def _failing(at: SwitchPoint, f: float, mode: Rolling) -> tuple[Array, Array, Rolling]:
     """Which balls, were they at rest, could not go on in their directions, and what is better for them.
 
     And the mode with all balls on the sides to which they are pressed.
     """
-    mode, (motion, loads, solved) = _on_sides(moment, f, mode)
-    pull, _, most = forces(f, motion, mode, loads, solved, moment.parameters)
+    mode, (motion, loads, solved) = _on_sides(at, f, mode)
+    pull, _, most = forces(f, motion, mode, loads, solved, at.parameters)
     sigma = mode.direction
     slips, stops = np.abs(pull) > (1 + HOLD / 4) * np.maximum(most, 0.0), sigma * solved.balls < 0
     return np.where(sigma == 0, slips, stops), np.where(sigma == 0, np.sign(pull), 0.0), mode
 
 
-def _on_sides(moment: "Moment", f: float, mode: Rolling) -> tuple[Rolling, tuple[Motion, Loads, Solved]]:
+def _on_sides(at: SwitchPoint, f: float, mode: Rolling) -> tuple[Rolling, tuple[Motion, Loads, Solved]]:
     """The same directions with all balls pressed to their sides, and what then moves and acts.
 
     A side changes the normal forces by f times as much, so two rounds do but for a few balls near none.
     """
-    p = moment.parameters
+    p = at.parameters
     for _ in range(2 + p.balls):
-        found = moment.solved(mode)
+        found = at.solved(mode)
         wrong = mode.side * found[2].normal < -CROSSES / 2 * p.radii * p.speed**2
         if not wrong.any():
             return mode, found
         mode = replace(mode, side=np.where(wrong, -mode.side, mode.side))
-    raise _inconsistent(moment, f, "no side of its race presses a ball consistently")
+    raise _inconsistent(at, f, "no side of its race presses a ball consistently")
 
 
-def _inconsistent(moment: "Moment", f: float, what: str) -> NotTrustworthyError:
+def _inconsistent(at: SwitchPoint, f: float, what: str) -> NotTrustworthyError:
     return NotTrustworthyError(
-        f"at t = {moment.t:.6g} s {what}\n"
-        f"  friction of {f:g} times the normal force is far from a rolling ball's: check it"
+        f"at t = {at.t:.6g} s {what}\n  friction of {f:g} times the normal force is far from a rolling ball's: check it"
     )
 
 
-def _decided_across(moment: "Moment", f: float, motion: Motion, loads: Loads) -> tuple[Array, Rolling]:
+def _decided_across(at: SwitchPoint, f: float, motion: Motion, loads: Loads) -> tuple[Array, Rolling]:
     """The same where balls move across the race too: what friction cannot hold starts in the force's direction.
 
     Balls are let go one after the other, and none is held again, so this ends.
     """
-    p, y = moment.parameters, moment.y.copy()
+    p, y = at.parameters, at.y.copy()
     along, across = _rate_places(p)
     slow = SLOW * p.radii * p.speed
-    mode: Rolling = moment.mode
+    mode: Rolling = at.mode
     least = np.where(mode.direction > 0, 0.6 * mode.begun, 1e-3) * slow
     rolls = np.hypot(motion.radii * motion.rate, motion.rolled) > least
     rolls = rolls if loads.mates is None else loads.mates.dot(rolls) > 0
@@ -156,7 +153,7 @@ def _decided_across(moment: "Moment", f: float, motion: Motion, loads: Loads) ->
     y[along][held] = y[across][held] = 0.0
     for _ in range(p.balls + 1):
         start = replace(mode, direction=np.where(held, 0.0, 1.0))
-        mode, (_, loads, solved) = _on_sides(replace(moment, y=y), f, start)
+        mode, (_, loads, solved) = _on_sides(replace(at, y=y), f, start)
         pull, aside, most = forces(f, motion, mode, loads, solved, p)
         force = np.hypot(pull, aside)
         starts = held & (force > (1 + HOLD / 4) * np.maximum(most, 0.0))
@@ -168,8 +165,8 @@ def _decided_across(moment: "Moment", f: float, motion: Motion, loads: Loads) ->
         y[along][starts] = (speeds / motion.radii * pull)[starts]
         y[across][starts] = (speeds * aside)[starts]
         held = held & ~starts
-    same = np.array_equal(y, moment.y)
-    return (moment.y if same else y), moment.mode if mode.like(moment.mode) else mode
+    same = np.array_equal(y, at.y)
+    return (at.y if same else y), at.mode if mode.like(at.mode) else mode
 
 
 def _kept_by_drag(force: Array, p: Parameters) -> Array:
@@ -183,8 +180,8 @@ def _rate_places(p: Parameters) -> tuple[slice, slice]:
     """Where the state holds the speeds of the balls along and across the race."""
     first, place = 2 * p.size + p.balls, 2 * (p.size + p.balls)
     for effect in p.effects:
-        if "across'" in effect.ball_states:
-            place += effect.ball_states.index("across'") * p.balls
+        if ACROSS_RATE in effect.ball_states:
+            place += effect.ball_states.index(ACROSS_RATE) * p.balls
             break
         place += len(effect.ball_states) * p.balls
     return slice(first, first + p.balls), slice(place, place + p.balls)

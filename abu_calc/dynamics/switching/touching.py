@@ -6,16 +6,14 @@ the support and the other effects. Balls that touch pass on torques about the ra
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from abu_calc.dynamics.equations.parameters import Array
-from abu_calc.dynamics.equations.right_hand_side import by_pulls, derivative, loaded, solve_loaded
+from abu_calc.dynamics.effect import SwitchPoint
+from abu_calc.dynamics.equations.elimination import by_pulls, solve_all
+from abu_calc.dynamics.equations.right_hand_side import derivative, prepared
+from abu_calc.dynamics.motion import Array
 from abu_calc.errors import NotTrustworthyError
-
-if TYPE_CHECKING:
-    from abu_calc.dynamics.switching.modes import Moment
 
 MOST_IMPACTS = 10_000
 """In a chain that passes impacts on without end, all that still approach lose their speed at once."""
@@ -30,7 +28,7 @@ SURPLUS = 1e-7 / 4
 
 @dataclass(frozen=True, eq=False)
 class Responses:
-    """Of a moment with all balls free: θ'', normal forces per ball mass, and what torques do to them.
+    """Of a state with all balls free: θ'', normal forces per ball mass, and what torques do to them.
 
     `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_torque`, `normal_by_torque` (n × n): per unit
     torque about the race's centre [N m] on each ball. `friction` (n): ±m R f, negative where the inner side of the race
@@ -51,15 +49,15 @@ class Responses:
         return replace(self, pairs=self.pairs[chosen])
 
 
-def responses(moment: "Moment", behind: list[int], ahead: list[int]) -> Responses:
-    """What torques on the balls do at a moment, for pairs of balls."""
-    p = moment.parameters
-    m, levers, loads = loaded(np, moment.t, moment.y, p)
+def responses(at: SwitchPoint, behind: list[int], ahead: list[int]) -> Responses:
+    """What torques on the balls do in a state, for pairs of balls."""
+    p = at.parameters
+    m, levers, loads = prepared(np, at.t, at.y, at.acting)
     hold = np.zeros(p.balls) if loads.hold is None else loads.hold
     # What friction does to balls that it cannot hold is known.
     grip = np.zeros(p.balls) if loads.grip is None else np.where(hold != 0, 0.0, loads.grip)
-    loads.mates, loads.free, loads.grip = None, None, grip
-    base, levered = solve_loaded(m, levers, loads, p), p.masses * m.radii
+    loads = replace(loads, mates=None, free=None, grip=grip)
+    base, levered = solve_all(m, levers, loads, p), p.masses * m.radii
     balls, normal = by_pulls(m, levers, loads, p)
 
     def kick(torques: Array) -> Array:
@@ -67,12 +65,12 @@ def responses(moment: "Moment", behind: list[int], ahead: list[int]) -> Response
         size = (levered * p.radii).max() * p.speed**2 / np.abs(torques).max()
         pull = torques * size / levered
         more = replace(loads, pull=pull if loads.pull is None else loads.pull + pull)
-        changed = derivative(m, solve_loaded(m, levers, more, p), moment.y, p) - derivative(m, base, moment.y, p)
-        return np.asarray(changed / size)
+        changed, still = (derivative(m, one, at.y, at.acting) for one in (solve_all(m, levers, more, p), base))
+        return np.asarray((changed - still) / size)
 
     unity = np.eye(p.balls)
     return Responses(
-        moment.t, unity[ahead] - unity[behind], base.balls / m.radii, balls / np.outer(m.radii, levered), base.normal,
+        at.t, unity[ahead] - unity[behind], base.balls / m.radii, balls / np.outer(m.radii, levered), base.normal,
         normal / levered, hold * levered, kick,
     )  # fmt: skip
 

@@ -11,9 +11,10 @@ from typing import Any, cast
 import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.equations.parameters import Array, Parameters
-from abu_calc.dynamics.switching.modes import Modes, watched
-from abu_calc.dynamics.tracing.traced import Numbers, kept, trace
+from abu_calc.dynamics.motion import Array
+from abu_calc.dynamics.parameters import Acting, Modes
+from abu_calc.dynamics.switching.modes import watched
+from abu_calc.dynamics.tracing.traced import Numbers, cached, trace
 
 MOST_BALLS, MOST_NUMBERS = 32, 1000
 """Beyond so many balls, or parameters (sixteen balls that touch), arrays are about as fast, and need not be written."""
@@ -74,7 +75,7 @@ class Source:
         self.par = _Numbers(self)
         self.time = self.name("t")
 
-    def _kept(self, entry: tuple[str, tuple[int, ...]]) -> Node:
+    def _once(self, entry: tuple[str, tuple[int, ...]]) -> Node:
         if entry not in self._known:
             self._known[entry] = Node(self, len(self.entries))
             self.entries.append(entry)
@@ -82,7 +83,7 @@ class Source:
 
     def name(self, name: str) -> Node:
         """What has this name in the code."""
-        return self._kept((name, ()))
+        return self._once((name, ()))
 
     def expression(self, value: float) -> Node:
         """A constant."""
@@ -91,11 +92,11 @@ class Source:
     def enter(self, sign: str, *operands: Any) -> Node:
         """What comes of an operation on expressions and numbers."""
         places = tuple((one if isinstance(one, Node) else self.expression(one)).place for one in operands)
-        return self._kept((sign, tuple(sorted(places)) if sign == "*" else places))
+        return self._once((sign, tuple(sorted(places)) if sign == "*" else places))
 
     def sum(self, terms: Sequence[Node]) -> Node:
         """All of them together."""
-        return terms[0] if len(terms) == 1 else self._kept(("+", tuple(term.place for term in terms)))
+        return terms[0] if len(terms) == 1 else self._once(("+", tuple(term.place for term in terms)))
 
     def sin(self, angle: Node) -> Node:
         """Of an expression."""
@@ -149,23 +150,20 @@ Function = Callable[[float, Array], Any]
 
 Maker = Callable[[Sequence[float]], tuple[Function, Function]]
 
-_kept: dict[Any, Maker] = {}
+_makers: dict[Any, Maker] = {}
 
 
 def functions(equations: Equations, numbers: Numbers, modes: Modes) -> tuple[Function, Function]:
     """y'(t, y) and the watched numbers in these modes, plain where that is faster."""
-    parameters, (structure, values) = equations.in_mode(modes), numbers.of(modes)
-    if not 0 < parameters.balls <= MOST_BALLS or len(values) > MOST_NUMBERS:
-        return (
-            lambda t, y: equations.rhs(np, t, y, parameters),
-            lambda t, y: watched(equations, t, y, parameters),
-        )
-    return kept(_kept, structure, lambda: _write(equations, parameters))(values)
+    acting, (structure, values) = equations.in_mode(modes), numbers.of(modes)
+    if not 0 < equations.parameters.balls <= MOST_BALLS or len(values) > MOST_NUMBERS:
+        return lambda t, y: equations.rhs(np, t, y, acting), lambda t, y: watched(t, y, acting)
+    return cached(_makers, structure, lambda: _write(equations, acting))(values)
 
 
-def _write(equations: Equations, parameters: Parameters) -> Maker:
+def _write(equations: Equations, acting: Acting) -> Maker:
     source, names = Source(), [f"y{k}" for k in range(len(equations.states))]
-    traced = trace(equations, parameters, source, [source.name(name) for name in names], scaled=False)
+    traced = trace(equations, acting, source, [source.name(name) for name in names], scaled=False)
     bodies = {
         name: source.lines([symbol.expression() for symbol in symbols])
         for name, symbols in (("rates", traced.rates), ("watched", traced.watched))

@@ -12,7 +12,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from abu_calc.dynamics.equations.parameters import Array
+from abu_calc.dynamics.motion import Array
 
 SIGNS = {operator.add: "+", operator.mul: "*", operator.truediv: "/"}
 """Operations on numbers, as Python writes them."""

@@ -12,8 +12,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.equations.parameters import Parameters
-from abu_calc.dynamics.switching.modes import Modes, watched, watches
+from abu_calc.dynamics.parameters import Acting, Modes, Parameters
+from abu_calc.dynamics.switching.modes import watched, watches
 from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
 
 MOST_KEPT = 32
@@ -35,20 +35,20 @@ class Traced:
     watched: tuple[Any, ...]
 
 
-def trace(equations: Equations, parameters: Parameters, library: Any, states: Sequence[Any], scaled: bool) -> Traced:
+def trace(equations: Equations, acting: Acting, library: Any, states: Sequence[Any], scaled: bool) -> Traced:
     """The equations in these modes, in a library's expressions; where `scaled`, states come in units of their own.
 
     The tape's parameters are the units, then the numbers that `Numbers` finds.
     """
     tape = Tape(library)
     units = tuple(tape.parameter() for _ in states) if scaled else ()
-    symbolic = _mapped(parameters, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
+    symbolic = _mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
     y = [tape.variable(state) for state in states]
     if scaled:
         y = [unit * one for unit, one in zip(units, y, strict=True)]
     t: Any = tape.variable(library.time)
     rates = equations.rhs(Functions, t, np.array(y), symbolic)
-    numbers = watched(equations, t, np.array(y), symbolic, Functions) if watches(equations) else ()
+    numbers = watched(t, np.array(y), symbolic, Functions) if watches(equations) else ()
     return Traced(tape, t, units, tuple(rates), tuple(_symbol(tape, value) for value in numbers))
 
 
@@ -102,7 +102,7 @@ def numbers_of(equations: Equations) -> Numbers:
 Code = TypeVar("Code")
 
 
-def kept(cache: dict[Any, Code], structure: Any, make: Callable[[], Code]) -> Code:
+def cached(cache: dict[Any, Code], structure: Any, make: Callable[[], Code]) -> Code:
     """The code for a structure, made unless the cache has it already."""
     if structure not in cache:
         if len(cache) >= MOST_KEPT:
@@ -125,16 +125,16 @@ def _mapped(
         fixed(float)
         return number(value, zeros == 0)
     if isinstance(value, np.ndarray):
-        kept = value == 0 if value.ndim == zeros else np.full(value.shape, value.dtype.kind != "f")
-        fixed((value.shape, kept.tobytes(), value[kept].tobytes()))
+        same = value == 0 if value.ndim == zeros else np.full(value.shape, value.dtype.kind != "f")
+        fixed((value.shape, same.tobytes(), value[same].tobytes()))
         found = value.astype(object)
-        found[~kept] = [number(one, False) for one in value[~kept].tolist()]
-        return value if kept.all() else found
+        found[~same] = [number(one, False) for one in value[~same].tolist()]
+        return value if same.all() else found
     if is_dataclass(value) and not isinstance(value, type):
         fixed(type(value))
         copy = object.__new__(type(value))
         for part in fields(value):  # past checks of values, which symbols would not stand
-            of = ZEROS.get(part.name, zeros) if isinstance(value, Parameters) else zeros
+            of = ZEROS.get(part.name, zeros) if isinstance(value, Parameters | Acting) else zeros
             object.__setattr__(copy, part.name, _mapped(getattr(value, part.name), number, fixed, of))
         return copy
     if isinstance(value, tuple):

@@ -1,0 +1,227 @@
+"""What an effect is: one thing that acts in a scene beside its support, its races and the imbalance.
+
+Effects are in `effects/`, one file each; how they go together is written in `effects/__init__.py`.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.circumstances import Circumstances, Holding
+from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Acting, Modes, Parameters
+from abu_calc.dynamics.rotor import STEADY, Rotor
+from abu_calc.dynamics.trajectory import Trajectory
+
+Kind = Literal["conservative", "dissipative", "driven"]
+
+ACROSS_RATE = "across'"
+"""Name of the state of each ball that is its speed across the race, of whichever effect lets it move there."""
+
+
+@dataclass(frozen=True)
+class Weight:
+    """What leaving an effect out would change, counted as accuracy counts errors; None where nothing cheap tells."""
+
+    value: float | None
+    why: str
+
+
+class Laws(Protocol):
+    """The equations of a scene, as far as effects may ask them."""
+
+    @property
+    def scene(self) -> Circumstances:
+        """What they are the equations of."""
+
+    @property
+    def parameters(self) -> Parameters:
+        """Their numbers."""
+
+    @property
+    def first_modes(self) -> Modes:
+        """The modes of all effects before they are settled."""
+
+    @property
+    def scales(self) -> tuple[float, ...]:
+        """What counts as a whole unit of each state."""
+
+    def accelerations(self, xp: Any, t: Any, y: Any, acting: Acting) -> tuple[Motion, Loads, Solved]:
+        """Kinematics, loads and all accelerations at one time."""
+
+    def in_mode(self, modes: Modes) -> Acting:
+        """The numbers while the effects act in these modes."""
+
+
+@dataclass(frozen=True)
+class SwitchPoint:
+    """A state at which modes are decided, and the effect that decides: `index` is its place among the effects."""
+
+    equations: Laws
+    t: float
+    y: NDArray[np.float64]
+    modes: Modes
+    index: int
+
+    @property
+    def mode(self) -> Any:
+        """The mode of the effect that decides."""
+        return self.modes[self.index]
+
+    @property
+    def parameters(self) -> Parameters:
+        """The numbers."""
+        return self.equations.parameters
+
+    @cached_property
+    def acting(self) -> Acting:
+        """The numbers in these modes."""
+        return self.equations.in_mode(self.modes)
+
+    @property
+    def own(self) -> Any:
+        """The states of the effect that decides; None where it has none."""
+        p, effect = self.parameters, self.parameters.effects[self.index]
+        before = sum(len(one.ball_states) for one in p.effects[: self.index])
+        place, count = 2 * (p.size + p.balls) + before * p.balls, len(effect.ball_states) * p.balls
+        return self.y[place : place + count] if count else None
+
+    def solved(self, mode: Any) -> tuple[Motion, Loads, Solved]:
+        """The accelerations if its mode were another."""
+        modes = (*self.modes[: self.index], mode, *self.modes[self.index + 1 :])
+        return self.equations.accelerations(np, self.t, self.y, self.equations.in_mode(modes))
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect. Its fields are its numbers in SI; subclasses are final and say what they add.
+
+    It reads the shared kinematics, the circumstances and its own numbers, never another effect. `act` and `rates` use
+    plain arithmetic and m.xp.sin, m.xp.cos alone, so that they serve real, complex and symbolic numbers.
+    """
+
+    name: ClassVar[str]
+    kind: ClassVar[Kind]
+    about: ClassVar[str]
+    """What it is, in a line, where people choose effects."""
+    ball_states: ClassVar[tuple[str, ...]] = ()
+    """Names of the states it adds for each ball."""
+    switches: ClassVar[bool] = False
+    """Whether it has modes that the state may end."""
+    traceable: ClassVar[bool] = True
+    """Whether heyoka can trace it: no function but sin and cos, no decision by values that are not its own numbers."""
+    averaged: ClassVar[bool] = False
+    """Whether the averaged slow motion accounts for it: by `offset`, by `falling`, or since it averages out."""
+    balls_meet: ClassVar[bool] = False
+    """Whether it gives balls a size, so that they cannot pass each other."""
+
+    # What it tells of itself, so that nobody needs to ask for it by name.
+
+    @property
+    def rotor(self) -> Rotor:
+        """How it has the rotor turn; the most that any effect asks for counts."""
+        return STEADY
+
+    @property
+    def rotor_inertia(self) -> float:
+        """What it adds to the inertia of a driven rotor [kg m²]."""
+        return 0.0
+
+    @property
+    def from_rest(self) -> bool:
+        """Whether it has the rotor start from rest."""
+        return False
+
+    @property
+    def run_down(self) -> float:
+        """Time [s] at the end of the scene in which it lets nothing drive the rotor."""
+        return 0.0
+
+    @property
+    def least_duration(self) -> float:
+        """Of a scene that it is part of [s]."""
+        return 0.0
+
+    @property
+    def offset(self) -> complex:
+        """How far it moves the races' centres off the axis, x + iy in the rotor [m]."""
+        return 0j
+
+    @property
+    def falling(self) -> float:
+        """Constant acceleration in space toward −y that it gives the balls [m/s²]."""
+        return 0.0
+
+    def holding(self, scene: Circumstances) -> Holding | None:
+        """Dry friction with which it can hold balls in their places."""
+        return None
+
+    def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Where the support has to start, and how fast."""
+        return scene.start_position, scene.start_velocity
+
+    # Motion.
+
+    def move(self, m: Motion, mode: Any, own: Any) -> None:
+        """Change the kinematics, before the levers are known."""
+
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """Add what it does to levers and loads."""
+
+    def rates(self, m: Motion, own: Any, solved: Solved) -> Array:
+        """Time derivatives of its own states."""
+        raise NotImplementedError
+
+    def start(self, scene: Circumstances) -> tuple[float, ...]:
+        """Its own states at t = 0."""
+        return ()
+
+    def scales(self, scene: Circumstances) -> tuple[float, ...]:
+        """What counts as a whole unit of its own states."""
+        return ()
+
+    # Modes.
+
+    def first_mode(self, scene: Circumstances) -> Any:
+        """How it acts at first, before the modes of all effects are settled; None where there is one way only."""
+        return None
+
+    def breaks(self, scene: Circumstances) -> tuple[float, ...]:
+        """Times [s] from which it acts in another way, whatever the state."""
+        return ()
+
+    def mode_at(self, scene: Circumstances, t: float, mode: Any) -> Any:
+        """Its mode from t on, at t = 0 or at one of its breaks."""
+        return mode
+
+    def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
+        """State and mode with which it can go on; the very same objects where nothing changes."""
+        return at.y, at.mode
+
+    def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
+        """Numbers that stay at or above zero as long as its mode holds; an event is one of them falling below.
+
+        Without units: they are usually near 1.
+        """
+        return []
+
+    # What it means.
+
+    def energy(self, m: Motion, own: Any, p: Parameters) -> Any:
+        """Potential energy [J] of a conservative effect."""
+        return 0.0
+
+    def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
+        """Power [W] it puts in, by the coordinates' own motion; negative where it takes out."""
+        return 0.0
+
+    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
+        """What a user should know of a run: that it left the range in which the effect holds, for instance."""
+        return ()
+
+    def weight(self, scene: Circumstances) -> Weight:
+        """What leaving it out would change."""
+        return Weight(None, "")

@@ -1,0 +1,112 @@
+"""The numbers of a scene, combined once so that an evaluation of the equations needs few operations. SI."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+from abu_calc.dynamics.motion import Array, Levers, Motion
+from abu_calc.dynamics.rotor import Rotor
+
+Modes = tuple[Any, ...]
+"""How each effect acts for the time being (sticking, touching …); None where there is one way only."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The frame: the d accelerations of a support that balls feel, and what force and mass stand behind them."""
+
+    mass: Array
+    """d × d: what the frame weighs with the support behind it, (P M⁻¹ Pᵀ)⁻¹; with the row of a driven rotor."""
+    held: Array
+    """d × 2N: the force of springs and dampers on the frame is `held @ (q, q')`."""
+    turning: tuple[int, ...] = ()
+    """Rows that turn the rotor and its races."""
+    whole: Array | None = None
+    """`mass` with balls at rest in their races, where that is constant."""
+    held_spinning: Array | None = None
+    """Likewise to `held` the gyroscopic force, per unit speed."""
+    rest: Array | None = None
+    """N × 2N, with the next: q'' = rest @ (q, q') + carry @ frame accelerations; None where these are the same."""
+    carry: Array | None = None
+    rest_spinning: Array | None = None
+    steady_force: Array | None = None
+    """d: constant forces on the frame."""
+
+
+@dataclass(frozen=True)
+class Geometry(ABC):
+    """How a support carries the races: its own numbers, as far as an evaluation of the equations needs them."""
+
+    @abstractmethod
+    def levers(self, m: Motion, p: "Parameters") -> Levers:
+        """Levers of the frame, with the rows of the rotor."""
+
+    @abstractmethod
+    def imbalance(self, m: Motion, p: "Parameters") -> tuple[Array, Array | None]:
+        """Force of the imbalance on the frame, and what it weighs there."""
+
+    def turning(self, support: Array) -> tuple[Any, Any] | None:
+        """By how much the support turns what carries the rotor, and how fast; None where it does not."""
+        return None
+
+    # Where work is pressed to a wheel: only of supports that answer by `Support.plane`.
+
+    def plane(self, z: Any) -> Array:
+        """2 × N: x and y at a place z along the spindle per unit of each coordinate."""
+        raise NotImplementedError
+
+    def forces(self, x: Any, y: Any, z: Any) -> list[Any]:
+        """Forces at such a place as the frame feels them."""
+        raise NotImplementedError
+
+    def rates(self, m: Motion, p: "Parameters") -> Array:
+        """How fast the frame moves."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """What the equations read. Per ball n, race by race: arrays of that length."""
+
+    size: int
+    """N, the support's coordinates."""
+    balls: int
+    rotor: Rotor
+    geometry: Geometry
+    frame: Frame
+    speed: Any
+    masses: Array
+    radii: Array
+    """R_p of each ball."""
+    static_moments: Array
+    """m R_p of each ball."""
+    drags: Array
+    """R_p h₀ of each ball."""
+    braking: Array
+    """−R_p h₀ of each ball."""
+    inertia_factors: Array
+    mobilities: Array
+    """1/J of each ball."""
+    reduced_masses: Array
+    """m/J of each ball."""
+    spins: Array
+    """(J − 1) r of each ball: its own turning when the rotor's speed changes."""
+    spin_inertia: Array | None
+    """d × d: Σ m (J − 1) r², what that weighs in the turning of rotor and arm."""
+    places: Array
+    """z of each ball's race."""
+    imbalance: Any
+    imbalance_angle: Any
+    effects: tuple[Any, ...]
+    """Those of the scene, whose own numbers are read too."""
+
+
+@dataclass(frozen=True, slots=True)
+class Acting:
+    """The numbers of a scene while its effects act in some modes: what an evaluation of the equations gets.
+
+    Modes change some thousand times in a run, the numbers never.
+    """
+
+    parameters: Parameters
+    modes: Modes

@@ -1,0 +1,144 @@
+"""How a rotor turns: at constant speed, as it is told, or by a torque. Each way answers for itself."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import Any, ClassVar, Final, final
+
+import numpy as np
+
+from abu_calc.dynamics.motion import Array, Levers, Motion
+
+
+class Rotor(ABC):
+    """One way of turning. Turn and speed are counted from what carries the rotor, an arm for instance."""
+
+    states: ClassVar[tuple[str, ...]] = ("turn", "turn'")
+    """What it adds to the states."""
+    rows: ClassVar[int] = 0
+    """What it adds to the frame: its own acceleration is an unknown beside the support's, or none."""
+    given: ClassVar[bool] = False
+    """Whether its acceleration is given, and may be other than zero."""
+
+    @abstractmethod
+    def turning(self, t: Any, y: Any, speed: Any) -> tuple[Any, Any]:
+        """Turn and speed [rad, rad/s] of a state y, or of many, in a scene of that speed."""
+
+    def start(self, speed: float) -> tuple[float, ...]:
+        """Its states at t = 0."""
+        return (0.0, speed)
+
+    def rates(self, y: Any, acceleration: Any) -> list[Array]:
+        """Time derivatives of its states."""
+        return [np.array((y[-1], acceleration))]
+
+    def acceleration(self, m: Motion, A: Array) -> Any:
+        """Its acceleration [rad/s²], by that of the frame."""
+        return m.acceleration
+
+    def carry(self, m: Motion, levers: Levers, leaning: Any = None) -> Levers:
+        """The levers with what a changing speed does to races; `leaning`: way along the spindle per turn of it [m]."""
+        return levers
+
+    @abstractmethod
+    def unbalanced(
+        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[Array, Any]:
+        """Force of an imbalance on the frame and what it weighs there, by those on the support at constant speed.
+
+        `coupling` (d): its inertia between frame and turning; `own`: moment about the rotor at a constant speed [N m].
+        """
+
+    def on_frame(self, forces: Any, torque: Any) -> Array:
+        """Forces on the frame with a torque on the rotor."""
+        return np.array(forces)
+
+
+@final
+class Steady(Rotor):
+    """At constant speed: the turn is speed times time."""
+
+    states = ()
+
+    def turning(self, t: Any, y: Any, speed: Any) -> tuple[Any, Any]:
+        """Ωt and Ω."""
+        return speed * t, speed
+
+    def start(self, speed: float) -> tuple[float, ...]:
+        """There are none."""
+        return ()
+
+    def rates(self, y: Any, acceleration: Any) -> list[Array]:
+        """There are none."""
+        return []
+
+    def unbalanced(
+        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[Array, Any]:
+        """As it is."""
+        return force, weight
+
+
+@final
+class Guided(Rotor):
+    """As it is told: turn and speed are states, the acceleration is given."""
+
+    given = True
+
+    def turning(self, t: Any, y: Any, speed: Any) -> tuple[Any, Any]:
+        """The last two states."""
+        return y[-2], y[-1]
+
+    def carry(self, m: Motion, levers: Levers, leaning: Any = None) -> Levers:
+        """The races are carried along."""
+        if levers.axial is not None:
+            levers.axial.carried = levers.axial.carried + leaning * m.acceleration
+        levers.carry(m.radii * m.acceleration, 0.0 * m.radii)
+        return levers
+
+    def unbalanced(
+        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[Array, Any]:
+        """Less what it takes to accelerate the imbalance."""
+        return force - m.acceleration * coupling(), weight
+
+
+@final
+class Driven(Rotor):
+    """By torques: turn and speed are states, and the acceleration is one of the frame's, the last."""
+
+    rows = 1
+
+    def turning(self, t: Any, y: Any, speed: Any) -> tuple[Any, Any]:
+        """The last two states."""
+        return y[-2], y[-1]
+
+    def acceleration(self, m: Motion, A: Array) -> Any:
+        """The frame's last."""
+        return A[-1]
+
+    def carry(self, m: Motion, levers: Levers, leaning: Any = None) -> Levers:
+        """One row more."""
+        if levers.axial is not None:
+            levers.axial.lever = np.array([*levers.axial.lever, leaning])
+        levers.along = np.vstack([levers.along, m.radii])
+        levers.outward = np.vstack([levers.outward, 0.0 * m.radii])
+        levers.mass = None
+        return levers
+
+    def unbalanced(
+        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[Array, Any]:
+        """With one row more."""
+        beside = coupling()
+        rows = np.zeros((len(force), len(force))) if weight is None else weight
+        bordered = [[*row, more] for row, more in zip(rows, beside, strict=True)]
+        return np.append(force, own()), np.array([*bordered, [*beside, 0.0]])
+
+    def on_frame(self, forces: Any, torque: Any) -> Array:
+        """The torque turns the rotor."""
+        return np.array([*forces, torque])
+
+
+STEADY: Final[Rotor] = Steady()
+GUIDED: Final[Rotor] = Guided()
+DRIVEN: Final[Rotor] = Driven()
