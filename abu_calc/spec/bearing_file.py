@@ -1,15 +1,12 @@
 """A file for bearing seats alone, and the tables it shares with a whole machine's."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Protocol
 
 from pydantic import AfterValidator, Field, WithJsonSchema
 
 from abu_calc.spec.bearing import Bearing
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import is_number, shown_short
-
-if TYPE_CHECKING:
-    from abu_calc.spec.machine import MachineFile
 
 NAME = "Name of the machine, as reports print it."
 
@@ -104,12 +101,20 @@ class BearingFile(Table):
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 
 
-def expected_values(file: "MachineFile | BearingFile") -> dict[str, object]:
+class HasExpectations(Protocol):
+    """A file that `abu verify` can hold to results."""
+
+    @property
+    def expected(self) -> dict[str, object]:
+        """[expected] as it is written."""
+
+
+def expected_values(file: HasExpectations) -> dict[str, object]:
     """What `abu verify` compares: path in the result → value."""
     return {path: value for path, value in file.expected.items() if not isinstance(value, dict)}
 
 
-def expected_tolerances(file: "MachineFile | BearingFile") -> dict[str, float]:
+def expected_tolerances(file: HasExpectations) -> dict[str, float]:
     """Path in the result → relative tolerance, where one is given."""
     given = file.expected.get(TOLERANCE)
     return dict(given) if isinstance(given, dict) else {}
