@@ -33,6 +33,16 @@ def test_the_scene_is_simulated(tmp_path: Path) -> None:
     assert seen.status == 0 and len(seen.document["result"]["effects"]) == 4
 
 
+def test_the_script_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = re.search(r"```python\n(.*?)```", README, re.DOTALL)
+    assert shown is not None
+    scope: dict[str, object] = {}
+    exec(compile(shown[1], "README.md", "exec"), scope)
+    first, *checks = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r"(pass|fail|not-done) \d+ \d+\.\d dB", first)
+    assert len(checks) > 8 and all(line.startswith("ABU") for line in checks)
+
+
 def test_every_command_is_named() -> None:
     listed = re.findall(r"^  (\S+) ", abu("--help").out.split("Commands:")[1].split("\n\n")[0], re.MULTILINE)
     assert len(listed) >= 8

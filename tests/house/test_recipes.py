@@ -15,15 +15,16 @@ from tests.house.structure import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
-MOST = {"an effect": 4, "a support": 3, "a sizing step": 5, "an output format": 1, "a command": 3}
-"""Existing files that a newcomer of each kind may touch."""
+MOST = {"an effect": 4 + 1, "a support": 3, "a sizing step": 5, "an output format": 1, "a command": 3}
+"""Existing files that a newcomer of each kind may touch; an effect also has its example in the tests."""
 
 
 @pytest.mark.parametrize("what", MOST)
 def test_a_recipe_touches_few_files(what: str) -> None:
     found = re.search(rf"\*\*Adding {what}\.\*\*(.*?)(?=\n\*\*Adding|\n## )", README, re.DOTALL)
     assert found is not None
-    named = set(re.findall(r"`([a-z_/]+\.py)`", found[1]))
+    faces = {"dynamics/support.py"}  # to read, not to touch
+    named = set(re.findall(r"`([a-z_/]+\.py)`", found[1])) - faces
     present = {name for name in named if (ROOT / "abu_calc" / name).is_file() or (ROOT / name).is_file()}
     assert named and named == present, f"not there: {named - present}"
     assert len(present) <= MOST[what], present
