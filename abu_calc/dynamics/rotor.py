@@ -1,7 +1,7 @@
 """How a rotor turns: at constant speed, as it is told, or by a torque. Each way answers for itself."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, ClassVar, Final, final
 
 import numpy as np
@@ -142,3 +142,8 @@ class Driven(Rotor):
 STEADY: Final[Rotor] = Steady()
 GUIDED: Final[Rotor] = Guided()
 DRIVEN: Final[Rotor] = Driven()
+
+
+def most_demanding(rotors: Iterable[Rotor]) -> Rotor:
+    """The way that asks for most: a torque before a told speed before a constant one, which is there without any."""
+    return max(rotors, key=lambda rotor: (rotor.rows, rotor.given), default=STEADY)

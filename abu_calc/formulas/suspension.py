@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from abu_calc.errors import InputError, Place
+from abu_calc.formulas.hands import handle_reaction
 from abu_calc.standards.hands import Hand
 
 
@@ -29,26 +30,16 @@ class Springs:
 
 @dataclass(frozen=True)
 class Hands:
-    """Two hands on the handles, ISO 10068:2012 Annex C, model 2; how its elements connect is assumed.
+    """Two hands on the handles, see `formulas.hands`.
 
-    Palm and arm m1 stand on the ground by element 1, the fingers m2 on m1 by 2; m1 and m2 reach the handle by 3 and 4;
-    the skin masses m3, m4 move with the handle. Assumed: forearms push toward the work, so the hands' z is the
-    machine's y, and their x its x.
+    Assumed: forearms push toward the work, so the hands' z is the machine's y, and their x its x.
     """
 
     axes: tuple[Hand, Hand]
 
     def reaction(self, axis: int, speed: float) -> complex:
         """Force of both hands per displacement of the handle [N/m]: palm and fingers eliminated."""
-        hand = self.axes[axis]
-        z1, z2, z3, z4 = (k + 1j * speed * c for k, c in zip(hand.stiffness, hand.damping, strict=True))
-        m1, m2, m3, m4 = hand.masses
-        palm = z1 + z2 + z3 - m1 * speed**2
-        fingers = z2 + z4 - m2 * speed**2
-        determinant = palm * fingers - z2**2
-        palm_moves = (z3 * fingers + z2 * z4) / determinant
-        fingers_move = (z4 * palm + z2 * z3) / determinant
-        return 2 * (z3 + z4 - z3 * palm_moves - z4 * fingers_move - (m3 + m4) * speed**2)
+        return handle_reaction(self.axes[axis], speed)
 
 
 FASTEST = 6283.0
