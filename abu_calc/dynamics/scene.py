@@ -25,7 +25,7 @@ class Scene(Circumstances):
 
     @property
     def rotor(self) -> Rotor:
-        """The one that asks for most: a torque before a told speed before a constant one."""
+        """The one that asks for most: a torque before a given acceleration before none."""
         return most_demanding(effect.rotor for effect in self.effects)
 
     @property

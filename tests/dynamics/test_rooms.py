@@ -5,7 +5,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, get_args
 
 import numpy as np
 import pytest
@@ -29,6 +29,8 @@ from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.switching.modes import starting
 from abu_calc.errors import InputError
+from abu_calc.scenes.from_scene import SUPPORTS as KINDS
+from abu_calc.spec.scene import NEEDED, REFUSED, SceneTable
 from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import SUPPORTS, dimensionless, scene_on, with_effects
 
@@ -284,6 +286,12 @@ def test_a_new_support_takes_effects_and_drives():
         replace(scene, couple=0.1)
     with pytest.raises(InputError, match="no work"):
         scene.support.plane(0.0)
+
+
+def test_a_kind_of_support_stands_in_three_lists():
+    """What people write, what it needs, and what makes it."""
+    kinds = set(get_args(SceneTable.model_fields["support"].annotation))
+    assert kinds == set(NEEDED) == set(REFUSED) == set(KINDS)
 
 
 # The balls' mass on an arm

@@ -64,8 +64,8 @@ def still_axis(scene: Scene) -> bool:
     W = cmath.rect(scene.couple, scene.couple_angle)
     if not planes:
         return not (U or W)
-    moment = U * next(iter(planes))
-    return abs(W - moment) <= SAME * (abs(W) + abs(moment))
+    couple = U * next(iter(planes))
+    return abs(W - couple) <= SAME * (abs(W) + abs(couple))
 
 
 def _forward(support: Support, speed: float) -> Complex:
