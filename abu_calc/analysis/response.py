@@ -8,7 +8,7 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude
+from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
@@ -118,7 +118,7 @@ def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(times, residuals, settled + SETTLED * reference_moment(scene)),
+        settling_time=settling_time(times, residuals, settled + SETTLED * reference_imbalance(scene)),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place - mean),
         velocity_rms=rms,

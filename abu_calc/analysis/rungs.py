@@ -21,7 +21,7 @@ from abu_calc.dynamics.slow.envelope import (
     not_averaged,
     whirl,
 )
-from abu_calc.dynamics.supports.receptance import reference_moment, weighing_amplitude
+from abu_calc.dynamics.supports.receptance import reference_imbalance, weighing_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.motion import SETTLED
@@ -83,7 +83,7 @@ def closed_form(scene: Scene) -> Estimate:
     if rate <= 0:
         raise InputError("the averaged motion does not come to rest in balance")
     start = abs(complex(total_imbalance(scene, np.array(scene.start_angles)[:, None])[0]))
-    limit = SETTLED * reference_moment(scene)
+    limit = SETTLED * reference_imbalance(scene)
     time = max(math.log(start / limit) / rate, 0.0) if start > limit else 0.0
     amplitude = abs(model.offset)
     return Estimate(
@@ -102,7 +102,7 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> Estimate:
     slow = envelope(scene, tolerance, times, order)
     residuals = np.abs(total_imbalance(scene, slow.theta))
     window = times >= _window(scene)
-    limit = float(residuals[window].mean()) + SETTLED * reference_moment(scene)
+    limit = float(residuals[window].mean()) + SETTLED * reference_imbalance(scene)
     X, Y = (scene.small_motion.frame @ whirl(scene, slow.theta[:, window], slow.rate[:, window])[0])[:2]
     return Estimate(
         axis_amplitude=float((np.abs(X + 1j * Y) + np.abs(X - 1j * Y)).max()) / 2,

@@ -1,12 +1,17 @@
 """From a scene to its motion: Scene → Equations → Trajectory, and the closed forms that hold beside them.
 
-scene.py         what is simulated, in SI           supports/      builders of linear supports
-equations.py     states, rhs, parameters            energy.py      mass matrix, energy, power: the second derivation
-integrators/     the only files that know solvers   jacobian.py    exact derivatives by the complex step
-stationary.py    where the balls come to rest       resting.py     the same for any balls
-linearised.py    small motions about that state     stability.py   whether they die out, and at which speeds
-from_design.py   the scene of a machine             from_scene.py  the scene of a scene file
-modes.py         how effects switch, and agree      sticking.py    which balls stick, which roll
-touching.py      impacts, and who presses whom      envelope.py    the averaged slow motion
-receptance.py    the support's steady response      trajectory.py  what an integrator hands on
+Own files, the nouns and the faces, which import no room below them:
+
+motion.py         where everything is, what balls feel, what effects add, all accelerations
+rotor.py          how a rotor turns: steady, guided, driven      parameters.py     the numbers that the equations read
+race.py           races and their balls                          support.py        the face of a support
+circumstances.py  all of a scene but its effects                 effect.py         the face of an effect
+scene.py          both together                                  trajectory.py     what an integrator hands on
+
+Rooms; each imports only those before it:
+
+supports/     one file a kind: it answers for itself      equations/    the one right-hand side, with the map of it
+switching/    modes: what sticks, what touches            effects/      one file an effect, and how they go together
+tracing/      the equations told in another language      integrators/  the only files that know solvers
+slow/         averages, and the envelope by them          balanced/     states of rest, and whether they are stable
 """

@@ -1,7 +1,7 @@
-"""How a rotor turns: at constant speed, as it is told, or by a torque. Each way answers for itself."""
+"""How a rotor turns: at constant speed, with a given acceleration, or by a torque. Each way answers for itself."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, ClassVar, Final, final
 
 import numpy as np
@@ -45,7 +45,7 @@ class Rotor(ABC):
     ) -> tuple[Array, Any]:
         """Force of an imbalance on the frame and what it weighs there, by those on the support at constant speed.
 
-        `coupling` (d): its inertia between frame and turning; `own`: moment about the rotor at a constant speed [N m].
+        `coupling` (d): its inertia between frame and turning; `own`: torque on the rotor at a constant speed [N m].
         """
 
     def on_frame(self, forces: Any, torque: Any) -> Array:
@@ -80,7 +80,7 @@ class Steady(Rotor):
 
 @final
 class Guided(Rotor):
-    """As it is told: turn and speed are states, the acceleration is given."""
+    """With a given acceleration: turn and speed are states."""
 
     given = True
 
@@ -142,3 +142,8 @@ class Driven(Rotor):
 STEADY: Final[Rotor] = Steady()
 GUIDED: Final[Rotor] = Guided()
 DRIVEN: Final[Rotor] = Driven()
+
+
+def most_demanding(rotors: Iterable[Rotor]) -> Rotor:
+    """The way that asks for most: a torque before a given acceleration before none, which is there without any."""
+    return max(rotors, key=lambda rotor: (rotor.rows, rotor.given), default=STEADY)

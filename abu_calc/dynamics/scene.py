@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.race import Race
-from abu_calc.dynamics.rotor import STEADY, Rotor
+from abu_calc.dynamics.rotor import Rotor, most_demanding
 from abu_calc.dynamics.support import Support
 from abu_calc.errors import InputError
 
@@ -25,8 +25,8 @@ class Scene(Circumstances):
 
     @property
     def rotor(self) -> Rotor:
-        """The one that asks for most: a torque before a told speed before a constant one."""
-        return max((effect.rotor for effect in self.effects), key=_demands, default=STEADY)
+        """The one that asks for most: a torque before a given acceleration before none."""
+        return most_demanding(effect.rotor for effect in self.effects)
 
     @property
     def start_speed(self) -> float:
@@ -57,10 +57,6 @@ class Scene(Circumstances):
     def effect(self, name: str) -> Effect | None:
         """The effect of this name, if the scene has it."""
         return next((effect for effect in self.effects if effect.name == name), None)
-
-
-def _demands(rotor: Rotor) -> tuple[int, bool]:
-    return rotor.rows, rotor.given
 
 
 def only(scene: Scene, names: Collection[str]) -> Scene:

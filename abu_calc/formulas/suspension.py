@@ -5,6 +5,7 @@ from typing import Protocol
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formula import formula
+from abu_calc.formulas.hands import handle_reaction
 from abu_calc.standards.hands import Hand
 
 
@@ -46,15 +47,7 @@ class Hands:
 
     def reaction(self, axis: int, speed: float) -> complex:
         """Force of both hands per displacement of the handle [N/m]: palm and fingers eliminated."""
-        hand = self.axes[axis]
-        z1, z2, z3, z4 = (k + 1j * speed * c for k, c in zip(hand.stiffness, hand.damping, strict=True))
-        m1, m2, m3, m4 = hand.masses
-        palm = z1 + z2 + z3 - m1 * speed**2
-        fingers = z2 + z4 - m2 * speed**2
-        determinant = palm * fingers - z2**2
-        palm_moves = (z3 * fingers + z2 * z4) / determinant
-        fingers_move = (z4 * palm + z2 * z3) / determinant
-        return 2 * (z3 + z4 - z3 * palm_moves - z4 * fingers_move - (m3 + m4) * speed**2)
+        return handle_reaction(self.axes[axis], speed)
 
 
 FASTEST = 6283.0

@@ -130,7 +130,7 @@ def test_compiled_once_for_all_designs_of_a_structure(monkeypatch):
     built: list[Any] = []
     original = heyoka_._compile
     monkeypatch.setattr(heyoka_, "_compile", lambda *given: built.append(given) or original(*given))
-    monkeypatch.setattr(heyoka_, "_kept", {})
+    monkeypatch.setattr(heyoka_, "_systems", {})
     first = with_effects(straight_grinder(), Gravity())
     race = first.races[0]
     others = (
@@ -153,7 +153,7 @@ def test_modes_do_not_compile_anew(monkeypatch):
     built: list[Any] = []
     original = heyoka_._compile
     monkeypatch.setattr(heyoka_, "_compile", lambda *given: built.append(given) or original(*given))
-    monkeypatch.setattr(heyoka_, "_kept", {})
+    monkeypatch.setattr(heyoka_, "_systems", {})
     assert heyoka_.integrate(assemble(rubbing()), 1e-6, [100.0]).events > 3
     assert len(built) == 1
 

@@ -122,7 +122,7 @@ def test_the_state_judged_is_one_of_rest(name: str) -> None:
     """The equations themselves, at an odd moment: the support moves as told, no ball accelerates."""
     scene, _ = CASES[name]
     rest, t, N = resting_state(scene), 0.0123, len(scene.support.names)
-    slope = rhs(np, t, place_of(scene, rest, t), assemble(scene).parameters)
+    slope = rhs(np, t, place_of(scene, rest, t), assemble(scene).acting)
     motion = np.array(rest.motion or (0.0,) * N) * cmath.exp(1j * scene.speed * t)
     expected = np.concatenate([(1j * scene.speed * motion).real, (-(scene.speed**2) * motion).real])
     reach = scene.speed**2 * max(scene.imbalance, 1e-6)

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.balanced.stationary import balls_resultant, resting_amplitude, two_ball_angles
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.errors import InputError, RangeError
+from tests.dynamics.closed_forms import balls_resultant, resting_amplitude, two_ball_angles
 from tests.dynamics.scenes import dimensionless
 
 

@@ -77,10 +77,10 @@ class BalancedMotion:
     @cached_property
     def held(self) -> Array:
         """Columns in terms of the basis: places of the balls that the support feels. The others are neutral."""
-        moments, theta = np.array(self.scene.static_moments), np.array(self.angles)
+        static_moments, theta = np.array(self.scene.static_moments), np.array(self.angles)
         places = np.array([race.plane_offset for race in self.scene.races for _ in race.ball_masses])
         shares = places / (np.abs(places).max(initial=0.0) or 1.0)
-        x, y = -moments * np.sin(theta), moments * np.cos(theta)
+        x, y = -static_moments * np.sin(theta), static_moments * np.cos(theta)
         return _span(np.array((x, y, shares * x, shares * y)) @ self.basis)
 
     @cached_property

@@ -15,7 +15,7 @@ import numpy as np
 
 from abu_calc.dynamics.balanced.linearised import Array, BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import resting_state
-from abu_calc.dynamics.balanced.stationary import NotKnownError
+from abu_calc.dynamics.balanced.stationary import NotKnownError, still_axis
 from abu_calc.dynamics.scene import Scene
 from abu_calc.validity import Range
 
@@ -122,7 +122,7 @@ def boundaries(
     state, motion = _judged(scene, half_angle)
     if state == "arm alone" and scene.ball_masses:
         return ()
-    moves = motion.motion if motion else scene.support.couples
+    moves = motion.motion if motion else scene.ball_masses and not still_axis(scene)
     if motion is None and not moves:
         return ()
 

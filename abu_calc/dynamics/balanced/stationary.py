@@ -1,10 +1,9 @@
-"""Where balls come to rest in the rotor (Kladiev 1996, eq. (4), with the quadrant kept), and what then remains.
+"""What balls must add up to where they rest in the rotor (Kladiev 1996, eq. (4), with the quadrant kept).
 
-Angles [rad] from the zero mark; imbalances as complex numbers U e^{iφ} [kg m]. An idle, freely suspended rotor.
+Imbalances are complex numbers U e^{iφ} [kg m], φ from the zero mark. An idle, freely suspended rotor.
 """
 
 import cmath
-import math
 from typing import Final
 
 import numpy as np
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.receptance import receptance
-from abu_calc.errors import InputError, NotTrustworthyError, RangeError
+from abu_calc.errors import NotTrustworthyError
 
 SAME: Final = 1e-12
 """Relative; what differs by less is the same but for rounding."""
@@ -23,11 +22,6 @@ Complex = NDArray[np.complex128]
 
 class NotKnownError(NotTrustworthyError):
     """The balls may have a state of rest, but no formula here gives it."""
-
-
-def balls_resultant(imbalance: float, imbalance_angle: float) -> complex:
-    """V = −m₀e e^{iφ} [kg m]: what the balls must add up to. It fixes two balls; of more, n − 2 angles stay free."""
-    return -cmath.rect(imbalance, imbalance_angle)
 
 
 def needed_resultants(scene: Scene) -> dict[float, complex]:
@@ -41,8 +35,8 @@ def needed_resultants(scene: Scene) -> dict[float, complex]:
     """
     own = -cmath.rect(scene.imbalance, scene.imbalance_angle)
     planes = {race.plane_offset: 0.0 for race in scene.races if race.ball_masses}
-    if not scene.support.couples or not planes:
-        return dict.fromkeys(planes, own)
+    if not planes:
+        return {}
     couple = -cmath.rect(scene.couple, scene.couple_angle)
     for race in scene.races:
         if race.ball_masses:
@@ -64,14 +58,14 @@ def needed_resultants(scene: Scene) -> dict[float, complex]:
 def still_axis(scene: Scene) -> bool:
     """Whether balls can leave nothing at all of imbalance and couple: force and couple vanish together."""
     planes = {race.plane_offset for race in scene.races if race.ball_masses}
-    if not scene.support.couples or len(planes) > 1:
+    if len(planes) > 1:
         return True
     U = cmath.rect(scene.imbalance, scene.imbalance_angle)
     W = cmath.rect(scene.couple, scene.couple_angle)
     if not planes:
         return not (U or W)
-    moment = U * next(iter(planes))
-    return abs(W - moment) <= SAME * (abs(W) + abs(moment))
+    couple = U * next(iter(planes))
+    return abs(W - couple) <= SAME * (abs(W) + abs(couple))
 
 
 def _forward(support: Support, speed: float) -> Complex:
@@ -85,39 +79,3 @@ def _forward(support: Support, speed: float) -> Complex:
             "to rest, they swing twice per turn about a place that is not computed"
         )
     return np.asarray(straight - 1j * crossed, dtype=complex)
-
-
-def two_ball_angles(imbalance: float, ball_moment: float, imbalance_angle: float = 0.0) -> tuple[float, float]:
-    """θ = arg V ∓ arccos(|V|/2mR_p) [rad] of two equal balls of moment m R_p [kg m], so cos(θ − φ) = −m₀e/(2mR_p).
-
-    Raises RangeError when the balls cannot carry the imbalance.
-
-    >>> [round(math.degrees(a), 6) for a in two_ball_angles(1.0, 1.0, math.radians(45))]
-    [165.0, 285.0]
-    """
-    if not (ball_moment > 0 and 0 <= imbalance <= 2 * ball_moment):
-        raise RangeError(
-            "two balls cannot carry this imbalance",
-            found=f"{imbalance:g} kg m",
-            allowed=f"0 … {2 * ball_moment:g} kg m",
-            remedy="heavier balls, more balls or a larger race",
-        )
-    opposite = imbalance_angle + math.pi
-    half = math.acos(imbalance / (2 * ball_moment))
-    return opposite - half, opposite + half
-
-
-def resting_amplitude(
-    imbalance: float, balls_moment: float, speed: float, total_mass: float, natural_frequency: float
-) -> float:
-    """|w| = |m₀e + b| Ω²/(M |ω² − Ω²|) [m]: axis amplitude with all balls in one place, undamped isotropic support.
-
-    b [kg m] is +n m R_p where they rest on the heavy side (below resonance) and −n m R_p on the light one (above it,
-    when they carry too little); M [kg] with the balls, ω = √(k/M). Raises InputError at resonance.
-
-    >>> round(resting_amplitude(0.1, 0.2, 1.0, 2.0, 2.0), 12)
-    0.05
-    """
-    if speed == natural_frequency:
-        raise InputError("no steady amplitude at resonance without damping", found=f"{speed:g} rad/s")
-    return abs(imbalance + balls_moment) * speed**2 / (total_mass * abs(natural_frequency**2 - speed**2))

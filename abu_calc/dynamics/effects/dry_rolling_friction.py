@@ -20,7 +20,7 @@ from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.supports.receptance import reference_moment, unbalanced_amplitude, weighing_amplitude
+from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.formulas.friction_band import friction_band
@@ -140,5 +140,5 @@ class DryRollingFriction(Effect):
         radius = max(race.pitch_radius for race in scene.races)
         band = friction_band(self.lever_arm, radius, self.ball_radius, (-place, place))
         # However far friction lets them stand apart from their places, the axis moves about as much as without balls.
-        most = unbalanced_amplitude(scene, reference_moment(scene))
+        most = unbalanced_amplitude(scene, reference_imbalance(scene))
         return Weight(min(band, most) / weighing_amplitude(scene), why)

@@ -28,7 +28,7 @@ from abu_calc.dynamics.circumstances import Circumstances
 from abu_calc.dynamics.effect import Effect, Kind, Laws, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.supports.receptance import receptance, reference_moment, weighing_amplitude
+from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance, weighing_amplitude
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
@@ -209,11 +209,11 @@ class GrindingContact(Effect):
         last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
         if self.contact == "face" or not late.any() or self.normal_forces(equations, last).min() > 0:
             return ()
-        told = "wheel and work {}: press harder, or run the wheel truer"
+        text = "wheel and work {}: press harder, or run the wheel truer"
         if self.contact == "rigid":
-            return (told.format("would part if they could"),)
+            return (text.format("would part if they could"),)
         doubt = "; nothing damps their contact, so how far they bounce may depend on the start"
-        return (told.format("part again and again") + doubt,)
+        return (text.format("part again and again") + doubt,)
 
     def weight(self, scene: Circumstances) -> Weight:
         """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
@@ -227,8 +227,8 @@ class GrindingContact(Effect):
             return Weight(None, self._braking) if braked else Weight(0.0, "presses along the spindle alone")
         h = receptance(scene.support, scene.speed)
         wheel = np.vstack([np.eye(2), self.plane_offset * np.eye(2)])[: len(h)]
-        moment = reference_moment(scene) * scene.speed**2 * np.exp(1j * scene.imbalance_angle)
-        free = (wheel[:, 1] @ h)[:2] @ (moment * np.array((1, -1j)))
+        pull = reference_imbalance(scene) * scene.speed**2 * np.exp(1j * scene.imbalance_angle)
+        free = (wheel[:, 1] @ h)[:2] @ (pull * np.array((1, -1j)))
         answer = h[:2] @ (wheel @ np.array((self.drag, 1.0)))
         seen = wheel[:, 1] @ h @ (wheel @ np.array((self.drag, 1.0)))
         give = 1 / self.contact_stiffness if self.contact == "compliant" else 0.0

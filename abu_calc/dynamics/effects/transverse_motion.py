@@ -177,7 +177,7 @@ class TransverseMotion(Effect):
         if not self.axial_runout:
             return Weight(0.0, "no axial runout: the balls stay in the middle of the groove")
         lost = [self._way(scene, race) ** 2 / (2 * self.bend) * sum(race.ball_masses) for race in scene.races]
-        if not all(math.isfinite(moment) for moment in lost):
+        if not all(math.isfinite(imbalance) for imbalance in lost):
             return Weight(None, f"{why}; the axial runout meets their resonance")
         return Weight(unbalanced_amplitude(scene, sum(lost)) / weighing_amplitude(scene), why)
 

@@ -38,7 +38,7 @@ class LinearGeometry(Geometry):
     """The frame's motion per unit of each coordinate, P, and what turns with the rotor and pulls at the frame."""
 
     race_map: Array
-    turning_moments: Array
+    turning_imbalances: Array
     """d: m₀e twice, for x and y, and χ(J_t − J_p) likewise."""
     turning_places: Array
     """The angles of whose cosines these are the components."""
@@ -49,8 +49,8 @@ class LinearGeometry(Geometry):
         The second of these is the couple imbalance, a polar axis of inertia that leans by χ.
         """
         place = self.turning_places + m.turn
-        force = self.turning_moments * (m.speed * m.speed * m.xp.cos(place))
-        return p.rotor.unbalanced(m, force, None, lambda: -self.turning_moments * m.xp.sin(place), lambda: 0.0)
+        force = self.turning_imbalances * (m.speed * m.speed * m.xp.cos(place))
+        return p.rotor.unbalanced(m, force, None, lambda: -self.turning_imbalances * m.xp.sin(place), lambda: 0.0)
 
     def rates(self, m: Motion, p: Parameters) -> Array:
         """How fast the frame moves."""

@@ -28,20 +28,20 @@ def unbalanced_amplitude(scene: Circumstances, imbalance: float | None = None) -
     motion = scene.support.small_motion(scene.speed)
     if motion.left_of_stiffness(scene.speed) < RESONANCE:
         raise undamped_resonance(scene.speed)
-    moments = [scene.imbalance * np.exp(1j * scene.imbalance_angle), scene.couple * np.exp(1j * scene.couple_angle)]
+    imbalances = [scene.imbalance * np.exp(1j * scene.imbalance_angle), scene.couple * np.exp(1j * scene.couple_angle)]
     if imbalance is not None:
-        moments = [complex(imbalance), 0j]
+        imbalances = [complex(imbalance), 0j]
     h = motion.receptance(scene.speed)
-    forces = np.concatenate([moment * np.array((1, -1j)) for moment in moments])[: len(h)]
+    forces = np.concatenate([each * np.array((1, -1j)) for each in imbalances])[: len(h)]
     X, Y, *_ = (h @ forces * scene.speed**2).tolist()
     return float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
 
 
-def reference_moment(scene: Circumstances) -> float:
+def reference_imbalance(scene: Circumstances) -> float:
     """max(m₀e, 1 % of Σ m R_p) [kg m]: what a residual imbalance is small against."""
     return max(scene.imbalance, 0.01 * scene.static_moment)
 
 
 def weighing_amplitude(scene: Circumstances) -> float:
     """1 % of A₀ [m], the least that errors of an amplitude are measured in."""
-    return 0.01 * unbalanced_amplitude(scene, reference_moment(scene))
+    return 0.01 * unbalanced_amplitude(scene, reference_imbalance(scene))

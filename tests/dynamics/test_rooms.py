@@ -1,0 +1,331 @@
+"""The rooms of dynamics: arrows run one way, no circle of files, and a new effect or support needs no other file."""
+
+import ast
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any, ClassVar, Self, get_args
+
+import numpy as np
+import pytest
+
+import abu_calc.dynamics
+from abu_calc.analysis.response import evaluate, needed_times
+from abu_calc.dynamics.effect import Effect, Kind, Weight
+from abu_calc.dynamics.effects.ball_contact import BallContact
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
+from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.equations.right_hand_side import motion_of
+from abu_calc.dynamics.integrators import heyoka_, scipy_
+from abu_calc.dynamics.motion import Levers, Loads, Motion
+from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
+from abu_calc.dynamics.race import Balls, Race
+from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
+from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.switching.modes import starting
+from abu_calc.errors import InputError
+from abu_calc.scenes.from_scene import SUPPORTS as KINDS
+from abu_calc.spec.scene import NEEDED, REFUSED, SceneTable
+from tests.dynamics.energy import mass_matrix
+from tests.dynamics.scenes import SUPPORTS, dimensionless, scene_on, with_effects
+
+DYNAMICS = Path(abu_calc.dynamics.__file__).parent
+PACKAGE = DYNAMICS.parent
+ROOMS = ("", "supports", "equations", "switching", "effects", "tracing", "integrators", "slow", "balanced")
+"""Of dynamics, in order; the first are its own files."""
+BELOW = {"errors", "units", "validity", "standards", "formulas"}
+
+
+def imports(path: Path) -> set[str]:
+    """Modules of the package that a file imports, for types alone too."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("abu_calc."):
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                found.add(inner if file_of(inner) else node.module)
+    return found
+
+
+def file_of(module: str) -> Path | None:
+    """Where a module stands, if it is one."""
+    path = PACKAGE.joinpath(*module.split(".")[1:])
+    return next((one for one in (path.with_suffix(".py"), path / "__init__.py") if one.is_file()), None)
+
+
+def room_of(path: Path) -> str:
+    """Of a file of dynamics."""
+    return path.relative_to(DYNAMICS).parts[0] if path.parent != DYNAMICS else ""
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_imports_only_rooms_before_it(room):
+    for path in DYNAMICS.rglob("*.py"):
+        if room_of(path) == room:
+            files = {module: file_of(module) for module in imports(path)}
+            within = {room_of(file) for file in files.values() if file and DYNAMICS in file.parents}
+            assert within <= set(ROOMS[: ROOMS.index(room) + 1]), path
+            assert {module.split(".")[1] for module in files} <= BELOW | {"dynamics"}, path
+
+
+def test_no_file_of_dynamics_or_scenes_is_in_a_circle():
+    files = [*DYNAMICS.rglob("*.py"), *(PACKAGE / "scenes").rglob("*.py")]
+    left = {path: {file_of(module) for module in imports(path)} & set(files) for path in files}
+    while free := [path for path, needed in left.items() if not needed]:
+        left = {path: needed - set(free) for path, needed in left.items() if path not in free}
+    assert not left
+
+
+def test_nobody_asks_which_kind_a_support_is():
+    """Outside supports/ at most three files of the package know of any difference."""
+    asks = ("isinstance(support", "isinstance(scene.support", "support.turns", "support.couples")
+    asking = [
+        path
+        for path in PACKAGE.rglob("*.py")
+        if "supports" not in path.parts and any(one in path.read_text(encoding="utf-8") for one in asks)
+    ]
+    assert len(asking) <= 3, asking
+
+
+def test_effects_are_asked_for_by_name_nowhere_in_dynamics():
+    for path in DYNAMICS.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert '.effect("' not in text and "getattr(scene" not in text, path
+
+
+def test_effects_do_not_know_each_other():
+    for path in (DYNAMICS / "effects").glob("*.py"):
+        if path.name not in ("registry.py", "__init__.py"):
+            assert not any(module.startswith("abu_calc.dynamics.effects") for module in imports(path)), path
+
+
+# Slots of the loads
+
+
+def test_forces_add_and_owned_slots_have_one_owner():
+    loads = Loads()
+    loads.add(pull=1.0, frame=2.0)
+    loads.add(pull=0.5)
+    assert (loads.pull, loads.press, loads.frame) == (1.5, None, 2.0)
+    for slot in ("grip", "free", "hold", "mates", "leads", "across", "bound"):
+        loads.own(**{slot: np.zeros(2)})
+        with pytest.raises(InputError, match=slot):
+            loads.own(**{slot: np.zeros(2)})
+
+
+@pytest.mark.parametrize(
+    "effect", [TransverseMotion(0.7, 0.1), DryRollingFriction(0.02, 0.1), DryRollingFriction(0.01, 0.2)], ids=str
+)
+def test_two_effects_that_want_one_slot_are_refused(effect):
+    equations = assemble(scene_on("planar", effect, replace(effect, ball_radius=0.11)))
+    with pytest.raises(InputError, match="two effects"):
+        equations.rhs(np, 0.0, np.array(equations.initial), equations.acting)
+
+
+def test_effects_set_no_slot_past_the_contract():
+    """`act` adds, or owns; it never assigns to the loads."""
+    slots = {field.name for field in fields(Loads)}
+    for path in (DYNAMICS / "effects").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+                assert not (ast.unparse(node.value) == "loads" and node.attr in slots), path
+
+
+# What effects tell of themselves
+
+
+def test_what_a_scene_tells_is_what_its_effects_tell():
+    scene = scene_on("planar")
+    assert (scene.rotor, scene.start_speed, scene.run_down, scene.holding) == (STEADY, scene.speed, 0.0, None)
+    scene = scene_on("planar", BallContact(0.1, 0.5), DryRollingFriction(0.02, 0.1))
+    assert scene.balls_meet and scene.holding.friction == pytest.approx(0.2)
+    scene = scene_on("planar", TransverseMotion(0.7, 0.1))
+    assert scene.ball_states == ("across", "across'")
+
+
+# A new effect
+
+
+@dataclass(frozen=True)
+class Wind(Effect):
+    """A toy: a steady force on the axis along x, and a pull of its own on each ball; `force` [N], `pull` [m/s²]."""
+
+    force: float
+    pull: float
+
+    name: ClassVar[str] = "wind"
+    kind: ClassVar[Kind] = "conservative"
+
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """Along x."""
+        loads.add(frame=np.eye(len(p.frame.mass))[0] * self.force, pull=-self.pull * m.sin, press=self.pull * m.cos)
+
+    def weight(self, scene: Any) -> Weight:
+        """Unknown."""
+        return Weight(None, "it blows")
+
+
+def test_a_new_effect_is_one_class():
+    """Integrated by both libraries beside another effect, without a change anywhere."""
+    wind = Wind(0.05, 0.02)
+    scene = with_effects(dimensionless(2.0, 0.05, 0.02, 0.1, 0.1, (1.6, -1.4), 40.0), wind, Gravity(0.01))
+    equations, times = assemble(scene), np.linspace(0, 40, 5)
+    one, other = (library.integrate(equations, 1e-9, times).y for library in (scipy_, heyoka_))
+    np.testing.assert_allclose(one, other, atol=1e-5)
+    alone, half = replace(scene, races=(), duration=400.0), scene.revolution / 2
+    ends = scipy_.integrate(assemble(alone), 1e-8, [400.0 - half, 400.0]).y[0]
+    assert ends.mean() == pytest.approx(0.05, abs=1e-6)
+
+
+# A new support
+
+
+@dataclass(frozen=True)
+class RailGeometry(Geometry):
+    """The frame moves along one line, at an angle to x."""
+
+    cos: Any
+    sin: Any
+
+    def levers(self, m: Motion, p: Parameters) -> Levers:
+        """Of one acceleration."""
+        along, outward = m.cos * self.sin - m.sin * self.cos, m.cos * self.cos + m.sin * self.sin
+        return p.rotor.carry(m, Levers(along[None, :], outward[None, :], p.frame.whole))
+
+    def imbalance(self, m: Motion, p: Parameters) -> tuple[Any, Any]:
+        """Its part along the rail."""
+        place = m.turn + p.imbalance_angle
+        towards = self.cos * m.xp.cos(place) + self.sin * m.xp.sin(place)
+        across = self.sin * m.xp.cos(place) - self.cos * m.xp.sin(place)
+        force = np.array([p.imbalance * (m.speed * m.speed * towards)])
+        return p.rotor.unbalanced(m, force, None, lambda: np.array([p.imbalance * across]), lambda: 0.0)
+
+
+@dataclass(frozen=True)
+class Rail(Support):
+    """A toy: a rotor of a mass [kg] that slides along one line at an angle [rad], on a spring and a damper."""
+
+    mass: float
+    stiffness: float
+    damping: float
+    angle: float
+    names: tuple[str, ...] = ("way",)
+
+    @property
+    def unit(self) -> Any:
+        """2 × 1."""
+        return np.array([[math.cos(self.angle)], [math.sin(self.angle)]])
+
+    def frame(self, balls: Balls) -> Frame:
+        mass = np.array([[self.mass]])
+        return Frame(mass, np.array([[-self.stiffness, -self.damping]]), whole=mass + balls.masses.sum())
+
+    def geometry(self, unbalance: Unbalance) -> Geometry:
+        return RailGeometry(math.cos(self.angle), math.sin(self.angle))
+
+    @property
+    def felt_mass(self) -> float:
+        return self.mass
+
+    def shares(self, races: Sequence[Race]) -> list[float]:
+        return [1.0]
+
+    def small_motion(self, speed: float) -> SmallMotion:
+        return SmallMotion(np.array([[self.mass]]), np.array([[self.damping]]), np.array([[self.stiffness]]), self.unit)
+
+    def holding(self, balls: Balls) -> Self:
+        return replace(self, mass=self.mass + float(balls.masses.sum()))
+
+    def resonances(self, balls: Balls) -> list[float]:
+        return [math.sqrt(self.stiffness / self.holding(balls).mass)]
+
+    def resting_position(self, force: tuple[float, float] = (0.0, 0.0)) -> tuple[float, ...]:
+        return (float(self.unit[:, 0] @ force) / self.stiffness,)
+
+    def axis(self, q: Any, plane: float = 0.0) -> Any:
+        return self.unit @ q
+
+    def axis_velocity(self, q: Any, rates: Any) -> Any:
+        return self.unit @ rates
+
+    @property
+    def description(self) -> str:
+        return "Rotor on a rail"
+
+    def model(self) -> dict[str, Any]:
+        return {"mass_kg": self.mass, "angle_rad": self.angle}
+
+
+def on_rail(*effects: Effect) -> Scene:
+    scene = dimensionless(3.0, 0.02, 0.02, 0.1, 0.2, (1.0, 2.5), 300.0)
+    rail = Rail(1.0, 1.0, 0.2, 0.4)
+    return replace(scene, support=rail, start_position=(0.0,), start_velocity=(0.0,), effects=effects)
+
+
+def test_a_new_support_is_one_class():
+    """Integrated, traced, evaluated: balls balance it above its resonance, and without them it moves as it must."""
+    scene = on_rail()
+    equations, times = assemble(scene), needed_times(scene)
+    found = evaluate(scene, scipy_.integrate(equations, 1e-7, times))
+    assert found.axis_amplitude < 1e-3 * found.unbalanced_amplitude
+    assert found.unbalanced_amplitude == pytest.approx(0.02 * 9 / abs(complex(1 - 9, 0.6)))
+    other = heyoka_.integrate(equations, 1e-9, times[-1:]).y[:, -1]
+    np.testing.assert_allclose(scipy_.integrate(equations, 1e-9, times[-1:]).y[:, -1], other, atol=1e-5)
+
+
+def test_a_new_support_takes_effects_and_drives():
+    scene = on_rail(Gravity(0.01), DryRollingFriction(0.0002, 0.1))
+    state, modes = starting(assemble(scene))
+    assert np.isfinite(assemble(scene).rhs(np, 0.0, state, assemble(scene).in_mode(modes))).all()
+    with pytest.raises(InputError, match="tilts"):
+        replace(scene, couple=0.1)
+    with pytest.raises(InputError, match="no work"):
+        scene.support.plane(0.0)
+
+
+def test_a_kind_of_support_stands_in_three_lists():
+    """What people write, what it needs, and what makes it."""
+    kinds = set(get_args(SceneTable.model_fields["support"].annotation))
+    assert kinds == set(NEEDED) == set(REFUSED) == set(KINDS)
+
+
+# The balls' mass on an arm
+
+
+def test_balls_on_an_arm_weigh_by_how_their_angles_are_counted():
+    """In angles relative to the rotor, which turns with the arm, m (l² + R²) on the mean; in angles in space m l².
+
+    Both from the mass matrix of the second derivation: (φ, θ) to (φ, γ = θ + φ + Ωt).
+    """
+    arm = SwingArm(1.3, 9.0, 5.0, 0.3)
+    scene = replace(scene_on("planar"), support=arm, start_position=(0.0,), start_velocity=(0.0,), imbalance=0.0)
+    scene = replace(scene, races=tuple(replace(race, inertia_factor=1.0) for race in scene.races))
+    balls, held, free = scene.balls, [], []
+    to_space = np.eye(6)
+    to_space[1:, 0] = -1.0
+    for turn in np.linspace(0, 2 * np.pi, 8, endpoint=False):
+        y = np.concatenate([[0.2, 0.0], np.array(scene.start_angles) + turn, np.zeros(5)])
+        matrix = mass_matrix(scene, 0.0, y)
+        held.append(matrix[0, 0])
+        free.append((to_space.T @ matrix @ to_space)[0, 0])
+    assert np.mean(held) == pytest.approx(arm.holding(balls).inertia, rel=1e-12)
+    np.testing.assert_allclose(free, arm.small_motion(1.0).carrying(balls).mass[0, 0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("rotor", [STEADY, GUIDED, DRIVEN], ids=lambda rotor: type(rotor).__name__)
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_turn_and_speed_of_a_state(support, rotor):
+    """What carries the rotor adds its own."""
+    scene = scene_on(support)
+    p = replace(assemble(scene).parameters, rotor=rotor)
+    y = np.arange(2 * p.size + 2 * p.balls + 2) / 7.0
+    motion = motion_of(np, 0.7, y, p)
+    turn, speed = (0.7 * scene.speed, scene.speed) if rotor is STEADY else (y[-2], y[-1])
+    carried = (y[0], y[1]) if support == "swing arm" else (0.0, 0.0)
+    assert (motion.turn, motion.speed) == pytest.approx((turn + carried[0], speed + carried[1]))
+    assert motion.own_speed == pytest.approx(speed)
