@@ -1,6 +1,7 @@
 """Errors fall with the tolerance, and with the step, as the order of each method says: by regression."""
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice, scipy_
+from abu_calc.dynamics.scene import Scene
 from tests.dynamics.scenes import coupled_scene, dimensionless, scene_on, straight_grinder
 
 SHORT = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 20.0)
@@ -33,6 +35,8 @@ REFERENCE = 2e-13
 MOMENTS = 201
 LEAST = 100 * REFERENCE
 """Errors below are those of the reference."""
+COSTLY = {"scipy-radau": 5, "scipy-bdf": 5}
+"""How many of the tolerances these go through in every run, for the time they take; `-m slow` goes through all."""
 
 
 def slope(xs: np.ndarray, ys: np.ndarray) -> float:
@@ -40,24 +44,31 @@ def slope(xs: np.ndarray, ys: np.ndarray) -> float:
     return float(np.polyfit(np.log(xs), np.log(ys), 1)[0])
 
 
-def by_tolerance(scene, name: str) -> tuple[float, int]:
+@lru_cache
+def reference(scene: Scene) -> np.ndarray:
+    """All states at the moments."""
+    moments = np.linspace(0, scene.duration, MOMENTS)
+    return choice.integrate_with("scipy-dop853", assemble(scene), REFERENCE, moments, 10**7).y
+
+
+def by_tolerance(scene, name: str, count: int = len(TOLERANCES)) -> tuple[float, int]:
     """How errors of all states over the whole run, in their scales, fall with the tolerance; and the events."""
     equations, moments = assemble(scene), np.linspace(0, scene.duration, MOMENTS)
     if name not in choice.available(equations):
         pytest.skip(f"{name} is not installed")
-    runs = [choice.integrate_with(name, equations, tolerance, moments, 10**6) for tolerance in TOLERANCES.tolist()]
-    true = choice.integrate_with("scipy-dop853", equations, REFERENCE, moments, 10**7)
+    asked = TOLERANCES[:count]
+    runs = [choice.integrate_with(name, equations, tolerance, moments, 10**6) for tolerance in asked.tolist()]
     scales = np.array(equations.scales)[:, None]
-    errors = np.array([float((np.abs(run.y - true.y) / scales).max()) for run in runs])
+    errors = np.array([float((np.abs(run.y - reference(scene)) / scales).max()) for run in runs])
     known = errors > LEAST
     assert known.sum() >= 5
-    return slope(TOLERANCES[known], errors[known]), runs[-1].events
+    return slope(asked[known], errors[known]), runs[-1].events
 
 
 @pytest.mark.parametrize("name", INTEGRATORS)
 @pytest.mark.parametrize("scene", SMOOTH)
 def test_errors_are_proportional_to_the_tolerance(scene, name):
-    found, _ = by_tolerance(SMOOTH[scene], name)
+    found, _ = by_tolerance(SMOOTH[scene], name, COSTLY.get(name, len(TOLERANCES)))
     assert 0.7 < found < 1.3
 
 
@@ -65,8 +76,17 @@ def test_errors_are_proportional_to_the_tolerance(scene, name):
 @pytest.mark.parametrize("scene", SWITCHING)
 def test_switches_leave_them_so(scene, name):
     """Events located in time cost no order."""
-    found, events = by_tolerance(SWITCHING[scene], name)
+    found, events = by_tolerance(SWITCHING[scene], name, COSTLY.get(name, len(TOLERANCES)))
     assert events > 0
+    assert 0.7 < found < 1.3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", COSTLY)
+@pytest.mark.parametrize("scene", SMOOTH | SWITCHING)
+def test_implicit_methods_go_on_so_to_the_tightest(scene, name):
+    found, events = by_tolerance((SMOOTH | SWITCHING)[scene], name)
+    assert (events > 0) is (scene in SWITCHING)
     assert 0.7 < found < 1.3
 
 

@@ -11,6 +11,7 @@ import jsonschema
 import pytest
 from hypothesis import given, settings
 
+from abu_calc.analysis import machine
 from abu_calc.cli import app
 from tests.cli.runner import abu
 from tests.sizing.machines import BASE
@@ -276,7 +277,7 @@ def test_verify_knows_tolerances(tmp_path: Path) -> None:
 
 # What must hold whatever happens
 @given(machines())
-@settings(max_examples=5, deadline=None, derandomize=True)
+@settings(max_examples=8, deadline=None, derandomize=True)
 def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
     """Random machines through the whole command, simulation included."""
     tables = {name: dict(table) for name, table in BASE.items()}
@@ -284,7 +285,9 @@ def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
         table, _, key = path.partition("__")
         tables.setdefault(table, {}).update({key: value} if key else value)
     options = [f"{table}.{key}={json.dumps(value)}" for table, keys in tables.items() for key, value in keys.items()]
-    seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(machine, "WORK", 20_000)  # what takes more is a check not done, an answer too
+        seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
     document = seen.document
     assert seen.status in (0, 1, 2, 3) and "bug" not in seen.err
     if seen.status in (0, 1):

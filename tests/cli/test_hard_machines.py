@@ -4,10 +4,17 @@ import importlib.util
 
 import pytest
 
+from abu_calc.analysis import machine
 from abu_calc.analysis.idle import WORK
 from tests.cli.runner import abu
 
 STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
+
+
+@pytest.fixture(params=[20_000, pytest.param(WORK, marks=pytest.mark.slow)])
+def work(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bound that ends sooner what would use up all of it; the real one takes minutes."""
+    monkeypatch.setattr(machine, "WORK", request.param)
 
 
 def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
@@ -16,12 +23,12 @@ def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
     document = seen.document
     for run in document["result"]["simulation"]:
         # The last of two runs may start just before the bound and is stopped at it.
-        assert run["cost"]["evaluations"] <= WORK + 20
+        assert run["cost"]["evaluations"] <= machine.WORK + 20
     return seen.status, {check["code"]: check for check in document["checks"]}, document["result"]
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.1, 0.25, 0.9])
-@pytest.mark.parametrize("drag", [15, 45, 92])
+@pytest.mark.parametrize("drag", [15, pytest.param(45, marks=pytest.mark.slow), 92])
 def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: float) -> None:
     """The suspension's own sway may outlast the balls; they balance all the same, but for what race eccentricity keeps.
 
@@ -37,7 +44,7 @@ def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: f
     assert idle["scene"] == "idle" and idle["residual_imbalance_g_mm"] == pytest.approx(64, abs=5)
 
 
-@pytest.mark.parametrize("drag", [15, 45, 92])
+@pytest.mark.parametrize("drag", [*(pytest.param(drag, marks=pytest.mark.slow) for drag in (15, 45)), 92])
 def test_bounces_at_the_start_are_gone_through_without_heyoka(drag: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its tolerances must be tighter there, and its work still suffices."""
     found = importlib.util.find_spec
@@ -49,6 +56,7 @@ def test_bounces_at_the_start_are_gone_through_without_heyoka(drag: float, monke
 
 
 @pytest.mark.parametrize("drag", [0, 1, 1e5])
+@pytest.mark.usefixtures("work")
 def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> None:
     status, checks, result = _checks(STRAIGHT, f"autobalancer.rolling_drag_per_s={drag}")
     assert status == 1 and result["autobalancer"]["ball_count"] == 4
@@ -56,12 +64,14 @@ def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> 
     assert unsettled and all(check["status"] in ("not-done", "fail") and check["remedy"] for check in unsettled)
 
 
+@pytest.mark.usefixtures("work")
 def test_zero_imbalance_has_finite_numbers() -> None:
     _, checks, result = _checks(STRAIGHT, "wheel.imbalance_g_mm=0", "autobalancer.ball_count=2")
     assert result["imbalance_g_mm"] == 0
     assert all(check["value"] is None or abs(check["value"]) < 1e9 for check in checks.values())
 
 
+@pytest.mark.usefixtures("work")
 def test_a_race_beyond_the_node_needs_balls_on_the_other_side() -> None:
     entries = ("machine.transverse_inertia_kg_m2=0.01", "machine.center_of_mass_to_wheel_mm=200")
     _, checks, result = _checks(STRAIGHT, *entries, "autobalancer.plane_offset_mm=-300")
@@ -69,6 +79,7 @@ def test_a_race_beyond_the_node_needs_balls_on_the_other_side() -> None:
     assert checks["ABU205"]["value"] > 0
 
 
+@pytest.mark.usefixtures("work")
 def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
     pins = ("ball_count=8", "ball_diameter_mm=16.0", "race_radius_mm=30.0")
     _, checks, result = _checks(STRAIGHT, *(f"autobalancer.{pin}" for pin in pins))
@@ -104,6 +115,7 @@ def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
     ],
     ids=lambda entries: " ".join(entries)[:60],
 )
+@pytest.mark.usefixtures("work")
 def test_edges_are_answered(entries: tuple[str, ...]) -> None:
     status, checks, _ = _checks(STRAIGHT, *entries)
     assert (status == 0) is all(check["status"] == "pass" for check in checks.values())

@@ -59,7 +59,7 @@ def power(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> float
     total = resisting(scene, t, y) @ v
     total += sum(effect.power(motion, mode, own, solved, p) for effect, mode, own in with_states(y, acting))
     if not scene.rotor.rows:
-        total += demanded(scene, t, y, modes)[-1] * v[-1]
+        total += demanded(scene, t, y, modes, slice(-1, None))[0] * v[-1]
     return float(total)
 
 
@@ -82,10 +82,11 @@ def resisting(scene: Scene, t: float, y: Array) -> Array:
     return force
 
 
-def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> Array:
+def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None, rows: slice = slice(None)) -> Array:
     """d/dt ∂L/∂v − ∂L/∂x, L = T − V, with the accelerations of `equations`: what forces of no energy must supply.
 
-    In all coordinates, the turn's included, whoever drives it. Derivatives by the complex step, exact to rounding.
+    In all coordinates, the turn's included, whoever drives it, or in some rows alone. Derivatives by the complex step,
+    exact to rounding.
     """
     bodies, acting = Bodies(scene), _acting(scene, modes)
     x, v = bodies.split(t, y)
@@ -93,13 +94,13 @@ def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> Ar
     across = [solved.across] if bodies.across else []
     a = np.concatenate([solved.support, solved.balls / motion.radii, *across, [solved.rotor]])
     moved, sped = x + 1j * STEP * v, v + 1j * STEP * a
-    slope = np.empty(len(x))
-    for j in range(len(x)):
+    slope = []
+    for j in range(len(x))[rows]:
         aside = x.astype(complex)
         aside[j] += 1j * STEP
         L = v @ bodies.mass(aside) @ v / 2 - _potential(bodies, aside, v, acting)
-        slope[j] = L.imag / STEP
-    found: Array = (bodies.mass(moved) @ sped).imag / STEP - slope
+        slope.append(L.imag / STEP)
+    found: Array = (bodies.mass(moved) @ sped).imag[rows] / STEP - np.array(slope)
     return found
 
 

@@ -85,8 +85,19 @@ def _numbers(value: Any) -> list[float]:
 
 
 @given(machines())
-@RANDOM
+@settings(RANDOM, max_examples=25)
 def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
+    _check_sized(changes)
+
+
+@pytest.mark.slow
+@given(machines())
+@settings(RANDOM, max_examples=200)
+def test_any_of_many_machines_is_sized_or_refused(changes: dict[str, Any]) -> None:
+    _check_sized(changes)
+
+
+def _check_sized(changes: dict[str, Any]) -> None:
     design = _sized(changes)
     assume(design is not None)
     assert design is not None
