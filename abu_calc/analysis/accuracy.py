@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Final
 
-from abu_calc.analysis.differences import QUANTITIES, Told
+from abu_calc.analysis.differences import QUANTITIES, Measures
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
@@ -18,6 +18,7 @@ from abu_calc.dynamics.integrators.run import EVENT, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
+from abu_calc.progress import Progress
 
 TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
 ENVELOPE_TOLERANCES: Final = (1e-3, 1e-4, 1e-6)
@@ -81,13 +82,13 @@ class Study:
 
 @dataclass(frozen=True)
 class Method:
-    """One way to compute, named: `run` is what is timed, `tell` reads what it says, evaluations and steps."""
+    """One way to compute, named: `run` is what is timed, `read` finds in that the measures, evaluations and steps."""
 
     rung: str
     integrator: str | None
     tolerance: float | None
     run: Callable[[], Any]
-    tell: Callable[[Any], tuple[Told, int, int]]
+    read: Callable[[Any], tuple[Measures, int, int]]
 
     @property
     def name(self) -> str:
@@ -96,9 +97,7 @@ class Method:
         return " ".join(part for part in parts if part)
 
 
-def study(
-    full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: float, progress: Callable[[str], None]
-) -> Study:
+def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: float, progress: Progress) -> Study:
     """Measure within `budget` seconds; what no longer fits is skipped, and named.
 
     Raises NotTrustworthyError when two methods do not agree on the reference better than the accuracy, and InputError
@@ -137,9 +136,9 @@ def cheapest(points: list[Point], accuracy: float, reference: Reference) -> Poin
 def methods(full: Scene, scene: Scene) -> Iterator[Method]:
     """All ways to compute, cheap ones first; closed forms and envelope leave out what they cannot average."""
     smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
-    yield Method("closed-form", None, None, lambda: closed_form(smooth), _told)
+    yield Method("closed-form", None, None, lambda: closed_form(smooth), _estimated)
     for tolerance in ENVELOPE_TOLERANCES:
-        yield Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _told)
+        yield Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _estimated)
     quick: list[str] = [name for name in QUICK if name in choice.available(assemble(scene))]
     for name in quick:
         for tolerance in TOLERANCES:
@@ -153,20 +152,22 @@ def methods(full: Scene, scene: Scene) -> Iterator[Method]:
             yield _integration("equations", scene, name, tolerance)
 
 
-def _told(estimate: Estimate) -> tuple[Told, int, int]:
+def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
     return estimate, estimate.evaluations, estimate.steps
 
 
 def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method:
     equations, times = assemble(scene), needed_times(scene)
 
-    def tell(trajectory: Trajectory) -> tuple[Told, int, int]:
+    def read(trajectory: Trajectory) -> tuple[Measures, int, int]:
+        """What is compared of a run, and its work."""
         return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
 
     def run() -> Trajectory:
+        """The integration alone."""
         return choice.integrate_with(name, equations, tolerance, times, MOST_EVALUATIONS)
 
-    return Method(rung, name, tolerance, run, tell)
+    return Method(rung, name, tolerance, run, read)
 
 
 def _point(full: Scene, method: Method, reference: Reference, quantity: str, end: float) -> Point:
@@ -185,8 +186,8 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
         started = time.perf_counter()
         method.run()
         warm.append(time.perf_counter() - started)
-    told, evaluations, steps = method.tell(run)
-    error = QUANTITIES[quantity](full, told, reference.response)
+    measures, evaluations, steps = method.read(run)
+    error = QUANTITIES[quantity](full, measures, reference.response)
     known = math.isfinite(error)
     return Point(
         rung=method.rung,

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.ledger import Ledger
-from abu_calc.analysis.simulate import Simulation, Tell, silent, simulate
+from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.dynamics.scene import Scene
+from abu_calc.progress import Progress, silent
 
 
 @dataclass(frozen=True)
@@ -21,13 +22,13 @@ class Audit:
 
 
 def audit(
-    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, integrator: str = "auto", tell: Tell = silent
+    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, integrator: str = "auto", progress: Progress = silent
 ) -> Audit:
     """Simulate the scene with all its effects to the same accuracy. Raises NotTrustworthyError as `simulate` does."""
     added = tuple(entry.name for entry in ledger.entries if not entry.included)
     if not added:
         return Audit(0.0, 0.0, (), 0, 0.0)
-    whole = simulate(full, accuracy, integrator=integrator, tell=tell)
+    whole = simulate(full, accuracy, integrator=integrator, progress=progress)
     return Audit(
         difference=difference(run.scene, run.response, whole.response),
         promise=ledger.promise,

@@ -11,7 +11,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import weighing_amplitude
 
 
-class Told(Protocol):
+class Measures(Protocol):
     """What of a run is compared: a response, or the estimate of a method that integrates no equations."""
 
     @property
@@ -31,26 +31,26 @@ class Told(Protocol):
         """At the end [rad]."""
 
 
-def difference(scene: Scene, coarse: Told, fine: Told) -> float:
+def difference(scene: Scene, coarse: Measures, fine: Measures) -> float:
     """The largest of the differences in amplitude, settling time and ball angles."""
     return max(measure(scene, coarse, fine) for measure in (amplitude, settling, angles))
 
 
-def amplitude(scene: Scene, coarse: Told, fine: Told) -> float:
+def amplitude(scene: Scene, coarse: Measures, fine: Measures) -> float:
     """Relative to the finer amplitude, but at least to 1 % of that without balls."""
     apart = abs(coarse.axis_amplitude - fine.axis_amplitude)
     # Nothing at all to drive the axis leaves nothing to compare with.
     return apart / max(fine.axis_amplitude, weighing_amplitude(scene)) if apart > 0 else 0.0
 
 
-def level(scene: Scene, coarse: Told, fine: Told) -> float:
+def level(scene: Scene, coarse: Measures, fine: Measures) -> float:
     """Of the velocities, likewise relative: 0.01 is 0.09 dB."""
     apart = abs(coarse.velocity_rms - fine.velocity_rms)
     least = weighing_amplitude(scene) * scene.speed / math.sqrt(2)
     return apart / max(fine.velocity_rms, least) if apart > 0 else 0.0
 
 
-def settling(scene: Scene, coarse: Told, fine: Told) -> float:
+def settling(scene: Scene, coarse: Measures, fine: Measures) -> float:
     """Relative to the finer time, but at least to one revolution; infinite where only one of them has settled."""
     a, b = coarse.settling_time, fine.settling_time
     if a is None or b is None:
@@ -58,7 +58,7 @@ def settling(scene: Scene, coarse: Told, fine: Told) -> float:
     return abs(a - b) / max(b, scene.revolution)
 
 
-def angles(scene: Scene, coarse: Told, fine: Told) -> float:
+def angles(scene: Scene, coarse: Measures, fine: Measures) -> float:
     """Largest difference on the circle [rad]; balls of one mass on one race may have changed places."""
     a, b, worst, first = np.array(coarse.ball_angles), np.array(fine.ball_angles), 0.0, 0
     for race in scene.races:
@@ -70,7 +70,7 @@ def angles(scene: Scene, coarse: Told, fine: Told) -> float:
     return worst
 
 
-QUANTITIES: Final[dict[str, Callable[[Scene, Told, Told], float]]] = {
+QUANTITIES: Final[dict[str, Callable[[Scene, Measures, Measures], float]]] = {
     "amplitude": amplitude,
     "level": level,
     "settling": settling,

@@ -5,8 +5,9 @@ from typing import Final
 
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
-from abu_calc.analysis.simulate import Simulation, Tell, silent, simulate
+from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.progress import Progress, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
 
@@ -41,14 +42,16 @@ def scenes_of(design: Design) -> tuple[str, ...]:
     return ("idle", *grinding, *(("swing-arm-idle", "swing-arm-cutting") if table.swing_arm else ()))
 
 
-def simulated(design: Design, accuracy: float, tell: Tell = silent) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:
+def simulated(
+    design: Design, accuracy: float, progress: Progress = silent
+) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:
     """All of them, each within the work that `abu size` may take."""
     runs, failures = [], []
     for name in scenes_of(design):
         unwanted = FRICTION if name == "idle" else SWITCHING
         try:
             ledger = chosen(scene_of_design(design, name), accuracy, unwanted=unwanted, why_unwanted=LEFT_OUT)
-            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, tell=tell)
+            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
             runs.append(Run(ledger, run))
         except NotTrustworthyError as error:
             failures.append(Failure(name, str(error).splitlines()[0]))

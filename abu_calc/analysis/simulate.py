@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,11 +19,9 @@ from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas import motion
+from abu_calc.progress import Progress, silent
 
 Array = NDArray[np.float64]
-
-Tell = Callable[[str], None]
-"""Gets what is being done, in a few words."""
 
 ACCURACY = motion.ACCURACY
 
@@ -68,22 +66,18 @@ class Simulation:
     offered: Offer
 
 
-def silent(_: str) -> None:
-    """For whom does not watch."""
-
-
 def simulate(
     scene: Scene,
     accuracy: float = 0.01,
     sample_times: Sequence[float] = (),
     most_evaluations: int = 50_000_000,
     integrator: str = "auto",
-    tell: Tell = silent,
+    progress: Progress = silent,
 ) -> Simulation:
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs;
-    `integrator` is auto, scipy or heyoka; either asks for the equations. `tell` gets what is being done. Raises
+    `integrator` is auto, scipy or heyoka; either asks for the equations. `progress` gets what is being done. Raises
     NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
     chaotic, or decided by less than rounding.
     """
@@ -94,19 +88,19 @@ def simulate(
         raise InputError("sample times must lie within the run", allowed=f"0 … {scene.duration:g} s")
     times, started = np.union1d(needed_times(scene), wanted), time.perf_counter()
     offered = Offer(None, "the equations were asked for")
-    tell(f"{scene.name}: averages")
+    progress(f"{scene.name}: averages")
     if integrator == "auto" and not len(wanted):
         offered = offer(scene, accuracy, times)
     if offered.trajectory is not None and offered.error is not None:
         run = offered.trajectory
         cost = _cost(run, run.evaluations, run.steps, time.perf_counter() - started, offered.why)
         return Simulation(scene, evaluate(scene, run), run, cost, offered.error, warnings, "envelope", offered)
-    return _integrated(scene, accuracy, times, most_evaluations, integrator, warnings, offered, tell)
+    return _integrated(scene, accuracy, times, most_evaluations, integrator, warnings, offered, progress)
 
 
 def _integrated(
     scene: Scene, accuracy: float, times: Array, most: int, integrator: str, warnings: tuple[str, ...],
-    offered: Offer, tell: Tell,
+    offered: Offer, progress: Progress,
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations = assemble(scene)
@@ -115,7 +109,7 @@ def _integrated(
     runs: list[Response] = []
     apart, spared = math.nan, 0
     for tolerance in tolerances(accuracy):
-        tell(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
+        progress(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
         try:
             trajectory = choice.integrate(equations, tolerance, times, most)
         except NotTrustworthyError as failure:
@@ -133,10 +127,10 @@ def _integrated(
         error = max(SAFETY * apart, FLOOR * tolerance, FALL * before if before > 0 else 0.0)
         if error <= accuracy:
             cost = _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why)
-            said = (*warnings, *_told(equations, trajectory))
+            said = (*warnings, *_remarks(equations, trajectory))
             return Simulation(scene, runs[1], trajectory, cost, error, said, "equations", offered)
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
-        other = _integrated(scene, accuracy, times, most, "heyoka", warnings, offered, tell)
+        other = _integrated(scene, accuracy, times, most, "heyoka", warnings, offered, progress)
         both = replace(other.cost, evaluations=other.cost.evaluations + evaluations, steps=other.cost.steps + steps)
         return replace(other, cost=both)
     raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)
@@ -156,7 +150,7 @@ def _apart(scene: Scene, before: Response, response: Response) -> float:
     return math.inf if any(abs(a - b) > math.pi for a, b in turns) else difference(scene, before, response)
 
 
-def _told(equations: Equations, trajectory: Trajectory) -> tuple[str, ...]:
+def _remarks(equations: Equations, trajectory: Trajectory) -> tuple[str, ...]:
     """What the effects have to say of a run."""
     return tuple(text for effect in equations.scene.effects for text in effect.remarks(equations, trajectory))
 

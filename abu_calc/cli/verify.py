@@ -14,8 +14,8 @@ from abu_calc.report.blocks import Paragraph
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.progress import Progress
     from abu_calc.spec.read import Machine
-    from abu_calc.studies.result import Progress
 
 
 def verify(

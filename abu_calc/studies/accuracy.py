@@ -8,9 +8,10 @@ from abu_calc.analysis.accuracy import study as measured
 from abu_calc.analysis.differences import QUANTITIES
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check, verdict
+from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import one_of
 from abu_calc.studies.quantity import Quantity, Record, record
-from abu_calc.studies.result import Progress, Result, silent
+from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel
 from abu_calc.studies.simulated_scene import finite
 from abu_calc.studies.subject import Source, subject_of

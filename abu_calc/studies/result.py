@@ -1,7 +1,6 @@
 """What all results share: the verdict, what to know, and what is needed to repeat them."""
 
 import datetime
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -12,16 +11,9 @@ from abu_calc.version import __version__
 if TYPE_CHECKING:
     from abu_calc.spec.document import Reading
 
-Progress = Callable[[str], None]
-"""Gets what is being done, in a few words."""
-
 
 NOTHING: Final = Record()
 """A model of results that stand on no equations."""
-
-
-def silent(_: str) -> None:
-    """For whom does not watch."""
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,11 @@ from abu_calc.analysis.audit import audit as with_all_effects
 from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
+from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import one_of
 from abu_calc.studies.motion import Motion, equally_spaced
 from abu_calc.studies.quantity import record
-from abu_calc.studies.result import Progress, Result, silent
+from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.simulated_scene import SimulatedScene
 from abu_calc.studies.subject import Source, subject_of
@@ -63,7 +64,7 @@ def simulate(
     subject = subject_of(source, scene, start).lasting(duration_s)
     times = equally_spaced(subject.scene, samples)
     ledger = subject.ledger(accuracy, with_effects, without_effects)
-    run = integrated(ledger.scene, accuracy - ledger.spared, times, integrator=integrator, tell=progress)
+    run = integrated(ledger.scene, accuracy - ledger.spared, times, integrator=integrator, progress=progress)
     audited = with_all_effects(subject.scene, ledger, run, accuracy, integrator, progress) if audit else None
     checks = (_reached(run, ledger.spared, accuracy), *((_left_out(audited, accuracy),) if audited else ()))
     return SimulateResult(

@@ -6,6 +6,7 @@ from abu_calc.analysis.idle import idle_checks, not_simulated
 from abu_calc.analysis.machine import Run, simulated
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 from abu_calc.studies.design_records import (
@@ -17,7 +18,7 @@ from abu_calc.studies.design_records import (
     Vibration,
 )
 from abu_calc.studies.quantity import Quantity, record
-from abu_calc.studies.result import Progress, Provenance, Result, silent
+from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel

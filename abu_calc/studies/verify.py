@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from abu_calc.checks import Check, verdict
 from abu_calc.errors import InputError, Place
+from abu_calc.progress import Progress, silent
 from abu_calc.spec.bearing_file import BearingFile, expected_tolerances, expected_values
 from abu_calc.studies.expected import ComparedValue, compare, current
 from abu_calc.studies.quantity import Quantity, Record, record
-from abu_calc.studies.result import Progress, Provenance, Result, silent
+from abu_calc.studies.result import Provenance, Result
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine

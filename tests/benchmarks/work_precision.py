@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from scipy import integrate
 
-from abu_calc.analysis.differences import QUANTITIES, Told
+from abu_calc.analysis.differences import QUANTITIES, Measures
 from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.rungs import averaged
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
@@ -113,10 +113,10 @@ def envelope_study(scene: Scene, name: str) -> dict[str, Any]:
     """
     moments, equations = needed_times(scene), assemble(scene)
 
-    def integrated(tolerance: float) -> Told:
+    def integrated(tolerance: float) -> Measures:
         return evaluate(scene, scipy_.integrate(equations, tolerance, moments))
 
-    def slow(tolerance: float) -> Told:
+    def slow(tolerance: float) -> Measures:
         return averaged(scene, tolerance)
 
     truth = integrated(1e-10)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from abu_calc.analysis.differences import Told, amplitude, angles, level, settling
+from abu_calc.analysis.differences import Measures, amplitude, angles, level, settling
 from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.rungs import WIDEST, Estimate, averaged, closed_form, offer
 from abu_calc.dynamics.equations.assemble import assemble
@@ -39,7 +39,7 @@ class Ladder:
     scene: Scene
     closed: Estimate
     slow: Estimate
-    full: Told
+    full: Measures
     stated: float
 
 
@@ -60,7 +60,7 @@ def smooth(name: str) -> Scene:
     return with_parted_balls(only(subject_of(read_machine(name)).scene, ["race_eccentricity"]))[0]
 
 
-def integrated(scene: Scene, tolerance: float) -> Told:
+def integrated(scene: Scene, tolerance: float) -> Measures:
     """The equations."""
     return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_times(scene)))
 
@@ -73,7 +73,7 @@ def ladder(name: str) -> Ladder:
     return Ladder(name, scene, closed_form(scene), averaged(scene, ENVELOPE), integrated(scene, REFERENCE), stated)
 
 
-def off(scene: Scene, told: Told, full: Told) -> float:
+def off(scene: Scene, told: Measures, full: Measures) -> float:
     """The largest of the errors in amplitude, level and settling time."""
     return max(measure(scene, told, full) for measure in (amplitude, level, settling))
 
