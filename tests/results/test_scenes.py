@@ -7,8 +7,12 @@ import pytest
 
 import abu_calc
 from abu_calc.analysis import accuracy as measuring
+from abu_calc.cli import scene_options
+from abu_calc.cli import stability as cli_stability
 from abu_calc.dynamics.effects.registry import REGISTRY
+from abu_calc.scenes import from_design
 from abu_calc.studies import accuracy as accuracy_module
+from abu_calc.studies import stability as stability_module
 from abu_calc.studies.effects import known_effects
 from abu_calc.studies.result import Result
 from abu_calc.studies.subject import subject_of
@@ -133,3 +137,8 @@ def test_a_wrong_argument_is_refused_by_its_name(file: Path, arguments: dict, ke
 def test_every_effect_says_itself_what_it_is() -> None:
     """Not by its docstring, which `python -OO` takes away."""
     assert all(vars(kind)["about"][0].isupper() and kind.name == name for name, kind in REGISTRY)
+
+
+def test_help_names_the_scenes_there_are() -> None:
+    """Written out in the commands, so that `--help` loads no numerics."""
+    assert tuple(from_design.SCENES) == scene_options.SCENES and cli_stability.SCENES == stability_module.SCENES
