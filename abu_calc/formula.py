@@ -50,9 +50,9 @@ class Formula:
         limits = [f"{one.name} {one}" if isinstance(one, Range) else one for one in self.checked]
         ranges = [f"{', '.join(limits)} (checked)"] if limits else []
         ranges += [f"{self.assumed} (not checked)"] if self.assumed else []
-        told = (("Range", "; ".join(ranges)), ("Source", self.source), ("Printed", self.printed))
+        labelled = (("Range", "; ".join(ranges)), ("Source", self.source), ("Printed", self.printed))
         parts = (f"{self.gives}{equation}{unit}.", *self.where.splitlines())
-        return (*parts, *(f"{name}: {text}." for name, text in told if text))
+        return (*parts, *(f"{name}: {text}." for name, text in labelled if text))
 
     @property
     def text(self) -> str:

@@ -127,8 +127,8 @@ def _integrated(
         error = max(SAFETY * apart, FLOOR * tolerance, FALL * before if before > 0 else 0.0)
         if error <= accuracy:
             cost = _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why)
-            said = (*warnings, *_remarks(equations, trajectory))
-            return Simulation(scene, runs[1], trajectory, cost, error, said, "equations", offered)
+            remarks = (*warnings, *_remarks(equations, trajectory))
+            return Simulation(scene, runs[1], trajectory, cost, error, remarks, "equations", offered)
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
         other = _integrated(scene, accuracy, times, most, "heyoka", warnings, offered, progress)
         both = replace(other.cost, evaluations=other.cost.evaluations + evaluations, steps=other.cost.steps + steps)

@@ -27,8 +27,8 @@ def init(
     if scene and preset is not None:
         raise InputError("--scene and --preset exclude each other", remedy="Presets are machines.")
     write(file, read_machine(preset).text if preset is not None else scene_template() if scene else template())
-    told = Paragraph(f"{file} is written. Edit it, then: abu {'simulate' if scene else 'size'} {file}", "pass")
-    return Outcome("init", {"file": str(file), "preset": preset}, (told,))
+    next_step = Paragraph(f"{file} is written. Edit it, then: abu {'simulate' if scene else 'size'} {file}", "pass")
+    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,))
 
 
 def register(app: typer.Typer) -> None:

@@ -18,12 +18,12 @@ def of_scene(scene: str) -> str:
 
 def facts(record: Record, *names: str) -> Facts:
     """Rows for fields of a record, those without a value left out; without names all that say what they are."""
-    told = quantities(type(record))
+    labels = quantities(type(record))
     rows = []
-    for name in names or told:
+    for name in names or labels:
         value = getattr(record, name)
         if value is not None:
-            rows.append((told[name].label, told[name].symbol, shown(type(record), name, value)))
+            rows.append((labels[name].label, labels[name].symbol, shown(type(record), name, value)))
     return Facts(tuple(rows))
 
 

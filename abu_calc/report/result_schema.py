@@ -75,11 +75,11 @@ def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
     """A reference to the definition of a record."""
     if kind.__name__ not in definitions:
         definitions[kind.__name__] = {}  # known from here on, should it hold itself
-        names, told = kind.entries(), quantities(kind)
+        names, labelled = kind.entries(), quantities(kind)
         properties = {name: _type(hints(kind)[name], definitions) for name in names}
         for name in names:
-            if name in told:
-                properties[name] = {"description": _description(name, told[name]), **properties[name]}
+            if name in labelled:
+                properties[name] = {"description": _description(name, labelled[name]), **properties[name]}
         definitions[kind.__name__] = {
             "type": "object",
             "description": (kind.__doc__ or "").split("\n\n")[0],

@@ -97,8 +97,10 @@ def hints(kind: type[Record]) -> Mapping[str, Any]:
 def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
     """What the fields of a record say of themselves; those that hold records say nothing."""
     if kind not in _QUANTITIES:
-        said = {name: get_args(hint)[1:] for name, hint in hints(kind).items()}
-        found = ((name, next((each for each in one if isinstance(each, Quantity)), None)) for name, one in said.items())
+        beside = {name: get_args(hint)[1:] for name, hint in hints(kind).items()}
+        found = (
+            (name, next((each for each in one if isinstance(each, Quantity)), None)) for name, one in beside.items()
+        )
         _QUANTITIES[kind] = {name: quantity for name, quantity in found if quantity is not None}
     return _QUANTITIES[kind]
 

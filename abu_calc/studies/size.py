@@ -67,13 +67,13 @@ def size(machine: "Machine", accuracy: float = 0.01, progress: Progress = silent
     for run in runs:
         if run.ledger.scene.name == "idle":
             checks += idle_checks(design, run.simulation.response)
-    told = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
+    remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, design.loaded
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
         checks=checks,
-        warnings=(*machine.warnings, *design.warnings, *region.warnings, *told),
+        warnings=(*machine.warnings, *design.warnings, *region.warnings, *remarks),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
