@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 
 from abu_calc.spec.bearing import RingLoad
 from abu_calc.standards.limits import Seat
-from abu_calc.studies.quantity import Quantity, Record, record
+from abu_calc.studies.quantity import Quantity, Record
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
@@ -31,7 +31,6 @@ def _um(length: float | None) -> float | None:
     return None if length is None else um(length)
 
 
-@record
 class Loss(Record):
     """What takes from the interference: the load by both rules, of which the larger counts, then the losses given."""
 
@@ -47,7 +46,6 @@ class Loss(Record):
         return cls(name=loss.name, amount_um=um(loss.value), formula=loss.formula, counted=item.counted)
 
 
-@record
 class AdmissibleFit(Record):
     """A tolerance class that passes all checks."""
 
@@ -63,7 +61,6 @@ class AdmissibleFit(Record):
         )
 
 
-@record
 class Creep(Record):
     """Whether the ring creeps on its seat under its load, and whether it holds when the machine starts."""
 
@@ -91,7 +88,6 @@ class Creep(Record):
         )
 
 
-@record
 class Requirements(Record):
     """What the drawing of the seat must ask for."""
 
@@ -121,7 +117,6 @@ class Requirements(Record):
         )
 
 
-@record
 class Clearance(Record):
     """Radial clearance in the bearing; it belongs to both seats."""
 
@@ -145,7 +140,6 @@ class Clearance(Record):
         )
 
 
-@record
 class SeatResult(Record):
     """One seat, judged; interference is positive when tight, limits count from the nominal size."""
 
