@@ -9,13 +9,16 @@ from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.table import Table
 
 DRAFT: Final = "http://json-schema.org/draft-04/schema#"
+MACHINE: Final = "Machine"
+"""What editors know a whole machine's file by."""
+
 _BOUNDS: Final = {"exclusiveMinimum": "minimum", "exclusiveMaximum": "maximum"}
 _DROPPED: Final = ("title", "examples", "$defs")
 
 
 def machine_schema() -> dict[str, Any]:
     """The schema of machine files: a machine whole, or bearings alone."""
-    kinds = [{"$ref": f"#/definitions/{model.__name__}"} for model in (MachineFile, BearingFile)]
+    kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, BearingFile.__name__)]
     return _schema("machine", MachineFile, BearingFile) | {"anyOf": kinds}
 
 
@@ -27,7 +30,8 @@ def scene_schema() -> dict[str, Any]:
 def _schema(kind: str, *models: type[Table]) -> dict[str, Any]:
     """Head and definitions of the schema of a kind of file."""
     _, schema = models_json_schema([(model, "validation") for model in models])
-    definitions = {name: _draft4(body) for name, body in schema["$defs"].items()}
+    bodies = {MACHINE if name == MachineFile.__name__ else name: body for name, body in schema["$defs"].items()}
+    definitions = {name: _draft4(body) for name, body in bodies.items()}
     return {"$schema": DRAFT, "title": f"abu-calc {kind} file", "definitions": definitions}
 
 
