@@ -124,7 +124,8 @@ class Loads:
 
     Slots of ONE OWNER, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0 for
     a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it on
-    the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these; `across`, one more direction of motion; `bound`, a constraint of the frame.
+    the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
+    `across`, one more direction of motion; `bound`, a constraint of the frame.
     """
 
     pull: Any = None
