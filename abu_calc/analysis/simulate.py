@@ -83,9 +83,9 @@ def simulate(
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs;
-    `integrator` is auto, scipy or heyoka; either asks for the equations. `tell` gets what is being done. Raises
-    NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
-    chaotic, or decided by less than rounding.
+    `integrator` is auto, scipy, compiled or heyoka; any but auto asks for the equations. `tell` gets what is being
+    done. Raises NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the
+    motion is then chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
     scene, warnings = with_parted_balls(scene)

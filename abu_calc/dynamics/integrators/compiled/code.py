@@ -1,8 +1,8 @@
 """Machine code for all scenes of one structure: compiled once, kept in this process and on disk."""
 
 import hashlib
+import importlib.util
 import math
-from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -51,14 +51,15 @@ ROUNDING = 1e-8
 """Compiled and plain equations may differ by this much, relatively."""
 
 _codes: dict[object, "Code"] = {}
+_texts: dict[object, Program] = {}
 
 
 class Code:
     """A structure's equations, and the loop through their motion. Raises CompilerError."""
 
-    def __init__(self, text: Program) -> None:
-        self.program = text
-        self._equations = _module([(text.text, NAMES)], EQUATIONS)
+    def __init__(self, functions: Program) -> None:
+        self.program = functions
+        self._equations = _module([(functions.text, NAMES)], EQUATIONS)
         # One module for each: the loop is the same for all structures.
         self._loop = _module([(_text(one), vars(one)) for one in KERNELS], ("go",), _text(arrays))
         self._loop.function("connect", len(EQUATIONS))(*map(self._equations.address, EQUATIONS))
@@ -83,12 +84,17 @@ def code(structure: object, equations: Equations, acting: Acting, numbers: np.nd
     """That of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
 
     def make() -> Code:
-        made = Code(program(equations, acting))
+        made = Code(text(structure, equations, acting))
         with np.errstate(all="ignore"):
             made.check(equations, acting, numbers)
         return made
 
     return cached(_codes, structure, make)
+
+
+def text(structure: object, equations: Equations, acting: Acting) -> Program:
+    """The functions of a structure."""
+    return cached(_texts, structure, lambda: program(equations, acting))
 
 
 def known(structure: object) -> bool:
@@ -98,12 +104,13 @@ def known(structure: object) -> bool:
 
 def installed() -> bool:
     """Whether there is a compiler."""
-    return find_spec("llvmlite") is not None
+    return importlib.util.find_spec("llvmlite") is not None
 
 
-def on_disk(text: Program) -> bool:
+def on_disk(functions: Program) -> bool:
     """Whether it was compiled before. Raises CompilerError."""
-    return Cache.own().place(_key([(text.text, NAMES)])).exists()
+    with machine.guarded("compiled code on disk"):
+        return Cache.own().place(_key([(functions.text, NAMES)])).is_file()
 
 
 def _text(module: ModuleType) -> str:
