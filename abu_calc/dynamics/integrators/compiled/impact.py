@@ -48,13 +48,13 @@ def meeting(
     for p in range(pairs):
         met[p] = 1.0 if touches(p, y, numbers, lay) else 0.0
         slow[p] = 0.0
-    closing(t, y, numbers, par, lay, count, k, met, near, speed)
+    closing(t, y, numbers, par, lay, count, k, met, near, total)
     responses(t, y, numbers, par, lay, con, count, k, k[states:], met, kicks)
     for p in range(pairs):
         for q in range(pairs):
             matrix[p * pairs + q] = opening(p, lay, kicks[q * states :]) if met[p] > 0.0 and met[q] > 0.0 else 0.0
     # With what torques they would press, so how fast a rebound may be that is none.
-    evened(pairs, met, met, speed, slow, right, matrix, work)
+    squeezed(pairs, met, near, total, speed, slow, right, matrix, work)
     for p in range(pairs):
         slow[p] = GRAZING * con[SLOW] + sqrt(2.0 * LIFT * matrix[p * pairs + p] * max(slow[p], 0.0))
         total[p], speed[p] = 0.0, opening(p, lay, y)
@@ -91,6 +91,27 @@ def passed(
         else:
             return True
     return False
+
+
+def squeezed(
+    pairs: int, met: Reals, near: Reals, closes: Reals, speed: Reals, torque: Reals, right: Reals, matrix: Reals,
+    work: Reals,
+) -> None:  # fmt: skip
+    """With what torques pairs that touch press, by their relative accelerations without any: never to hold them."""
+    for p in range(pairs):
+        near[p] = met[p]
+    for _ in range(2 * pairs + 4):
+        for p in range(pairs):
+            speed[p], torque[p] = closes[p], 0.0
+        evened(pairs, met, near, speed, torque, right, matrix, work)
+        changed = False
+        for p in range(pairs):
+            if near[p] > 0.0 and torque[p] < 0.0:
+                near[p], changed = 0.0, True
+            elif met[p] > near[p] and speed[p] < 0.0:
+                near[p], changed = 1.0, True
+        if not changed:
+            return
 
 
 def evened(
