@@ -1,6 +1,6 @@
 """What scenes that switch cost, by each integrator there is, beside how far off it is.
 
-    python -m tests.benchmarks.switching [file with a reference to write or read]
+    python -m tests.benchmarks.switching [folder of references to write or read]
 
 Times are CPU times of the integration alone, the best of a few; errors are `difference` from heyoka (where there is
 none, DOP853) at its tightest.
@@ -8,18 +8,18 @@ none, DOP853) at its tightest.
 
 import sys
 import time
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from abu_calc.dynamics.assemble import Equations, assemble
-from abu_calc.dynamics.from_design import scene_of_design
 
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import evaluate, needed_times
+from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
+from abu_calc.dynamics.integrators.compiled import waiting
 from abu_calc.dynamics.scene import with_parted_balls
+from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.spec.read import read_machine
 
@@ -42,19 +42,10 @@ def equations_of(preset: str, which: str) -> Equations:
     return assemble(with_parted_balls(scene_of_design(design, which))[0])
 
 
-def ways() -> tuple[str, ...]:
+def ways(equations: Equations) -> tuple[str, ...]:
     """Integrators there are."""
-    compiled = ("compiled",) if find_spec("abu_calc.dynamics.compiled") and find_spec("llvmlite") else ()
-    return (*compiled, "heyoka", "scipy-dop853")
-
-
-def integrated(way: str, equations: Equations, tolerance: float, moments: np.ndarray) -> Any:
-    """One run."""
-    if way == "compiled":
-        from abu_calc.dynamics.compiled.run import integrate
-
-        return integrate(equations, tolerance, moments, MOST)
-    return choice.integrate_with(way, equations, tolerance, moments, MOST)
+    found = [] if waiting.unfit(equations) else ["compiled-rk45"]
+    return (*found, *(() if choice.unfit(equations) else ("heyoka",)), "scipy-dop853")
 
 
 def timed(way: str, equations: Equations, tolerance: float, moments: np.ndarray) -> tuple[Any, float]:
@@ -62,7 +53,7 @@ def timed(way: str, equations: Equations, tolerance: float, moments: np.ndarray)
     best = np.inf
     for _ in range(4):
         begun = time.process_time()
-        found = integrated(way, equations, tolerance, moments)
+        found = choice.integrate_with(way, equations, tolerance, moments, MOST)
         best = min(best, time.process_time() - begun)
         if best > LONG:
             break
@@ -78,12 +69,12 @@ def main() -> None:
         if kept and kept.exists():
             true = evaluate(scene, _Kept(moments, np.load(kept)["y"]))  # type: ignore[arg-type]
         else:
-            run = choice.integrate_with(ways()[-2], equations, 1e-12, moments, MOST)
+            run = choice.integrate_with(ways(equations)[-2], equations, 1e-12, moments, MOST)
             true = evaluate(scene, run)
             if kept:
                 np.savez(kept, y=run.y)
         print(f"{preset} {which}")
-        for way in ways():
+        for way in ways(equations):
             for tolerance in TOLERANCES:
                 run, spent = timed(way, equations, tolerance, moments)
                 error = difference(scene, evaluate(scene, run), true)
