@@ -38,7 +38,7 @@ LONG = 3.0
 
 def equations_of(preset: str, which: str) -> Equations:
     """A machine's scene with all its effects."""
-    design: Any = size(read_machine(preset).machine)  # type: ignore[arg-type]
+    design: Any = size(read_machine(preset).whole("simulate"))
     return assemble(with_parted_balls(scene_of_design(design, which))[0])
 
 

@@ -37,6 +37,14 @@ START = 0.25
 what it gains has to be worth the compilation of the very first run (0.3 to 1)."""
 
 
+Tell = Callable[[str], None]
+"""Gets what is being done, in a few words."""
+
+
+def silent(_: str) -> None:
+    """For whom does not watch."""
+
+
 @dataclass(frozen=True)
 class Choice:
     """An integrator, ready to run, its name as trajectories tell it, and why it was chosen."""
@@ -47,11 +55,12 @@ class Choice:
     """(equations, tolerance, sample times, most evaluations)"""
 
 
-def choose(equations: Equations, wanted: str, tolerance: float) -> Choice:
+def choose(equations: Equations, wanted: str, tolerance: float, tell: Tell = silent) -> Choice:
     """The integrator for a scene, `wanted` being auto, scipy, compiled or heyoka; its library is loaded.
 
     auto takes compiled code where a scene switches and heyoka where it does not, if they are installed and SciPy's
-    estimated time is longer than their start. Stiff equations go to SciPy's Radau unless another is asked for. Raises
+    estimated time is longer than their start. Stiff equations go to SciPy's Radau unless another is asked for. `tell`
+    gets what one waits for. Raises
     InputError for other words, and for what is not installed or cannot trace an effect.
     """
     if wanted not in WANTED:
@@ -67,10 +76,10 @@ def choose(equations: Equations, wanted: str, tolerance: float) -> Choice:
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")
     if wanted == "scipy":
         return _scipy("scipy-dop853", "asked for")
-    return _cheapest(equations, RUNS * scipy_seconds(equations, tolerance))
+    return _cheapest(equations, RUNS * scipy_seconds(equations, tolerance), tell)
 
 
-def _cheapest(equations: Equations, seconds: float) -> Choice:
+def _cheapest(equations: Equations, seconds: float, tell: Tell) -> Choice:
     """By SciPy's time and what the others take to start."""
     switches, lacks, missing = watches(equations), waiting.unfit(equations), unfit(equations)
     work = f"about {seconds:.2g} s of work"
@@ -80,6 +89,8 @@ def _cheapest(equations: Equations, seconds: float) -> Choice:
         wait = waiting.waiting(equations)
         if seconds <= wait < math.inf:
             return _scipy("scipy-dop853", f"a short run, {work}: compiling would take {wait:.2g} s")
+        if wait > waiting.LEAST:
+            tell(f"compiling, about {wait:.1g} s")
         if waiting.load(equations):
             return _compiled(f"{'a scene that switches' if switches else 'a long run'}, {work} for SciPy")
     if missing:

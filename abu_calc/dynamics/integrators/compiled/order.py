@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from abu_calc.dynamics.race import Race
 Places = NDArray[np.intp]
 
 
+@lru_cache(maxsize=8)
 def in_order(equations: Equations) -> tuple[Equations, Places]:
     """The same scene with its balls numbered round each race, and where each of its states stood."""
     scene = equations.scene

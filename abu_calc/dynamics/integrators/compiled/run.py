@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -154,9 +155,10 @@ class _Run(Run):
 def prepared(equations: Equations) -> tuple[Code, Array]:
     """The code of a scene whose balls are in order, and its numbers. Raises CompilerError."""
     wide, structure, numbers = described(equations)
-    return code(structure, equations, wide, numbers), numbers
+    return code(structure, equations, wide, numbers), numbers.copy()
 
 
+@lru_cache(maxsize=8)
 def described(equations: Equations) -> tuple[Any, Any, Array]:
     """The widest modes, the structure and the numbers of a scene whose balls are in order."""
     wide = widened(equations, at_break(equations, 0.0, equations.first_modes))
