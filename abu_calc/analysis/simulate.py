@@ -77,9 +77,9 @@ def simulate(
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs;
-    `integrator` is auto, scipy or heyoka; either asks for the equations. `progress` gets what is being done. Raises
-    NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
-    chaotic, or decided by less than rounding.
+    `integrator` is auto, scipy, compiled or heyoka; any but auto asks for the equations. `progress` gets what is being
+    done. Raises NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the
+    motion is then chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
     scene, warnings = with_parted_balls(scene)
@@ -104,7 +104,7 @@ def _integrated(
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations = assemble(scene)
-    choice = choose(equations, integrator, tolerances(accuracy)[0])
+    choice = choose(equations, integrator, tolerances(accuracy)[0], lambda what: progress(f"{scene.name}: {what}"))
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared = math.nan, 0

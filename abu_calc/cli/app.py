@@ -4,6 +4,7 @@ import codecs
 import importlib
 import os
 import sys
+import warnings
 
 import typer
 
@@ -63,6 +64,7 @@ def _main(
 def main(arguments: list[str] | None = None) -> None:
     """Run `abu` and leave the process with its exit status."""
     _make_streams_safe()
+    warnings.showwarning = _warn
     given = sys.argv[1:] if arguments is None else arguments
     status = run(given)
     try:
@@ -70,6 +72,11 @@ def main(arguments: list[str] | None = None) -> None:
     except OSError:  # nobody reads on, or the disk is full: what was to be told is told, or cannot be
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     sys.exit(status)
+
+
+def _warn(message: Warning | str, *_: object, **__: object) -> None:
+    """What goes wrong and is done without: a line, not a line of code."""
+    print(f"warning: {message}", file=sys.stderr)
 
 
 def run(arguments: list[str]) -> int:

@@ -30,6 +30,18 @@ class Weight:
     why: str
 
 
+@dataclass(frozen=True)
+class Rule:
+    """By which rule compiled code decides an effect's next mode when a watched number of it falls, and its numbers.
+
+    dry friction: the mode is a `Rolling`. ball contact: a `Neighbours`, its pairs rebounding by `restitution`.
+    one-sided contact: 1.0 or 0.0, the other when its one watched number falls.
+    """
+
+    name: Literal["dry friction", "ball contact", "one-sided contact"]
+    restitution: float = 0.0
+
+
 class Laws(Protocol):
     """The equations of a scene, as far as effects may ask them."""
 
@@ -206,6 +218,14 @@ class Effect:
 
         Without units: they are usually near 1.
         """
+        return []
+
+    def rule(self, mode: Any) -> Rule | None:
+        """How compiled code finds its next mode from one like this; None where only `settle` knows."""
+        return None
+
+    def criteria(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
+        """Further numbers by which that rule chooses."""
         return []
 
     # What it means.

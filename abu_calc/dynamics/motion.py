@@ -5,6 +5,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from abu_calc.dynamics.chains import Chains
 from abu_calc.errors import InputError
 
 Array = NDArray[Any]
@@ -123,8 +124,8 @@ class Loads:
 
     Slots of ONE OWNER, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0 for
     a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it on
-    the inner side of a race; `mates` (n × n), 1 for balls that move together; `leads` (n), 1 for the first of each of
-    these; `across`, one more direction of motion; `bound`, a constraint of the frame.
+    the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
+    `across`, one more direction of motion; `bound`, a constraint of the frame.
     """
 
     pull: Any = None
@@ -132,7 +133,7 @@ class Loads:
     frame: Any = None
     grip: Any = None
     free: Any = None
-    mates: Any = None
+    mates: Chains | None = None
     leads: Any = None
     hold: Any = None
     across: Across | None = None

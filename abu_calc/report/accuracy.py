@@ -10,7 +10,7 @@ from abu_calc.studies.accuracy import AccuracyResult, MeasuredPoint
 
 MARKS: Final = {
     "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
-    "scipy-radau": "I", "scipy-bdf": "B", "heyoka": "H",
+    "scipy-radau": "I", "scipy-bdf": "B", "heyoka": "H", "compiled-rk45": "C",
 }  # fmt: skip
 WIDTH: Final = 58
 HEIGHT: Final = 16

@@ -64,7 +64,7 @@ def test_stiff_equations_go_to_radau():
 
 def test_what_is_asked_for_is_taken():
     assert choose(long_run(), "scipy", 1e-6).name == "scipy-dop853"
-    with pytest.raises(InputError, match="auto, scipy, heyoka"):
+    with pytest.raises(InputError, match="auto, scipy, compiled, heyoka"):
         choose(long_run(), "Heyoka", 1e-6)
 
 

@@ -13,7 +13,7 @@ It WRITES
     Loads.own     bound; across; mates, leads; grip, free, hold: ONE OWNER each; a second one raises
 
 and TELLS of itself, so that nobody asks for it by name: rotor, rotor_inertia, from_rest, run_down, least_duration,
-offset, falling, holding, placed, averaged, balls_meet, ball_states.
+offset, falling, holding, placed, averaged, balls_meet, ball_states, rule.
 
 What is coupled by physics, and where:
     dry friction needs the normal force          it sets `grip` per normal force; the equations solve both together

@@ -14,8 +14,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from abu_calc.dynamics.chains import Chains
 from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, SwitchPoint, Weight
+from abu_calc.dynamics.effect import Effect, Kind, Rule, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
@@ -44,8 +45,7 @@ class Neighbours:
     """Gaps between neighbours, race by race, and which of them are closed for good.
 
     Gap i: θ[ahead] − θ[behind] + turns; it may not fall below `least`. `joined`: 1 where the two move together.
-    `rear`, `front` (gaps × balls): 1 for the balls of a joined gap's chain behind and ahead of it. `mates`, `leads`:
-    see Loads.
+    `rings`: see Chains. `tied`: whether the equations know of joined gaps; False where none is.
     """
 
     behind: tuple[int, ...]
@@ -54,10 +54,13 @@ class Neighbours:
     touching: Array
     least: Array
     joined: Array
-    rear: Array
-    front: Array
-    mates: Array | None
-    leads: Array
+    rings: tuple[tuple[int, ...], ...]
+    tied: bool = False
+
+    @property
+    def chains(self) -> Chains:
+        """Balls that move together."""
+        return Chains(self.rings, self.joined)
 
     def gaps(self, theta: Array) -> Array:
         """All gaps [rad]."""
@@ -66,41 +69,17 @@ class Neighbours:
 
     def joining(self, joined: Array, theta: Array) -> "Neighbours":
         """The same balls with other gaps joined, at these angles."""
-        balls, pairs = len(theta), len(joined)
-        rear, front, mates = np.zeros((pairs, balls)), np.zeros((pairs, balls)), np.eye(balls)
-        after = {self.behind[i]: self.ahead[i] for i in np.flatnonzero(joined)}
-        before = {ahead: behind for behind, ahead in after.items()}
-        for i in np.flatnonzero(joined):
-            rear[i, _chain(self.behind[i], before)] = front[i, _chain(self.ahead[i], after)] = 1.0
-            members = np.flatnonzero(rear[i] + front[i])
-            mates[np.ix_(members, members)] = 1.0
         gaps, rounding = self.gaps(theta), _rounding(theta)
         # One that has come to its bound again though it parts may dip deeper.
         dips = (joined == 0) & (self.joined == 0) & (gaps < self.least + rounding / 2) & (self.least < self.touching)
         deeper = np.where(dips, np.minimum(DIP * (self.touching - self.least), DEEPEST), 0.0)
         least = np.minimum(self.touching - deeper, gaps - rounding)
-        return replace(
-            self,
-            joined=joined,
-            least=least,
-            rear=rear,
-            front=front,
-            mates=mates if joined.any() else None,
-            leads=1.0 * (mates.argmax(axis=1) == np.arange(balls)),
-        )
+        return replace(self, joined=joined, least=least, tied=bool(joined.any()))
 
 
 def _rounding(theta: Array) -> float:
     """What a gap that opens may lack of 2β [rad]."""
     return float(1e-13 + 8 * np.spacing(np.abs(theta).max()))
-
-
-def _chain(start: int, following: dict[int, int]) -> list[int]:
-    """A ball and those that follow."""
-    found = [start]
-    while found[-1] in following:
-        found.append(following[found[-1]])
-    return found
 
 
 @dataclass(frozen=True)
@@ -126,6 +105,7 @@ class BallContact(Effect):
         ahead: list[int] = []
         turns: list[float] = []
         spans: list[float] = []
+        rings: list[tuple[int, ...]] = []
         first = 0
         for race in scene.races:
             order, more = _order(race), _turns(race)
@@ -135,13 +115,13 @@ class BallContact(Effect):
                 ahead += [first + k for k in (*order[1:], order[0])]
                 turns += more
                 spans += [span] * len(order)
+                rings.append(tuple(first + k for k in order))
             first += len(race.ball_masses)
         if not behind:
             return None
         least, theta = np.array(spans), np.array(scene.start_angles)
         none = np.zeros(len(least))
-        rows = np.zeros((len(least), first))
-        found = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, rows, rows, None, none)
+        found = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, tuple(rings))
         _check_apart(found, theta)
         return found.joining(none, theta)
 
@@ -160,8 +140,8 @@ class BallContact(Effect):
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """Joined balls move together."""
-        if mode is not None and mode.mates is not None:
-            loads.own(mates=mode.mates, leads=mode.leads)
+        if mode is not None and mode.tied:
+            loads.own(mates=mode.chains, leads=mode.chains.leads(p.balls))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """Gaps that are open: gap − 2β. Joined: what the chain behind pushes with, and what the chain ahead resists.
@@ -172,16 +152,21 @@ class BallContact(Effect):
         if mode is None:
             return []
         gaps, joined = mode.gaps(m.theta) - mode.least, mode.joined
-        if mode.mates is None:
+        if not mode.tied:
             return [*gaps]
         left, unit = m.static_moments * solved.left, self._margin(p)
         held = 0.0 * left if loads.hold is None else loads.hold * m.static_moments * solved.normal * (1 - loads.free)
-        push, resist = mode.rear.dot(left + held) / unit + 1, mode.front.dot(held - left) / unit + 1
+        push = mode.chains.behind(left + held)[list(mode.behind)] / unit + 1
+        resist = mode.chains.ahead(held - left)[list(mode.ahead)] / unit + 1
         return [*(joined * push + (1 - joined) * gaps), *(joined * resist + (1 - joined))]
 
     def _margin(self, p: Parameters) -> Any:
         """What counts as no torque between two balls [N m]."""
         return MARGIN * (p.static_moments * p.radii).mean() * p.speed**2
+
+    def rule(self, mode: Any) -> Rule | None:
+        """Touching pairs stay together or part."""
+        return None if mode is None else Rule("ball contact", self.restitution)
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Impacts of what meets; then which of the touching pairs press and stay together."""

@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.circumstances import Circumstances, Holding
-from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, SwitchPoint, Weight
+from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, Rule, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
@@ -91,6 +91,18 @@ class DryRollingFriction(Effect):
             goes_on = along * along + rolled * rolled - least * least
         pressed = mode.side * solved.normal / flung + CROSSES
         return [*(rolls * goes_on + (1 - rolls)), *(sticks * holds + (1 - sticks)), *pressed]
+
+    def rule(self, mode: Any) -> Rule | None:
+        """Balls stick or roll, on one side of their race."""
+        return None if mode is None else Rule("dry friction")
+
+    def criteria(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
+        """What pulls each ball along its race, and what friction can take of it, relative to f m R_p Ω²."""
+        if mode is None:
+            return []
+        pull, _, most = forces(self.coefficient, m, mode, loads, solved, p)
+        unit = self.coefficient * p.masses * p.radii * p.speed**2
+        return [*(pull / unit), *(most / unit)]
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Which balls stick and which roll, and on which side."""

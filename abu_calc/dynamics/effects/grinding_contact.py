@@ -25,7 +25,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Laws, SwitchPoint, Weight
+from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance, weighing_amplitude
@@ -163,6 +163,10 @@ class GrindingContact(Effect):
             return [1 - m.rate.dot(m.rate) / (RUNAWAY * p.speed * RUNAWAY * p.speed)] if p.balls else []
         unloaded = self.press_force / self.contact_stiffness
         return [(2 * mode - 1) * (unloaded - self._surface(m, p)[0]) / (unloaded + self.runout + LEAST_DEPTH)]
+
+    def rule(self, mode: Any) -> Rule | None:
+        """Wheel and work part and meet where the contact is compliant."""
+        return Rule("one-sided contact") if self.contact == "compliant" else None
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Touching where the wheel is in the work; at its very surface, where it is about to be.

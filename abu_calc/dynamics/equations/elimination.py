@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from abu_calc.dynamics.chains import Chains
 from abu_calc.dynamics.equations.linear import solve
 from abu_calc.dynamics.motion import Across, Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
@@ -38,7 +39,7 @@ def solve_all(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solved:
     A, reaction = _frame(r.mass, r.force, loads)
     left = r.drive - A.dot(r.felt)
     tied = loads.free is not None or loads.mates is not None
-    balls = r.give * left if loads.mates is None else r.give.dot(left)
+    balls = r.give * left if loads.mates is None else r.give * loads.mates.sums(p.masses * m.radii * left)
     q = A if p.frame.carry is None else _behind(m, A, p)
     beside: Any = across and r.pushed - A.dot(r.resisted)
     return Solved(
@@ -87,8 +88,9 @@ def _reduced(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> _Reduced
         give = give if loads.free is None else loads.free * give
         weights = along * (p.reduced_masses if give is p.mobilities else p.masses * give)
     else:
-        give = _together(p.masses * inertias, m.radii, loads) * p.masses
-        weights = (along * p.masses).dot(give)
+        give = _together(p.masses * inertias, m.radii, loads.mates, loads)
+        shared = along * (p.masses * give)
+        weights = np.array([loads.mates.sums(row) for row in shared]) * (p.masses * m.radii)
     force, mass = force - weights.dot(drive), mass - weights.dot(felt.T)
     if across:
         beside = across.along * (p.masses * across.give)
@@ -185,12 +187,10 @@ def _across(left: Array, balls: Array, across: Across, levers: Levers) -> Array:
     return found
 
 
-def _together(inertias: Array, radii: Array, loads: Loads) -> Array:
-    """n × n: accelerations along the race of balls that turn together, by forces on each."""
-    shares = radii / loads.mates.dot(inertias * radii * radii)
-    shares = shares if loads.free is None else loads.free * shares
-    give: Array = shares[:, None] * loads.mates * radii
-    return give
+def _together(inertias: Array, radii: Array, mates: Chains, loads: Loads) -> Array:
+    """Accelerations along the race of balls that turn together, by the sums of torques on them."""
+    shares: Array = radii / mates.sums(inertias * radii * radii)
+    return shares if loads.free is None else loads.free * shares
 
 
 def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any]:

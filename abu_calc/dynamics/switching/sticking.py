@@ -58,7 +58,7 @@ def forces(f: Any, m: Motion, mode: Rolling, loads: Loads, solved: Solved, p: Pa
     aside = 0.0 * pull if loads.across is None else masses * solved.across_left
     if loads.mates is None:
         return pull, aside, most
-    return loads.mates.dot(pull), loads.mates.dot(aside), loads.mates.dot(most)
+    return loads.mates.sums(pull), loads.mates.sums(aside), loads.mates.sums(most)
 
 
 def decided(at: SwitchPoint, f: float) -> tuple[Array, Rolling]:
@@ -73,7 +73,7 @@ def decided(at: SwitchPoint, f: float) -> tuple[Array, Rolling]:
         return _decided_across(at, f, motion, loads)
     rates = at.y[first : first + p.balls]
     # One ball of those that move together decides for all.
-    leader = np.arange(p.balls) if loads.mates is None else loads.mates.argmax(axis=1)
+    leader = np.arange(p.balls) if loads.mates is None else loads.mates.together(p.balls).argmax(axis=1)
     rests = (np.abs(rates) <= AT_REST * at.equations.scales[first])[leader]
     if np.any(rates[rests] != 0):
         y = at.y.copy()
@@ -147,7 +147,7 @@ def _decided_across(at: SwitchPoint, f: float, motion: Motion, loads: Loads) -> 
     mode: Rolling = at.mode
     least = np.where(mode.direction > 0, 0.6 * mode.begun, 1e-3) * slow
     rolls = np.hypot(motion.radii * motion.rate, motion.rolled) > least
-    rolls = rolls if loads.mates is None else loads.mates.dot(rolls) > 0
+    rolls = rolls if loads.mates is None else loads.mates.sums(1.0 * rolls) > 0
     held = ~rolls
     mode = replace(mode, begun=np.where(held, 1.0, mode.begun))
     y[along][held] = y[across][held] = 0.0

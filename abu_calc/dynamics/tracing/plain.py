@@ -72,7 +72,7 @@ class Source:
     def __init__(self) -> None:
         self.entries: list[tuple[str, tuple[int, ...]]] = []
         self._known: dict[tuple[str, tuple[int, ...]], Node] = {}
-        self.par = _Numbers(self)
+        self.par: Any = _Numbers(self)
         self.time = self.name("t")
 
     def _once(self, entry: tuple[str, tuple[int, ...]]) -> Node:

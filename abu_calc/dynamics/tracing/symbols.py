@@ -68,18 +68,22 @@ class Tape:
 
         As plain Python, for it runs whenever a mode changes. To be asked for when all expressions are made.
         """
+        named, lines, results = self.lines()
+        text = ["def values(numbers):", f" [{', '.join(named)}] = numbers", *(f" {line}" for line in lines)]
+        scope: dict[str, Any] = {"inf": math.inf}
+        exec(compile("\n".join([*text, f" return [{', '.join(results)}]"]), "<parameters>", "exec"), scope)
+        return cast("Callable[[Sequence[float]], list[float]]", scope["values"])
+
+    def lines(self) -> tuple[list[str], list[str], list[str]]:
+        """Names for the parameters, assignments, and the results, heyoka's par[i], by what these name."""
         named = [f"n{k}" for k, entry in enumerate(self.entries) if entry is None]
         texts, lines = {}, []
         for place, entry in enumerate(self.entries):
             texts[place] = f"n{place}" if entry is None else f"v{place}" if isinstance(entry, tuple) else repr(entry)
             if isinstance(entry, tuple):
                 operation, a, b = entry
-                lines.append(f" {texts[place]} = {texts[a]} {SIGNS[operation]} {texts[b]}")
-        results = ", ".join(texts[place] for place in self._slots)
-        text = ["def values(numbers):", f" [{', '.join(named)}] = numbers", *lines, f" return [{results}]"]
-        scope: dict[str, Any] = {"inf": math.inf}
-        exec(compile("\n".join(text), "<parameters>", "exec"), scope)
-        return cast("Callable[[Sequence[float]], list[float]]", scope["values"])
+                lines.append(f"{texts[place]} = {texts[a]} {SIGNS[operation]} {texts[b]}")
+        return named, lines, [texts[place] for place in self._slots]
 
     @property
     def used(self) -> int:

@@ -42,7 +42,7 @@ def trace(equations: Equations, acting: Acting, library: Any, states: Sequence[A
     """
     tape = Tape(library)
     units = tuple(tape.parameter() for _ in states) if scaled else ()
-    symbolic = _mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
+    symbolic = mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
     y = [tape.variable(state) for state in states]
     if scaled:
         y = [unit * one for unit, one in zip(units, y, strict=True)]
@@ -64,7 +64,7 @@ class Numbers:
     def __init__(self, equations: Equations) -> None:
         self._structure: list[Any] = [equations.rhs, len(equations.states), watches(equations)]
         self._numbers: list[float] = []
-        _mapped(equations.in_mode(()), lambda value, _: self._numbers.append(value), self._structure.append)
+        mapped(equations.in_mode(()), lambda value, _: self._numbers.append(value), self._structure.append)
 
     def of(self, modes: Modes) -> tuple[tuple[Any, ...], list[float]]:
         """Structure and numbers in these modes, which come last among the parameters."""
@@ -75,7 +75,7 @@ class Numbers:
 
 
 def _flattened(mode: Any, numbers: list[float], structure: list[Any]) -> None:
-    """Numbers and structure of a mode in the order of `_mapped`; thousands of times in a run, so without its detours.
+    """Numbers and structure of a mode in the order of `mapped`; thousands of times in a run, so without its detours.
 
     A mode's numbers may all be anything, and what is not a number is compared as it stands.
     """
@@ -111,7 +111,7 @@ def cached(cache: dict[Any, Code], structure: Any, make: Callable[[], Code]) -> 
     return cache[structure]
 
 
-def _mapped(
+def mapped(
     value: Any, number: Callable[[float, bool], Any], fixed: Callable[[Any], None], zeros: int | None = 2
 ) -> Any:
     """The same with each number replaced by what `number` makes of it, and whether it is known not to be zero.
@@ -135,10 +135,10 @@ def _mapped(
         copy = object.__new__(type(value))
         for part in fields(value):  # past checks of values, which symbols would not stand
             of = ZEROS.get(part.name, zeros) if isinstance(value, Parameters | Acting) else zeros
-            object.__setattr__(copy, part.name, _mapped(getattr(value, part.name), number, fixed, of))
+            object.__setattr__(copy, part.name, mapped(getattr(value, part.name), number, fixed, of))
         return copy
     if isinstance(value, tuple):
         fixed(len(value))
-        return tuple(_mapped(one, number, fixed, zeros) for one in value)
+        return tuple(mapped(one, number, fixed, zeros) for one in value)
     fixed(value)
     return value

@@ -1,0 +1,75 @@
+"""Balls that move together, as chains of joined gaps round each race: sums over chains in as many steps as balls.
+
+A gap is joined, 1, or open, 0, and these are numbers: one way of summing serves all modes. Never all gaps of a race are
+joined, since its balls cannot fill it.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Chains:
+    """`rings`: the balls of each race that has gaps, in order round it; `joined`: of each gap, ring by ring.
+
+    The gap of the same index lies ahead of a ring's ball, the last one between its last ball and its first.
+    """
+
+    rings: tuple[tuple[int, ...], ...]
+    joined: Array
+
+    def sums(self, x: Array) -> Array:
+        """Of each ball, the sum over its chain.
+
+        >>> Chains(((0, 1, 2, 3),), np.array((1.0, 0.0, 0.0, 1.0))).sums(np.array((1.0, 2.0, 4.0, 8.0))).tolist()
+        [11.0, 11.0, 4.0, 11.0]
+        """
+        return self.behind(x) + self.ahead(x) - x
+
+    def behind(self, x: Array) -> Array:
+        """Of each ball, the sum over itself and all of its chain behind it."""
+        return self._gathered(x, [(ring, gaps) for ring, gaps in self._gaps])
+
+    def ahead(self, x: Array) -> Array:
+        """Of each ball, the sum over itself and all of its chain ahead of it."""
+        return self._gathered(x, [(ring[::-1], [*gaps[-2::-1], gaps[-1]]) for ring, gaps in self._gaps])
+
+    @cached_property
+    def _gaps(self) -> list[tuple[tuple[int, ...], list[Any]]]:
+        """Each ring with its gaps."""
+        found, first = [], 0
+        for ring in self.rings:
+            found.append((ring, list(self.joined[first : first + len(ring)])))
+            first += len(ring)
+        return found
+
+    def leads(self, balls: int) -> Array:
+        """1 for the last ball of each chain, 0 for those that have a joined gap behind them."""
+        found: list[Any] = [1.0] * balls
+        for ring, gaps in self._gaps:
+            for place, ball in enumerate(ring):
+                found[ball] = 1.0 - gaps[place - 1]
+        return np.array(found)
+
+    def together(self, balls: int) -> Array:
+        """n × n: 1 for balls of one chain; for numbers alone."""
+        unity = np.eye(balls)
+        return np.array([self.sums(row) for row in unity])
+
+    def _gathered(self, x: Array, rings: list[tuple[tuple[int, ...], list[Any]]]) -> Array:
+        """Each ball's own and what the one before it in its ring has gathered, where the gap between them is joined."""
+        found = x.copy()
+        for ring, gaps in rings:
+            for place in range(1, len(ring)):
+                found[ring[place]] = found[ring[place]] + gaps[place - 1] * found[ring[place - 1]]
+            wrapped, share = found[ring[-1]], gaps[-1]
+            for place in range(len(ring) - 1):
+                found[ring[place]] = found[ring[place]] + share * wrapped
+                share = share * gaps[place]
+        return found

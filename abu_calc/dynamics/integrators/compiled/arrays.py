@@ -1,0 +1,55 @@
+"""Arrays of the compiled loop, and where it finds what in them; the equations by their names, which a trace gives."""
+
+from collections.abc import MutableSequence
+
+Reals = MutableSequence[float]
+Integers = MutableSequence[int]
+
+# The layout: where something of this scene is.
+STATES, BALLS, RATES, WATCHED, VALUES, MODES, PUSH, NUMBERS = 0, 1, 2, 3, 4, 5, 6, 7
+"""Numbers of states, of balls; where the balls' speeds are in the state; numbers watched, and these with the criteria;
+where modes and the push are among the numbers, and how many these are."""
+FRICTION, PULLS, DIRECTION, SIDE = 8, 9, 10, 11
+"""Dry friction: its watched numbers (−1 without), its criteria, and its mode among the numbers."""
+GAPS, PAIRS, TURNS, TOUCHING, LEAST, JOINED = 12, 13, 14, 15, 16, 17
+"""Ball contact: its watched numbers (−1 without), how many gaps, and its mode among the numbers."""
+ONE_SIDED, TOUCHES = 18, 19
+"""One-sided contact: its watched number (−1 without) and its mode."""
+BEHIND = 20
+"""The ball behind each gap, then the ball ahead of each."""
+
+# Constants of a run.
+LONGEST, END, REST, SLOW, RESTITUTION, KICK, STALLED, UNIT = 0, 1, 2, 3, 4, 5, 6, 7
+"""Longest step, end, speed at rest, the balls' slow speed, e, size of a torque, time of a stall, and what counts as no
+torque between balls."""
+SCALES = 8
+"""Absolute and relative tolerance of each state, then m R_p² of each ball."""
+
+# The clock of a run.
+TIME, STEP, BEGUN = 0, 1, 2
+"""Where it is, the step to try, and when the modes were last decided."""
+
+# The counts of a run.
+DONE, STEPS, EVALUATIONS, EVENTS, FOUND, STALLS, MOST, SAMPLES, GENERAL, START, PAUSE = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10
+"""Samples filled, steps, evaluations, events, the watched number that fell last, events in a row without progress, most
+evaluations, samples asked for, decisions left to Python, 1 where modes have to be decided before the first step, and
+the evaluations at which to come back, so that an interrupt is heard."""
+COUNTS = 11
+
+REACHED, UNDECIDED, TOO_MUCH, NOT_FINITE, TOO_SMALL, STALL, PAUSED = 0, 1, 2, 3, 4, 5, 6
+"""How a run comes back."""
+
+
+def setup(numbers: Reals, par: Reals) -> None:
+    """What the equations use of the numbers."""
+    raise NotImplementedError
+
+
+def rates(t: float, y: Reals, par: Reals, dy: Reals) -> None:
+    """y'."""
+    raise NotImplementedError
+
+
+def watched(t: float, y: Reals, par: Reals, dy: Reals, w: Reals) -> None:
+    """y', what is watched and the criteria of rules."""
+    raise NotImplementedError

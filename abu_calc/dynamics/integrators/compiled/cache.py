@@ -1,0 +1,107 @@
+"""Compiled code on disk: one file for each module, written whole and read whole, or done without.
+
+A file is a checksum and what it is of: one that is cut off or holds other bytes is not used, and is written anew. Files
+appear under their names by a rename, so that several processes may write at once. A folder that cannot be used is told
+of once, and everything goes on without it.
+"""
+
+import contextlib
+import hashlib
+import os
+import re
+import secrets
+import sys
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+FOLDER = "ABU_CALC_CACHE"
+"""Environment variable that names another folder."""
+
+MOST_BYTES = 50_000_000
+"""What is kept, some thousand structures; what was used longest ago goes first."""
+
+OURS = re.compile(r"[0-9a-f]{64}\.o(\.[0-9a-f]+)?")
+"""Names of our files; a folder that somebody chose may hold others."""
+
+_told: set[str] = set()
+
+
+@dataclass(frozen=True)
+class Cache:
+    """A folder of compiled code."""
+
+    folder: Path
+
+    @classmethod
+    def own(cls) -> "Cache":
+        """Where programs of this system keep what they can make again."""
+        chosen = os.environ.get(FOLDER)
+        return cls(Path(chosen) if chosen else _base() / "abu-calc" / "compiled")
+
+    def read(self, key: str) -> bytes | None:
+        """What was written under a key, None where that is not there or not whole."""
+        try:
+            data = self.place(key).read_bytes()
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            self._unusable(error)
+            return None
+        digest, content = data[:32], data[32:]
+        if hashlib.sha256(content).digest() != digest:
+            return None
+        with contextlib.suppress(OSError):
+            os.utime(self.place(key))
+        return content
+
+    def write(self, key: str, content: bytes) -> None:
+        """Keep it, if that can be done."""
+        place = self.place(key)
+        passing = place.with_name(f"{place.name}.{secrets.token_hex(8)}")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            try:
+                passing.write_bytes(hashlib.sha256(content).digest() + content)
+                passing.replace(place)
+            finally:
+                passing.unlink(missing_ok=True)
+            self._bound()
+        except OSError as error:
+            if self.read(key) != content:  # nobody else has written it either
+                self._unusable(error)
+
+    def place(self, key: str) -> Path:
+        """The file of a key."""
+        return self.folder / f"{key}.o"
+
+    def _bound(self) -> None:
+        """Delete what was used longest ago; others may be deleting, too."""
+        files = []
+        for one in self.folder.iterdir():
+            if OURS.fullmatch(one.name):
+                with contextlib.suppress(FileNotFoundError):
+                    files.append((one.stat().st_mtime, one.stat().st_size, one))
+        total = sum(size for _, size, _ in files)
+        for _, size, one in sorted(files):
+            if total <= MOST_BYTES:
+                return
+            one.unlink(missing_ok=True)
+            total -= size
+
+    def _unusable(self, error: OSError) -> None:
+        if str(self.folder) not in _told:
+            _told.add(str(self.folder))
+            reason = error.strerror or type(error).__name__
+            warnings.warn(f"compiled code is not kept: {self.folder}: {reason}", RuntimeWarning, stacklevel=2)
+
+
+def _base() -> Path:
+    """Of this system; where there is no home, a folder that cannot be there, so that this is told."""
+    places = {"win32": ("LOCALAPPDATA", "~/AppData/Local"), "darwin": ("", "~/Library/Caches")}
+    variable, usual = places.get(sys.platform, ("XDG_CACHE_HOME", "~/.cache"))
+    chosen = os.environ.get(variable, "") if variable else ""
+    try:
+        return Path(chosen or usual).expanduser()
+    except RuntimeError:
+        return Path(os.devnull) / "no-home"

@@ -1,0 +1,139 @@
+"""Machine code for all scenes of one structure: compiled once, kept in this process and on disk."""
+
+import hashlib
+import importlib.util
+import math
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Final
+
+import numpy as np
+
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.right_hand_side import rhs
+from abu_calc.dynamics.integrators.compiled import (
+    arrays,
+    calls,
+    contact,
+    decide,
+    expressions,
+    friction,
+    impact,
+    language,
+    locate,
+    loop,
+    machine,
+    method,
+    writer,
+)  # fmt: skip
+from abu_calc.dynamics.integrators.compiled.cache import Cache
+from abu_calc.dynamics.integrators.compiled.machine import CompilerError, Loaded
+from abu_calc.dynamics.integrators.compiled.program import Program, program
+from abu_calc.dynamics.parameters import Acting
+from abu_calc.dynamics.tracing.traced import cached
+from abu_calc.version import __version__
+
+KERNELS: tuple[ModuleType, ...] = (method, locate, friction, contact, impact, decide, loop)
+"""What every structure's code has, beside its equations."""
+
+TRANSLATOR: tuple[ModuleType, ...] = (language, calls, expressions, writer, machine, arrays)
+
+EQUATIONS = ("setup", "rates", "watched")
+"""Functions of a structure, in the order in which `arrays` declares them."""
+
+NAMES = {"inf": math.inf}
+"""What their text knows beside its own."""
+
+POINTERS = 10
+"""Arguments of `loop.go`."""
+
+ROUNDING = 1e-8
+"""Compiled and plain equations may differ by this much, relatively."""
+
+_codes: dict[object, "Code"] = {}
+_texts: dict[object, Program] = {}
+
+
+class Code:
+    """A structure's equations, and the loop through their motion. Raises CompilerError."""
+
+    def __init__(self, functions: Program) -> None:
+        self.program = functions
+        self._equations = _module([(functions.text, NAMES)], EQUATIONS)
+        # One module for each: the loop is the same for all structures.
+        self._loop = _module([(_text(one), vars(one)) for one in KERNELS], ("go",), _text(arrays))
+        self._loop.function("connect", len(EQUATIONS))(*map(self._equations.address, EQUATIONS))
+        self._call = self._loop.function("go", POINTERS)
+
+    def go(self, *given: np.ndarray) -> int:
+        """`loop.go` on these arrays."""
+        return self._call(*[one.ctypes.data for one in given])
+
+    def check(self, equations: Equations, acting: Acting, numbers: np.ndarray) -> None:
+        """Raise CompilerError unless it gives the rates of the plain equations, at a place that is not special."""
+        y = np.array(equations.initial) + np.array(equations.scales) * np.cos(np.arange(len(equations.initial)))
+        par, found = np.empty(self.program.parameters), np.empty(len(y))
+        self._equations.function("setup", 2)(numbers.ctypes.data, par.ctypes.data)
+        self._equations.rates("rates", 3)(0.0, y.ctypes.data, par.ctypes.data, found.ctypes.data)
+        true = np.asarray(rhs(np, 0.0, y, acting), dtype=float)
+        if not np.allclose(found, true, rtol=ROUNDING, atol=ROUNDING * float(np.abs(true).max(initial=0.0))):
+            raise CompilerError("compiled code does not give what the equations do")
+
+
+def code(structure: object, equations: Equations, acting: Acting, numbers: np.ndarray) -> Code:
+    """That of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
+
+    def make() -> Code:
+        made = Code(text(structure, equations, acting))
+        with np.errstate(all="ignore"):
+            made.check(equations, acting, numbers)
+        return made
+
+    return cached(_codes, structure, make)
+
+
+def text(structure: object, equations: Equations, acting: Acting) -> Program:
+    """The functions of a structure."""
+    return cached(_texts, structure, lambda: program(equations, acting))
+
+
+def known(structure: object) -> bool:
+    """Whether this process has it."""
+    return structure in _codes
+
+
+TRIED: Final = ("linux",)
+"""Systems on which compiled code has run."""
+
+
+def installed() -> bool:
+    """Whether there is a compiler, on a system on which what it makes was tried: a crash in it ends the process."""
+    return sys.platform in TRIED and importlib.util.find_spec("llvmlite") is not None
+
+
+def on_disk(functions: Program) -> bool:
+    """Whether it was compiled before. Raises CompilerError."""
+    with machine.guarded("compiled code on disk"):
+        return Cache.own().place(_key([(functions.text, NAMES)])).is_file()
+
+
+def _text(module: ModuleType) -> str:
+    return Path(str(module.__file__)).read_text(encoding="utf-8")
+
+
+def _key(parts: list[language.Part]) -> str:
+    """Of all that the machine code depends on: texts, the numbers they name, translator, processor."""
+    rules: list[Any] = [__version__, machine.described(), *map(_text, TRANSLATOR)]
+    rules += [(text, sorted(language.numbers(names).items())) for text, names in parts]
+    return hashlib.sha256(repr(rules).encode()).hexdigest()
+
+
+def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = "") -> Loaded:
+    """Machine code for some texts: from disk where it is there and whole."""
+    folder, key = Cache.own(), _key(parts)
+    found = folder.read(key)
+    if found is None:
+        found = machine.compiled(language.translated(parts, exported, given))
+        folder.write(key, found)
+    return Loaded(found)

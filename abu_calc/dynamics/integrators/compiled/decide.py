@@ -1,0 +1,120 @@
+"""The natural next mode of the effect whose number fell, checked by the numbers of the equations in it.
+
+From the mode before, whatever fails changes, round by round (block principal pivoting, Júdice & Pires 1994): balls at
+rest, sides, touching pairs. Where rounds do not end, or the outcome is not
+as it must be, the general decision is asked.
+"""
+
+from abu_calc.dynamics.integrators.compiled.arrays import (
+    BALLS,
+    EVALUATIONS,
+    FOUND,
+    FRICTION,
+    GAPS,
+    GENERAL,
+    JOINED,
+    MODES,
+    NUMBERS,
+    ONE_SIDED,
+    PAIRS,
+    RATES,
+    STATES,
+    TOUCHES,
+    WATCHED,
+    Integers,
+    Reals,
+    setup,
+    watched,
+)  # fmt: skip
+from abu_calc.dynamics.integrators.compiled.contact import bounded, pressed, stilled
+from abu_calc.dynamics.integrators.compiled.friction import rested, rubbed, together
+from abu_calc.dynamics.integrators.compiled.impact import approaching, meeting
+
+ROUNDS = 16
+
+CLEAR = 1e-9
+"""Of depths and gaps of wheel and work, relative to what is usual: less than this is nothing."""
+
+
+def decided(
+    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
+    room: Reals,
+) -> bool:  # fmt: skip
+    """Whether a next mode was found; `k`, `w` are then rates and watched numbers to go on with.
+
+    Otherwise state and modes are as before.
+    """
+    n, many = lay[STATES], lay[NUMBERS] - lay[MODES]
+    states, modes = room, room[n:]
+    for i in range(n):
+        states[i] = y[i]
+    for i in range(many):
+        modes[i] = numbers[lay[MODES] + i]
+    if switched(t, y, numbers, par, lay, con, count, k, w, room[n + many :]) and settled(
+        t, y, numbers, par, lay, con, count, k, w, modes, room[n + many :]
+    ):
+        return True
+    count[GENERAL] += 1
+    for i in range(n):
+        y[i] = states[i]
+    for i in range(many):
+        numbers[lay[MODES] + i] = modes[i]
+    return False
+
+
+def switched(
+    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
+    room: Reals,
+) -> bool:  # fmt: skip
+    """What the number that fell says by itself, or a start; False for effects whose modes are not known here."""
+    fell, pairs = count[FOUND], lay[PAIRS]
+    if fell < 0:
+        if lay[GAPS] >= 0 and approaching(y, numbers, lay, con):
+            return meeting(t, y, numbers, par, lay, con, count, k, room)
+        return True
+    if fell == lay[ONE_SIDED]:
+        numbers[lay[TOUCHES]] = 1.0 - numbers[lay[TOUCHES]]
+        return True
+    if lay[GAPS] >= 0 and fell >= lay[GAPS] and fell < lay[GAPS] + 2 * pairs:
+        p = fell - lay[GAPS] if fell < lay[GAPS] + pairs else fell - lay[GAPS] - pairs
+        if numbers[lay[JOINED] + p] > 0.0:
+            numbers[lay[JOINED] + p] = 0.0
+            return True
+        if approaching(y, numbers, lay, con):
+            return meeting(t, y, numbers, par, lay, con, count, k, room)
+        return True
+    if lay[FRICTION] >= 0 and fell >= lay[FRICTION] and fell < lay[FRICTION] + 3 * lay[BALLS]:
+        if fell < lay[FRICTION] + lay[BALLS]:
+            y[lay[RATES] + fell - lay[FRICTION]] *= 1e-12
+        return True
+    return False
+
+
+def settled(
+    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
+    before: Reals, still: Reals,
+) -> bool:  # fmt: skip
+    """Modes that agree with what follows from them; False where none was found."""
+    if lay[FRICTION] >= 0:
+        rested(y, numbers, lay, con)
+    if lay[GAPS] >= 0:
+        stilled(y, numbers, lay, con, still)
+    for _ in range(ROUNDS):
+        if lay[FRICTION] >= 0:
+            together(y, numbers, lay)
+        setup(numbers, par)
+        watched(t, y, par, k, w)
+        count[EVALUATIONS] += 1
+        changed = False
+        if lay[GAPS] >= 0:
+            changed = pressed(y, numbers, lay, con, k, w, still)
+        if lay[FRICTION] >= 0:
+            changed = rubbed(y, numbers, lay, k, w) or changed
+        if not changed:
+            if lay[GAPS] >= 0:
+                bounded(y, numbers, par, lay, before, w)
+            # Where wheel and work part or meet, their number is nothing; at a start it must say clearly which it is.
+            if lay[ONE_SIDED] >= 0 and count[FOUND] != lay[ONE_SIDED] and w[lay[ONE_SIDED]] < CLEAR:
+                return False
+            return all(not (w[i] < 0.0 and i != lay[ONE_SIDED]) for i in range(lay[WATCHED]))
+    return False

@@ -1,0 +1,133 @@
+"""Expressions of the compiled language."""
+
+import ast
+
+from abu_calc.dynamics.integrators.compiled.writer import ELEMENTS, Value, Writer, constant, shown
+
+REAL_SIGNS: dict[type, str] = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
+INT_SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul"}
+COMPARED: dict[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge", ast.Eq: "eq", ast.NotEq: "ne"}
+FUNCTIONS = {"sqrt": "llvm.sqrt.f64", "abs": "llvm.fabs.f64", "sin": "sin", "cos": "cos"}
+
+
+class Expressions(Writer):
+    """Each kind of node has its method."""
+
+    def value(self, node: ast.expr) -> Value:
+        """Type and text of an expression."""
+        found: Value = self.handler("of", node)(node)
+        return found
+
+    def number(self, node: ast.expr, kind: str) -> str:
+        """An expression of this type."""
+        return self.as_kind(self.value(node), kind, node)
+
+    def truth(self, node: ast.expr) -> str:
+        """A condition."""
+        kind, text = self.value(node)
+        return text if kind == "i1" else self.refuse(node, "no condition")
+
+    def element(self, node: ast.Subscript) -> Value:
+        """Type and place of an element."""
+        kind, base = self.array(node)
+        index = self.number(node.slice, "i64")
+        return ELEMENTS[kind], self.new(f"getelementptr {ELEMENTS[kind]}, ptr {base}, i64 {index}")
+
+    def array(self, node: ast.Subscript) -> Value:
+        """What a subscript is taken of."""
+        if not isinstance(node.value, ast.Name):
+            self.refuse(node, "elements are those of a named array")
+        kind, base = self.load(node.value)
+        return (kind, base) if kind in ELEMENTS else self.refuse(node, "no array")
+
+    def of_Constant(self, node: ast.Constant) -> Value:  # noqa: N802
+        """A number."""
+        if not isinstance(node.value, bool | int | float):
+            self.refuse(node, "no number")
+        return constant(node.value)
+
+    def of_Name(self, node: ast.Name) -> Value:  # noqa: N802
+        """A variable before a number from outside."""
+        if node.id in self.numbers and node.id not in self.kinds:
+            return constant(self.numbers[node.id])
+        return self.load(node)
+
+    def of_BinOp(self, node: ast.BinOp) -> Value:  # noqa: N802
+        """Arithmetic; a division gives a real number."""
+        a, b, sign = self.value(node.left), self.value(node.right), type(node.op)
+        if a[0] == b[0] == "i64" and sign in INT_SIGNS:
+            return "i64", self.new(f"{INT_SIGNS[sign]} i64 {a[1]}, {b[1]}")
+        left, right = self.as_kind(a, "double", node.left), self.as_kind(b, "double", node.right)
+        if sign is ast.Pow:
+            return "double", self.new(f"call double @llvm.pow.f64(double {left}, double {right})")
+        if sign not in REAL_SIGNS:
+            self.refuse(node, "the compiled language has no such sign")
+        return "double", self.new(f"{REAL_SIGNS[sign]} double {left}, {right}")
+
+    def of_UnaryOp(self, node: ast.UnaryOp) -> Value:  # noqa: N802
+        """Not, or minus."""
+        if isinstance(node.op, ast.Not):
+            return "i1", self.new(f"xor i1 {self.truth(node.operand)}, true")
+        kind, text = self.value(node.operand)
+        if not isinstance(node.op, ast.USub) or kind not in ("double", "i64"):
+            self.refuse(node, "the compiled language has no such sign")
+        return kind, self.new(f"fneg double {text}" if kind == "double" else f"sub i64 0, {text}")
+
+    def of_Compare(self, node: ast.Compare) -> Value:  # noqa: N802
+        """Of two numbers; nothing that is no number is less, greater or equal."""
+        if len(node.ops) != 1 or type(node.ops[0]) not in COMPARED:
+            self.refuse(node, "one comparison of two numbers")
+        a, b, word = self.value(node.left), self.value(node.comparators[0]), COMPARED[type(node.ops[0])]
+        if a[0] == b[0] == "i64":
+            return "i1", self.new(f"icmp {word if word in ('eq', 'ne') else 's' + word} i64 {a[1]}, {b[1]}")
+        if a[0] == b[0] == "i1" and word in ("eq", "ne"):
+            return "i1", self.new(f"icmp {word} i1 {a[1]}, {b[1]}")
+        left, right = self.as_kind(a, "double", node), self.as_kind(b, "double", node)
+        return "i1", self.new(f"fcmp {'une' if word == 'ne' else 'o' + word} double {left}, {right}")
+
+    def of_BoolOp(self, node: ast.BoolOp) -> Value:  # noqa: N802
+        """The second is looked at only where the first does not decide."""
+        end, is_and = self.label("end"), isinstance(node.op, ast.And)
+        found = ast.Name(self.label("truth"))
+        self.kinds[found.id] = "i1"
+        for k, one in enumerate(node.values):
+            text = self.truth(one)
+            self.put(f"store i1 {text}, ptr %{found.id}")
+            if k + 1 < len(node.values):
+                onward = self.label("onward")
+                self.branch(text, *((onward, end) if is_and else (end, onward)))
+                self.block(onward)
+        self.jump(end)
+        self.block(end)
+        return self.load(found)
+
+    def of_IfExp(self, node: ast.IfExp) -> Value:  # noqa: N802
+        """The other side is not computed."""
+        yes, no, end = self.label("yes"), self.label("no"), self.label("end")
+        self.branch(self.truth(node.test), yes, no)
+        sides = []
+        for label, side in ((yes, node.body), (no, node.orelse)):
+            self.block(label)
+            value = self.value(side)
+            sides.append((*value, len(self.body)))
+            self.jump(end)
+        kind = sides[0][0] if sides[0][0] == sides[1][0] else "double"
+        found = ast.Name(self.label("either"))
+        self.kinds[found.id] = kind
+        for have, text, at in reversed(sides):  # the later one first, so that places stay where they are
+            here, self.body = self.body, []
+            self.put(f"store {shown(kind)} {self.as_kind((have, text), kind, node)}, ptr %{found.id}")
+            self.body = [*here[:at], *self.body, *here[at:]]
+        self.block(end)
+        return self.load(found)
+
+    def of_Subscript(self, node: ast.Subscript) -> Value:  # noqa: N802
+        """An element, or the same array from a place on."""
+        if not isinstance(node.slice, ast.Slice):
+            kind, place = self.element(node)
+            return kind, self.new(f"load {kind}, ptr {place}")
+        if node.slice.lower is None or node.slice.upper is not None or node.slice.step is not None:
+            self.refuse(node, "of an array is taken what begins somewhere")
+        kind, base = self.array(node)
+        index = self.number(node.slice.lower, "i64")
+        return kind, self.new(f"getelementptr {ELEMENTS[kind]}, ptr {base}, i64 {index}")

@@ -1,0 +1,156 @@
+"""Plain Python on numbers told in LLVM's language: the few words that a compiled loop needs, each function on its own.
+
+Types are those of the annotations: float, int, bool, `Reals` and `Integers` (arrays; `a[i:]` is the same array from i
+on). Words: assignments, `a: float = b`, `a, b = c, d`, if, while, for … in range(…), break, continue, return, calls of
+each other, and abs, min, max, sqrt, sin, cos, any, all. Names from outside are numbers. All else is refused by a
+LanguageError. What is written so is Python as well, and does there what it does compiled.
+"""
+
+import ast
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+from abu_calc.dynamics.integrators.compiled.calls import Calls
+from abu_calc.dynamics.integrators.compiled.expressions import FUNCTIONS
+from abu_calc.dynamics.integrators.compiled.writer import TYPES, shown, signature
+
+Part = tuple[str, Mapping[str, Any]]
+"""A text, and what its names from outside stand for."""
+
+
+def numbers(names: Mapping[str, Any]) -> dict[str, float]:
+    """Those names that are numbers."""
+    return {name: value for name, value in names.items() if isinstance(value, int | float)}
+
+
+def translated(parts: Sequence[Part], exported: Collection[str], given: str = "") -> str:
+    """The module of all functions in some texts, each with its constants; those exported can be called from outside.
+
+    `given`: functions, as their text declares them, that another module exports; their addresses are told to
+    `connect`, in order. Raises LanguageError where a text is more than the language.
+    """
+    outside = {one.name: signature(one) for one in ast.parse(given).body if isinstance(one, ast.FunctionDef)}
+    functions = [
+        (one, numbers(names)) for text, names in parts for one in ast.parse(text).body
+        if isinstance(one, ast.FunctionDef)
+    ]  # fmt: skip
+    known = outside | {one.name: signature(one) for one, _ in functions}
+    lines = [f"declare double @{name}(double) memory(none) nounwind willreturn" for name in FUNCTIONS.values()]
+    lines.append("declare double @llvm.pow.f64(double, double)")
+    lines += [f"@{name}.at = internal global ptr null" for name in outside]
+    for one, constants in functions:
+        lines += _Function(one, known, constants, outside).lines(one.name in exported)
+    stored = [f"  store ptr %{name}, ptr @{name}.at" for name in outside]
+    arguments = ", ".join(f"ptr %{name}" for name in outside)
+    return "\n".join([*lines, f"define void @connect({arguments}) {{", *stored, "  ret void", "}", ""])
+
+
+class _Function(Calls):
+    """Statements of one function."""
+
+    def lines(self, exported: bool) -> list[str]:
+        """The whole definition."""
+        entry = [f"  store {shown(k)} %{n}.in, ptr %{n}" for n, k in self.arguments.items()]
+        for statement in self.node.body:
+            self.statement(statement)
+        self.put("ret void" if self.result == "void" else "unreachable")
+        places = [f"  %{name} = alloca {shown(kind)}" for name, kind in self.kinds.items()]
+        given = ", ".join(f"{shown(kind)} %{name}.in" for name, kind in self.arguments.items())
+        how = "" if exported else "internal "  # inlined, they would be compiled again and again
+        named = f"define {how}{shown(self.result)} @{self.node.name}({given}) noinline nounwind {{"
+        return [named, "entry:", *places, *entry, *self.body, "}"]
+
+    def do_Expr(self, node: ast.Expr) -> None:  # noqa: N802
+        self.value(node.value)
+
+    def do_Pass(self, node: ast.Pass) -> None:  # noqa: N802
+        return
+
+    def do_Assign(self, node: ast.Assign) -> None:  # noqa: N802
+        if len(node.targets) != 1:
+            self.refuse(node, "one assignment at a time")
+        (target,) = node.targets
+        if not isinstance(target, ast.Tuple):
+            return self.store(target, self.value(node.value))
+        if not isinstance(node.value, ast.Tuple) or len(node.value.elts) != len(target.elts):
+            self.refuse(node, "as many values as names")
+        values = [self.value(one) for one in node.value.elts]
+        for one, value in zip(target.elts, values, strict=True):
+            self.store(one, value)
+        return None
+
+    def do_AnnAssign(self, node: ast.AnnAssign) -> None:  # noqa: N802
+        kind = ast.unparse(node.annotation)
+        if node.value is None or kind not in TYPES:
+            self.refuse(node, "a value of a type of the compiled language")
+        self.store(node.target, (TYPES[kind], self.number(node.value, TYPES[kind])))
+
+    def do_AugAssign(self, node: ast.AugAssign) -> None:  # noqa: N802
+        read = ast.parse(ast.unparse(node.target), mode="eval").body
+        whole = ast.copy_location(ast.BinOp(read, node.op, node.value), node)
+        self.store(node.target, self.value(ast.fix_missing_locations(whole)))
+
+    def do_Return(self, node: ast.Return) -> None:  # noqa: N802
+        if (node.value is None) != (self.result == "void"):
+            self.refuse(node, f"{self.result} is to be returned")
+        text = "" if node.value is None else " " + self.number(node.value, self.result)
+        self.put(f"ret {shown(self.result)}{text}")
+        self.block(self.label("after"))
+
+    def do_If(self, node: ast.If) -> None:  # noqa: N802
+        yes, no, end = self.label("yes"), self.label("no"), self.label("end")
+        self.branch(self.truth(node.test), yes, no)
+        for label, body in ((yes, node.body), (no, node.orelse)):
+            self.block(label)
+            for one in body:
+                self.statement(one)
+            self.jump(end)
+        self.block(end)
+
+    def do_While(self, node: ast.While) -> None:  # noqa: N802
+        test, body, end = self.label("test"), self.label("body"), self.label("end")
+        self.jump(test)
+        self.block(test)
+        self.branch(self.truth(node.test), body, end)
+        self.block(body)
+        self.repeated(node, test, end)
+        self.jump(test)
+        self.block(end)
+
+    def do_For(self, node: ast.For) -> None:  # noqa: N802
+        call, target = node.iter, node.target
+        counts = isinstance(call, ast.Call) and ast.unparse(call.func) == "range" and len(call.args) in (1, 2)
+        if not counts or not isinstance(call, ast.Call) or not isinstance(target, ast.Name):
+            self.refuse(node, "for name in range(one or two numbers)")
+        bounds = [self.number(one, "i64") for one in call.args]
+        counter = ast.Name(self.label("counter"))  # the name itself keeps its last value, as Python's does
+        self.store(counter, ("i64", bounds[0] if len(bounds) == 2 else "0"))
+        test, body, onward, end = (self.label(name) for name in ("test", "body", "onward", "end"))
+        self.jump(test)
+        self.block(test)
+        self.branch(self.new(f"icmp slt i64 {self.load(counter)[1]}, {bounds[-1]}"), body, end)
+        self.block(body)
+        self.store(target, self.load(counter))
+        self.repeated(node, onward, end)
+        self.jump(onward)
+        self.block(onward)
+        self.store(counter, ("i64", self.new(f"add i64 {self.load(counter)[1]}, 1")))
+        self.jump(test)
+        self.block(end)
+
+    def repeated(self, node: ast.For | ast.While, onward: str, end: str) -> None:
+        """The body of a loop."""
+        if node.orelse:
+            self.refuse(node, "loops have no else")
+        self.loops.append((onward, end))
+        for one in node.body:
+            self.statement(one)
+        self.loops.pop()
+
+    def do_Break(self, node: ast.Break) -> None:  # noqa: N802
+        self.jump(self.loops[-1][1])
+        self.block(self.label("after"))
+
+    def do_Continue(self, node: ast.Continue) -> None:  # noqa: N802
+        self.jump(self.loops[-1][0])
+        self.block(self.label("after"))

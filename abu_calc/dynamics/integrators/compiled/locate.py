@@ -1,0 +1,155 @@
+"""The first moment within a step at which a watched number falls below zero, on the dense output.
+
+Numbers are looked at at quarters of the step. One that starts at or below zero has just been switched: it counts once
+it has risen, and if it never does, the event is the very start. One that falls and rises again within two quarters is
+found by a parabola through three of its values.
+"""
+
+from abu_calc.dynamics.integrators.compiled.arrays import (
+    EVALUATIONS,
+    FOUND,
+    STATES,
+    VALUES,
+    WATCHED,
+    Integers,
+    Reals,
+    watched,
+)
+from abu_calc.dynamics.integrators.compiled.method import dense
+
+CHECKS = 4
+NEVER = 2.0
+"""No event in the step."""
+FINE = 2e-16
+"""Share of a step, or of the time itself, to which an event is located."""
+
+
+def look(
+    x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
+    dy: Reals, w: Reals,
+) -> None:  # fmt: skip
+    """State and watched numbers at a share x of the step."""
+    count[EVALUATIONS] += 1
+    dense(x, lay[STATES], y, between, at)
+    watched(t + x * h, at, par, dy, w)
+
+
+def resolved(t: float, h: float) -> float:
+    """Share of a step below which moments are one."""
+    return FINE * (1.0 + 8.0 * abs(t) / h)
+
+
+def crossing(
+    index: int, above: float, high: float, below: float, low: float, t: float, h: float, y: Reals, par: Reals,
+    lay: Integers, count: Integers, between: Reals, at: Reals, dy: Reals, w: Reals,
+) -> float:  # fmt: skip
+    """Where a number falls below zero, between two places; itself a place where it has.
+
+    Source: Chandrupatla 1997, Advances in Engineering Software 28(3), 145: inverse quadratic where that is safe.
+    """
+    a, fa, b, fb, c, fc = below, low, above, high, above, high
+    share = fa / (fa - fb)
+    least = resolved(t, h)
+    for _ in range(100):
+        x = a + share * (b - a)
+        look(x, t, h, y, par, lay, count, between, at, dy, w)
+        fx = w[index]
+        if (fx < 0.0) == (fa < 0.0):
+            c, fc = a, fa
+        else:
+            c, fc, b, fb = b, fb, a, fa
+        a, fa = x, fx
+        limit = least / abs(b - a)
+        if limit > 0.5 or fa == 0.0:
+            break
+        share = 0.5
+        if fc != fb and fc != fa:
+            way, bend = (a - b) / (c - b), (fa - fb) / (fc - fb)
+            if bend * bend < way and (1.0 - bend) * (1.0 - bend) < 1.0 - way:
+                share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+        share = min(max(share, limit), 1.0 - limit)
+    return a if fa < 0.0 or fa == 0.0 else b
+
+
+def dips(
+    check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
+    dy: Reals, w: Reals, rows: Reals,
+) -> float:  # fmt: skip
+    """The first event of the numbers that fall and rise again within the last two quarters."""
+    values, found = lay[VALUES], NEVER
+    first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
+    for i in range(lay[WATCHED]):
+        slope, later = second[i] - first[i], third[i] - second[i]
+        bend = 0.5 * (later - slope)
+        if slope < 0.0 and later > 0.0 and first[i] > 0.0 and second[i] > 0.0 and third[i] > 0.0:
+            lowest = 0.5 - slope / (2.0 * bend)
+            if lowest > 0.0 and lowest < 2.0 and first[i] + lowest * (slope + bend * (lowest - 1.0)) < 0.0:
+                x = (check - 2 + lowest) / CHECKS
+                look(x, t, h, y, par, lay, count, between, at, dy, w)
+                if w[i] < 0.0:
+                    above = (check - 2) / CHECKS if lowest < 1.0 else (check - 1) / CHECKS
+                    high = first[i] if lowest < 1.0 else second[i]
+                    x = crossing(i, above, high, x, w[i], t, h, y, par, lay, count, between, at, dy, w)
+                    if x < found:
+                        found = x
+                        count[FOUND] = i
+    return found
+
+
+def fallen(
+    check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
+    dy: Reals, w: Reals, rows: Reals,
+) -> float:  # fmt: skip
+    """The first event of the numbers that are below zero at a check.
+
+    Looked for is the one that a straight line says is first, then any that is below zero there too.
+    """
+    values, start, found = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
+    before, low = rows[(check - 1) * values :], rows[check * values :]
+    which = earliest(lay, before, low)
+    if which < 0:
+        return NEVER
+    while which >= 0:
+        count[FOUND] = which
+        if before[which] <= 0.0:
+            return start
+        x = crossing(which, start, before[which], found, low[which], t, h, y, par, lay, count, between, at, dy, w)
+        if x > found - resolved(t, h):
+            return x
+        found = x
+        look(found, t, h, y, par, lay, count, between, at, dy, w)
+        w[which], low = 0.0, w
+        which = earliest(lay, before, low)
+    return found
+
+
+def earliest(lay: Integers, before: Reals, here: Reals) -> int:
+    """Of the numbers below zero, the one that falls first by a straight line; −1 where none is."""
+    which, least = -1, NEVER
+    for i in range(lay[WATCHED]):
+        if here[i] < 0.0:
+            share = before[i] / (before[i] - here[i]) if before[i] > 0.0 else 0.0
+            if share < least:
+                which, least = i, share
+    return which
+
+
+def located(
+    t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals, dy: Reals,
+    w: Reals, rows: Reals,
+) -> float:  # fmt: skip
+    """The share of the step at which the first event is, and in the counts which number fell."""
+    for check in range(1, CHECKS + 1):
+        if check < CHECKS:
+            look(check / CHECKS, t, h, y, par, lay, count, between, at, dy, rows[check * lay[VALUES] :])
+        found = NEVER
+        if check > 1:
+            found = dips(check, t, h, y, par, lay, count, between, at, dy, w, rows)
+        which = count[FOUND]
+        other = fallen(check, t, h, y, par, lay, count, between, at, dy, w, rows)
+        if found < other:
+            count[FOUND] = which
+            return found
+        if other < NEVER:
+            return other
+    return NEVER

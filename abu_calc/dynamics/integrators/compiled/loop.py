@@ -1,0 +1,139 @@
+"""The loop of steps, located events and decisions, until the end or until something needs the general decision."""
+
+from abu_calc.dynamics.integrators.compiled.arrays import (
+    BEGUN,
+    DONE,
+    END,
+    EVALUATIONS,
+    EVENTS,
+    FOUND,
+    LONGEST,
+    MOST,
+    NOT_FINITE,
+    PAUSE,
+    PAUSED,
+    REACHED,
+    SAMPLES,
+    SCALES,
+    STALL,
+    STALLED,
+    STALLS,
+    START,
+    STATES,
+    STEP,
+    STEPS,
+    TIME,
+    TOO_MUCH,
+    TOO_SMALL,
+    UNDECIDED,
+    VALUES,
+    WATCHED,
+    Integers,
+    Reals,
+    setup,
+    watched,
+)  # fmt: skip
+from abu_calc.dynamics.integrators.compiled.decide import decided
+from abu_calc.dynamics.integrators.compiled.locate import NEVER, located
+from abu_calc.dynamics.integrators.compiled.method import (
+    MOST_FACTOR,
+    dense,
+    error,
+    longer,
+    prepared,
+    shorter,
+    stages,
+)  # fmt: skip
+from abu_calc.dynamics.integrators.run import EVENT, MOST_STALLED
+
+SMALLEST = 4e-15
+"""Steps below this share of the time are lost in rounding."""
+ROWS = 16
+"""Of states in the room to work in, before the watched numbers."""
+
+
+def go(
+    y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, run: Reals, count: Integers, samples: Reals,
+    states: Reals, room: Reals,
+) -> int:  # fmt: skip
+    """From where the run is toward its end; how it comes back."""
+    n, values = lay[STATES], lay[VALUES]
+    end, between, at, dy = room[7 * n :], room[8 * n :], room[12 * n :], room[13 * n :]
+    rows = room[ROWS * n :]
+    w, last, deciding = rows[5 * values :], rows[4 * values :], rows[6 * values :]
+    t, h, bound = run[TIME], run[STEP], con[END]
+    absolute, relative = con[SCALES:], con[SCALES + n :]
+    setup(numbers, par)
+    watched(t, y, par, room, rows)
+    count[EVALUATIONS] += 1
+    if count[START] > 0:
+        count[START], count[FOUND] = 0, -1
+        if not decided(t, y, numbers, par, lay, con, count, room, rows, deciding):
+            return UNDECIDED
+    if count[DONE] == 0 and count[SAMPLES] > 0 and samples[0] <= t:
+        for i in range(n):
+            states[i] = y[i]
+        count[DONE] = 1
+    most = MOST_FACTOR
+    while t < bound:
+        run[TIME], run[STEP] = t, h
+        if count[EVALUATIONS] + EVENT * count[EVENTS] > count[MOST]:
+            return TOO_MUCH
+        if count[EVALUATIONS] > count[PAUSE]:
+            return PAUSED
+        h = min(h, con[LONGEST])
+        reached, step = t + h, h
+        if reached >= bound:
+            reached, step = bound, bound - t
+        stages(t, step, n, y, par, room, end, last)
+        count[EVALUATIONS] += 6
+        off = error(step, n, y, end, room, absolute, relative)
+        if not off <= 1.0:
+            h, most = step * shorter(off), 1.0
+            if h < SMALLEST * abs(t) or h < 1e-300:
+                return TOO_SMALL if off - off == 0.0 else NOT_FINITE
+            continue
+        if not finite(n, end):
+            return NOT_FINITE
+        count[STEPS] += 1
+        further = step * min(most, longer(off))
+        most = MOST_FACTOR
+        x = NEVER
+        if lay[WATCHED] > 0 or (count[DONE] < count[SAMPLES] and samples[count[DONE]] <= reached):
+            prepared(step, n, y, end, room, between)
+        if lay[WATCHED] > 0:
+            x = located(t, step, y, par, lay, count, between, at, dy, w, rows)
+        came = reached if x == NEVER else t + x * step
+        while count[DONE] < count[SAMPLES] and samples[count[DONE]] <= came:
+            dense((samples[count[DONE]] - t) / step, n, y, between, states[count[DONE] * n :])
+            count[DONE] += 1
+        if x == NEVER:
+            t = reached
+            for i in range(n):
+                y[i], room[i] = end[i], room[6 * n + i]
+            for i in range(values):
+                rows[i] = last[i]
+            h = max(further, h) if step < h else further
+            run[TIME], run[STEP] = t, h
+            continue
+        count[EVENTS] += 1
+        count[STALLS] = count[STALLS] + 1 if came - run[BEGUN] < con[STALLED] else 0
+        run[TIME], run[STEP] = came, h
+        if count[STALLS] > MOST_STALLED:
+            return STALL
+        if x == 0.0 and t == run[BEGUN]:
+            run[STEP] = h / 10
+            return UNDECIDED
+        dense(x, n, y, between, at)
+        t = came
+        for i in range(n):
+            y[i] = at[i]
+        if t < bound and not decided(t, y, numbers, par, lay, con, count, room, rows, deciding):
+            return UNDECIDED
+        run[BEGUN] = t
+    return REACHED
+
+
+def finite(n: int, y: Reals) -> bool:
+    """Whether all states are numbers."""
+    return all(y[i] - y[i] == 0.0 for i in range(n))

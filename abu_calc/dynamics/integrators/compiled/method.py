@@ -1,0 +1,86 @@
+"""A step of Dormand and Prince's method of order 5 with its error, and the motion within it.
+
+Source: Dormand & Prince 1980, Journal of Computational and Applied Mathematics 6(1), 19; its dense output of order 4 as
+in Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.6 (contd5).
+"""
+
+from math import sqrt
+
+from abu_calc.dynamics.integrators.compiled.arrays import Reals, rates, watched
+
+LEAST_FACTOR, MOST_FACTOR, SAFETY = 0.2, 10.0, 0.9
+
+
+def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Reals, w: Reals) -> None:
+    """From y, whose rates are the first of k, to the end: seven rates, the last with what is watched there."""
+    a, b, c, d, e, f = k, k[n:], k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :]
+    for i in range(n):
+        end[i] = y[i] + h * (1 / 5 * a[i])
+    rates(t + h / 5, end, par, b)
+    for i in range(n):
+        end[i] = y[i] + h * (3 / 40 * a[i] + 9 / 40 * b[i])
+    rates(t + 3 * h / 10, end, par, c)
+    for i in range(n):
+        end[i] = y[i] + h * (44 / 45 * a[i] - 56 / 15 * b[i] + 32 / 9 * c[i])
+    rates(t + 4 * h / 5, end, par, d)
+    for i in range(n):
+        more = 19372 / 6561 * a[i] - 25360 / 2187 * b[i] + 64448 / 6561 * c[i] - 212 / 729 * d[i]
+        end[i] = y[i] + h * more
+    rates(t + 8 * h / 9, end, par, e)
+    for i in range(n):
+        more = 9017 / 3168 * a[i] - 355 / 33 * b[i] + 46732 / 5247 * c[i] + 49 / 176 * d[i] - 5103 / 18656 * e[i]
+        end[i] = y[i] + h * more
+    rates(t + h, end, par, f)
+    for i in range(n):
+        more = 35 / 384 * a[i] + 500 / 1113 * c[i] + 125 / 192 * d[i] - 2187 / 6784 * e[i] + 11 / 84 * f[i]
+        end[i] = y[i] + h * more
+    watched(t + h, end, par, k[6 * n :], w)
+
+
+def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, relative: Reals) -> float:
+    """The estimated error of a step in units of what is allowed, root mean square."""
+    total = 0.0
+    for i in range(n):
+        off = 71 / 57600 * k[i] - 71 / 16695 * k[2 * n + i] + 71 / 1920 * k[3 * n + i]
+        off += 22 / 525 * k[5 * n + i] - 17253 / 339200 * k[4 * n + i] - 1 / 40 * k[6 * n + i]
+        off = h * off / (absolute[i] + relative[i] * max(abs(y[i]), abs(end[i])))
+        total += off * off
+    return sqrt(total / n)
+
+
+def prepared(h: float, n: int, y: Reals, end: Reals, k: Reals, between: Reals) -> None:
+    """What the dense output of a step needs."""
+    for i in range(n):
+        way = end[i] - y[i]
+        bend = h * k[i] - way
+        between[i] = way
+        between[n + i] = bend
+        between[2 * n + i] = way - h * k[6 * n + i] - bend
+        more = -12715105075 / 11282082432 * k[i] + 87487479700 / 32700410799 * k[2 * n + i]
+        more += 701980252875 / 199316789632 * k[4 * n + i] - 10690763975 / 1880347072 * k[3 * n + i]
+        more += 69997945 / 29380423 * k[6 * n + i] - 1453857185 / 822651844 * k[5 * n + i]
+        between[3 * n + i] = h * more
+
+
+def dense(x: float, n: int, y: Reals, between: Reals, found: Reals) -> None:
+    """The state at a share x of a step."""
+    z = 1.0 - x
+    for i in range(n):
+        more = between[n + i] + x * (between[2 * n + i] + z * between[3 * n + i])
+        found[i] = y[i] + x * (between[i] + z * more)
+
+
+def shorter(off: float) -> float:
+    """Factor on a step whose error is too large, or no number."""
+    if off < 1e10:
+        factor: float = SAFETY * off**-0.2
+        return max(LEAST_FACTOR, factor)
+    return LEAST_FACTOR
+
+
+def longer(off: float) -> float:
+    """Factor on the next step."""
+    if off > 1e-10:
+        factor: float = SAFETY * off**-0.2
+        return min(MOST_FACTOR, factor)
+    return MOST_FACTOR

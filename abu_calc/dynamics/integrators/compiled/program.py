@@ -1,0 +1,139 @@
+"""The equations of one structure as functions of the compiled language: parameters, rates, and all that is watched.
+
+    setup(numbers, par)           what the equations use of a scene's numbers and modes, once for each mode
+    rates(t, y, par, dy)          y'
+    watched(t, y, par, dy, w)     y', the watched numbers, and the criteria of the effects' rules
+
+The one right-hand side is traced here as it is for heyoka and for plain Python. All modes have one code: balls are
+always tied in chains, whose gaps are open (0) or joined (1), and a push on each ball, 0 but in an impact, is among the
+numbers.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, ClassVar
+
+import numpy as np
+
+from abu_calc.dynamics.effect import Effect, Kind
+from abu_calc.dynamics.effects.ball_contact import Neighbours
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.equations.right_hand_side import accelerations, derivative, with_states
+from abu_calc.dynamics.motion import Levers, Loads, Motion
+from abu_calc.dynamics.parameters import Acting, Modes, Parameters
+from abu_calc.dynamics.tracing.plain import Node, Source
+from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
+from abu_calc.dynamics.tracing.traced import mapped
+
+
+@dataclass(frozen=True)
+class Push(Effect):
+    """A force along the race on each ball, per ball mass: its mode."""
+
+    name: ClassVar[str] = "push"
+    kind: ClassVar[Kind] = "driven"
+
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """Along the race."""
+        loads.add(pull=mode)
+
+
+def widened(equations: Equations, modes: Modes) -> Acting:
+    """The numbers in these modes, with all that any mode may need."""
+    p = equations.parameters
+    modes = tuple(replace(mode, tied=True) if isinstance(mode, Neighbours) else mode for mode in modes)
+    return Acting(replace(p, effects=(*p.effects, Push())), (*modes, np.zeros(p.balls)))
+
+
+@dataclass(frozen=True)
+class Program:
+    """The text of all functions, and how many numbers they take and give."""
+
+    text: str
+    numbers: int
+    parameters: int
+    watched: tuple[int, ...]
+    """How many numbers each effect watches, in order."""
+    criteria: tuple[int, ...]
+    """How many numbers its rule chooses by."""
+
+    @property
+    def values(self) -> int:
+        """What `watched` gives."""
+        return sum(self.watched) + sum(self.criteria)
+
+
+class _Named(Source):
+    """Expressions over y[…] and par[…]."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.par = _Places(self)
+
+
+class _Places:
+    def __init__(self, source: Source) -> None:
+        self.source = source
+
+    def __getitem__(self, place: int) -> Node:
+        return self.source.name(f"par[{place}]")
+
+
+def program(equations: Equations, acting: Acting) -> Program:
+    """The functions for a structure, from any of its modes."""
+    source = _Named()
+    tape = Tape(source)
+    symbolic = mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
+    y = np.array([tape.variable(source.name(f"y[{k}]")) for k in range(len(equations.states))])
+    motion, loads, solved = accelerations(Functions, tape.variable(source.time), y, symbolic)
+    rates = list(derivative(motion, solved, y, symbolic))
+    p, parts = symbolic.parameters, with_states(y, symbolic)
+    watched = [effect.watch(motion, mode, own, loads, solved, p) for effect, mode, own in parts]
+    criteria = [effect.criteria(motion, mode, own, loads, solved, p) for effect, mode, own in parts]
+    zero = Symbol(tape, [])
+    dy, w = ([(zero + one).expression() for row in rows for one in row] for rows in ([rates], [*watched, *criteria]))
+    given = "t: float, y: Reals, par: Reals, dy: Reals"
+    lines = [
+        *_function("rates", given, source, {"dy": dy}),
+        *_function("watched", f"{given}, w: Reals", source, {"dy": dy, "w": w}),
+    ]
+    setup, numbers, parameters = _setup(tape)
+    counts = (tuple(len(row) for row in rows) for rows in (watched, criteria))
+    return Program("\n".join([*setup, *lines, ""]), numbers, parameters, *counts)
+
+
+def _setup(tape: Tape) -> tuple[list[str], int, int]:
+    """The function that makes parameters of numbers, when all expressions have asked for them; how many of each."""
+    names, lines, results = tape.lines()
+    text = ["def setup(numbers: Reals, par: Reals) -> None:"]
+    text += [f" {name} = numbers[{k}]" for k, name in enumerate(names)] + [f" {line}" for line in lines]
+    text += [f" par[{k}] = {one}" for k, one in enumerate(results)] or [" pass"]
+    return text, len(names), len(results)
+
+
+def _function(name: str, arguments: str, source: Source, results: Mapping[str, Sequence[Any]]) -> list[str]:
+    """One function that stores its results."""
+    lines, texts = source.lines([one for row in results.values() for one in row])
+    text = [f"def {name}({arguments}) -> None:", *(f" {line}" for line in lines)]
+    places = [f"{array}[{k}]" for array, row in results.items() for k in range(len(row))]
+    return [*text, *(f" {place} = {one}" for place, one in zip(places, texts, strict=True))]
+
+
+def places(modes: Modes) -> list[dict[str, int]]:
+    """Where the numbers of each effect's mode are, by field ("" where the mode is a number or an array itself).
+
+    Counted from the end of all numbers, where they stand in the order in which `Numbers` flattens them.
+    """
+    found: list[dict[str, int]] = []
+    place = 0
+    for mode in modes:
+        row: dict[str, int] = {}
+        parts = {"": mode}
+        if mode is not None and not isinstance(mode, float | np.ndarray):
+            parts = {part.name: getattr(mode, part.name) for part in fields(mode)}
+        for name, value in parts.items():
+            if isinstance(value, float | np.ndarray):
+                row[name] = place
+                place += int(np.size(value))
+        found.append(row)
+    return [{name: at - place for name, at in row.items()} for row in found]

@@ -1,0 +1,166 @@
+"""Integration in compiled code, from one general decision to the next: steps, events and natural next modes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from abu_calc.dynamics.effects.ball_contact import Neighbours
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.integrators.compiled import arrays
+from abu_calc.dynamics.integrators.compiled.code import Code, code
+from abu_calc.dynamics.integrators.compiled.layout import constants, decides, layout, numbers_places, rules
+from abu_calc.dynamics.integrators.compiled.loop import ROWS
+from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.integrators.compiled.program import widened
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
+from abu_calc.dynamics.parameters import Modes
+from abu_calc.dynamics.switching.modes import at_break, settled, starting
+from abu_calc.dynamics.tracing.traced import Numbers
+from abu_calc.dynamics.trajectory import Trajectory
+
+NAME = "compiled-rk45"
+
+AT_ONCE = 20_000
+"""Evaluations between two returns from compiled code, within which no interrupt is heard: some hundredths of a
+second."""
+
+REASONS = {
+    arrays.NOT_FINITE: NOT_FINITE,
+    arrays.TOO_SMALL: "Required step size is less than spacing between numbers.",
+    arrays.STALL: "the motion stalls in ever more events",
+}
+
+
+def integrate(
+    equations: Equations,
+    tolerance: float,
+    sample_times: Sequence[float] | Array,
+    most_evaluations: int = MOST_EVALUATIONS,
+) -> Trajectory:
+    """The motion from t = 0 to the last of `sample_times` [s], ascending.
+
+    Raises as SciPy's does, and CompilerError where there is no compiler that works.
+    """
+    ordered, places = in_order(equations)
+    found = _Run(ordered, tolerance, sample_times, most_evaluations).trajectory()
+    y = np.empty_like(found.y)
+    y[places] = found.y
+    return replace(found, y=y)
+
+
+@dataclass
+class _Run(Run):
+    """One integration in compiled code; the balls are in order."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        equations = self.equations
+        self.modes = at_break(equations, 0.0, equations.first_modes)
+        self.code, self.numbers = prepared(equations)
+        program = self.code.program
+        wide = widened(equations, self.modes)
+        self.places = numbers_places(wide.modes, len(self.numbers))
+        self.layout = layout(equations, self.modes, program, self.places)
+        self.constants = constants(equations, self.modes, self.tolerance)
+        self.parameters = np.empty(program.parameters)
+        self.room = np.zeros(self._room(program.values))
+        self.rows = np.zeros((len(self.samples), len(equations.states)))
+        self.clock = np.array([0.0, self.constants[arrays.LONGEST] / 100, 0.0])
+        self.counts = np.zeros(arrays.COUNTS, dtype=np.int64)
+        self.counts[arrays.MOST], self.counts[arrays.SAMPLES] = self.most_evaluations, len(self.samples)
+
+    @property
+    def name(self) -> str:
+        """The method, and that it is compiled."""
+        return NAME
+
+    def _room(self, values: int) -> int:
+        """Numbers that the loop works with."""
+        states, pairs = len(self.equations.states), max(int(self.layout[arrays.PAIRS]), 0)
+        deciding = states + len(self.numbers) + pairs * (6 + 2 * pairs + states)
+        return ROWS * states + 6 * values + deciding
+
+    def _put(self, modes: Modes) -> None:
+        """Modes as numbers."""
+        for mode, row in zip(modes, self.places, strict=False):
+            for name, at in row.items():
+                value = np.ravel(getattr(mode, name) if name else mode)
+                self.numbers[at : at + len(value)] = value
+
+    def _taken(self, modes: Modes) -> Modes:
+        """Modes from numbers; `modes` tells their kinds."""
+        return tuple(self._one(mode, row) for mode, row in zip(modes, self.places, strict=False))
+
+    def _one(self, mode: Any, row: dict[str, int]) -> Any:
+        if "" in row:
+            return float(self.numbers[row[""]])
+        parts: dict[str, Any] = {
+            part.name: self.numbers[row[part.name] :][: getattr(mode, part.name).size].copy()
+            for part in (fields(mode) if row else ())
+            if part.name in row
+        }
+        if isinstance(mode, Neighbours):
+            parts["tied"] = bool(parts["joined"].any())
+        return replace(mode, **parts) if parts else mode
+
+    def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
+        """Toward the bound, up to an event that needs the general decision."""
+        self._put(modes)
+        self.state = np.array(state, dtype=float)
+        self.clock[arrays.TIME] = self.clock[arrays.BEGUN] = t
+        self.constants[arrays.END] = bound
+        how = arrays.PAUSED
+        while how == arrays.PAUSED:
+            self.counts[arrays.PAUSE] = self.counts[arrays.EVALUATIONS] + AT_ONCE
+            how = self.code.go(
+                self.state, self.numbers, self.parameters, self.layout, self.constants, self.clock, self.counts,
+                self.samples, self.rows, self.room,
+            )  # fmt: skip
+        self.steps, self.evaluations, self.events, self.done = (
+            int(self.counts[one]) for one in (arrays.STEPS, arrays.EVALUATIONS, arrays.EVENTS, arrays.DONE)
+        )
+        now = float(self.clock[arrays.TIME])
+        if how == arrays.TOO_MUCH:
+            raise lost(now, f"more work than allowed, {self.evaluations} evaluations and {self.events} events")
+        if how in REASONS:
+            raise lost(now, REASONS[how])
+        return now, self.state, how == arrays.UNDECIDED
+
+    def _go(self) -> None:
+        equations, end = self.equations, float(self.samples[-1])
+        state, modes = np.array(equations.initial, dtype=float), self.modes
+        if decides(equations.scene.effects, modes, rules(equations, modes)):
+            self.counts[arrays.START] = 1
+        else:
+            state, modes = starting(equations)
+        ends = [*(moment for moment in equations.breaks if 0 < moment < end), end]
+        t = 0.0
+        while t < end:
+            first, bound = bool(self.counts[arrays.START]), next(moment for moment in ends if moment > t)
+            t, state, undecided = self.segment(t, state, modes, bound)
+            if first and undecided and not self.counts[arrays.EVENTS]:
+                state, modes = starting(equations)
+                continue
+            modes = self._taken(modes)
+            if t == bound:
+                modes = at_break(equations, t, modes)
+            if t < end:
+                state, modes = settled(equations, t, state, modes)
+        self.states = self.rows.T
+
+
+def prepared(equations: Equations) -> tuple[Code, Array]:
+    """The code of a scene whose balls are in order, and its numbers. Raises CompilerError."""
+    wide, structure, numbers = described(equations)
+    return code(structure, equations, wide, numbers), numbers.copy()
+
+
+@lru_cache(maxsize=8)
+def described(equations: Equations) -> tuple[Any, Any, Array]:
+    """The widest modes, the structure and the numbers of a scene whose balls are in order."""
+    wide = widened(equations, at_break(equations, 0.0, equations.first_modes))
+    structure, numbers = Numbers(replace(equations, parameters=wide.parameters)).of(wide.modes)
+    return wide, structure, np.array(numbers)

@@ -1,0 +1,287 @@
+"""The compiled way through scenes that switch, against SciPy: motion, events, work, memory, interrupts, failures."""
+
+import math
+import os
+import signal
+import threading
+import time
+import tracemalloc
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from abu_calc.dynamics.effects.ball_contact import BallContact
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
+from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
+from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
+from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.integrators import choice, scipy_
+from abu_calc.dynamics.integrators.compiled import cache, machine, waiting
+from abu_calc.dynamics.integrators.compiled import code as compiled_code
+from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.scene import Scene, placed
+from abu_calc.errors import InputError, NotTrustworthyError
+from tests.dynamics.scenes import ROTORS, coupled_scene, scene_on, straight_grinder, with_effects
+from tests.dynamics.test_contract import CONTACT
+
+pytest.importorskip("llvmlite")
+from abu_calc.dynamics.integrators.compiled import run as compiled
+
+FRICTION, MEETING = DryRollingFriction(0.002, 0.1), BallContact(0.1, 0.5)
+RIGID = replace(CONTACT, contact="rigid", contact_stiffness=0.0)
+
+SCENES: dict[str, Scene] = {
+    "friction": scene_on("planar", FRICTION),
+    "friction and gravity": scene_on("planar", Gravity(0.3), FRICTION),
+    "friction, driven": scene_on("planar", *ROTORS["driven"], FRICTION),
+    "friction, guided": scene_on("coupled", *ROTORS["guided"], FRICTION),
+    "contact": scene_on("hand", MEETING),
+    "contact without rebound": scene_on("tilting", BallContact(0.1, 0.0)),
+    "contact without loss": scene_on("planar", BallContact(0.1, 1.0)),
+    "contact and gravity": scene_on("tilting, axial", Gravity(0.3), MEETING),
+    "friction and contact": scene_on("planar", Gravity(0.3), MEETING, FRICTION),
+    "friction and contact on an arm": scene_on("swing arm", MEETING, FRICTION),
+    "friction and contact, eccentric": scene_on("tilting", RaceEccentricity(0.05, 0.3), MEETING, FRICTION),
+    "wheel and work": scene_on("planar", CONTACT),
+    "wheel and work, friction and contact": scene_on("hand", CONTACT, MEETING, FRICTION),
+    "a rigid wheel": placed(scene_on("planar", RIGID, FRICTION)),
+    "across, where Python decides": scene_on("planar", TransverseMotion(0.7, 0.1, 0.02), MEETING, FRICTION),
+    "nothing switches": coupled_scene(),
+}
+
+
+def agree(scene: Scene, within: float, tolerance: float = 1e-8) -> tuple[int, int]:
+    """Compare with SciPy all along a run, in the scales of the states; events of both."""
+    equations, times = assemble(scene), np.linspace(0, scene.duration, 41)
+    exact = scipy_.integrate(equations, 1e-11, times)
+    found = compiled.integrate(equations, tolerance, times)
+    scales = np.array(equations.scales)[:, None]
+    np.testing.assert_allclose(found.y / scales, exact.y / scales, rtol=0, atol=within)
+    assert found.integrator == compiled.NAME
+    return found.events, exact.events
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_motion_is_that_of_scipy(name: str) -> None:
+    found, exact = agree(replace(SCENES[name], duration=10.0), within=1e-5)
+    assert abs(found - exact) <= 3 + exact // 50
+
+
+def test_errors_fall_with_the_tolerance() -> None:
+    """At most a hundred times the tolerance where balls stick, slip and touch."""
+    scene = replace(SCENES["friction and contact"], duration=6.0)
+    for tolerance in (1e-3, 1e-5, 1e-7):
+        agree(scene, 100 * tolerance, tolerance)
+
+
+def grinder() -> Equations:
+    """A machine whose balls stick and slip thousands of times."""
+    effects = Gravity(), BallContact(0.008, 0.5), DryRollingFriction(8e-6, 0.008)
+    scene = straight_grinder()
+    race = replace(scene.races[0], start_angles=tuple(1.7 * k for k in range(4)))
+    return assemble(with_effects(replace(scene, races=(race,)), *effects))
+
+
+def test_balls_may_be_given_in_any_order() -> None:
+    """The same motion ball by ball, and one code for all orders."""
+    scene = replace(SCENES["friction and contact"], duration=6.0)
+    race, order = scene.races[0], (2, 0, 1)
+    turned = replace(
+        race, ball_masses=tuple(race.ball_masses[k] for k in order),
+        start_angles=tuple(race.start_angles[k] + 2 * math.pi for k in order),
+        start_speeds=tuple(race.start_speeds[k] for k in order),
+    )  # fmt: skip
+    one, other = assemble(scene), assemble(replace(scene, races=(turned, scene.races[1])))
+    first, second = (compiled.integrate(equations, 1e-9, [6.0]).y[:, 0] for equations in (one, other))
+    balls = np.arange(4, 14).reshape(2, 5)
+    moved = first.copy()
+    for block in balls:
+        moved[block[:3]] = first[block[list(order)]]
+    moved[balls[0][:3]] += 2 * math.pi
+    np.testing.assert_allclose(second, moved, rtol=1e-5, atol=1e-6)
+    structures = [compiled.described(in_order(equations)[0])[1] for equations in (one, other)]
+    assert structures[0] == structures[1]
+
+
+def test_a_ball_may_start_between_two_samples_of_nothing() -> None:
+    """Samples need not begin at 0, nor be many."""
+    equations = assemble(SCENES["friction"])
+    whole = compiled.integrate(equations, 1e-8, [0.0, 2.5, 7.25, 10.0])
+    np.testing.assert_array_equal(whole.y[:, 0], equations.initial)
+    for times in ([2.5, 7.25, 10.0], [10.0]):
+        found = compiled.integrate(equations, 1e-8, times)
+        np.testing.assert_allclose(found.y, whole.y[:, -len(times) :], rtol=1e-12)
+
+
+def test_work_is_bounded() -> None:
+    equations = grinder()
+    with pytest.raises(NotTrustworthyError, match=r"more work than allowed, .* events") as given_up:
+        compiled.integrate(equations, 1e-6, [2000.0], most_evaluations=300_000)
+    assert "integration lost at t = " in str(given_up.value)
+
+
+def test_memory_is_that_of_the_samples() -> None:
+    """A million evaluations leave nothing behind."""
+    equations = grinder()
+    compiled.integrate(equations, 1e-4, [0.01])
+    tracemalloc.start()
+    run = compiled.integrate(equations, 1e-4, [20.0])
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert run.evaluations > 200_000
+    assert peak < 1_000_000
+
+
+def test_numbers_that_are_none_are_told() -> None:
+    equations = grinder()
+    far = replace(equations, initial=(1e308, *equations.initial[1:]))
+    with pytest.raises(NotTrustworthyError, match="integration lost at t = 0 s"):
+        compiled.integrate(far, 1e-6, [1.0])
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows knows no SIGINT for one process")
+def test_an_interrupt_is_heard() -> None:
+    equations = grinder()
+    compiled.integrate(equations, 1e-4, [0.01])
+    threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
+    begun = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        compiled.integrate(equations, 1e-10, [1e6], most_evaluations=10**12)
+    assert time.perf_counter() - begun < 30
+
+
+# What the compiler may do.
+
+
+@pytest.fixture
+def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """As in a new process with an empty folder."""
+    for name in ("_codes", "_texts"):
+        monkeypatch.setattr(compiled_code, name, {})
+    monkeypatch.setattr(waiting, "_broken", [])
+    monkeypatch.setenv(cache.FOLDER, str(tmp_path))
+    return tmp_path
+
+
+def test_code_is_kept_on_disk_and_rebuilt_where_it_is_damaged(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    equations = assemble(SCENES["friction"])
+    built: list[str] = []
+    original = machine.compiled
+    monkeypatch.setattr(machine, "compiled", lambda text: built.append(text) or original(text))  # type: ignore[func-returns-value]
+    assert waiting.waiting(equations) > waiting.LEAST
+    runs = [compiled.integrate(equations, 1e-6, [2.0]).y]
+    assert len(built) == len(list(fresh.iterdir())) == 2
+    assert waiting.waiting(equations) == 0.0
+    for damage in (lambda code: code, lambda code: code[:-100], lambda code: os.urandom(len(code))):
+        before = {one: one.read_bytes() for one in fresh.iterdir()}
+        for place, content in before.items():
+            place.write_bytes(damage(content))
+        compiled_code._codes.clear()
+        compiled_code._texts.clear()
+        assert waiting.waiting(equations) == waiting.LEAST
+        runs.append(compiled.integrate(equations, 1e-6, [2.0]).y)
+        assert {one: one.read_bytes() for one in fresh.iterdir()} == before
+    assert len(built) == 2 + 0 + 2 + 2
+    assert all(np.array_equal(one, runs[0]) for one in runs)
+
+
+def test_the_key_tells_numbers_from_outside_apart(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A constant of another file is in the machine code."""
+    text = "def go() -> float:\n return SIZE\n"
+    keys = {compiled_code._key([(text, {"SIZE": size})]) for size in (1.0, 2.0, 1)}
+    keys.add(compiled_code._key([(text + "\n", {"SIZE": 1.0})]))
+    monkeypatch.setattr(machine, "described", lambda: "another processor")
+    keys.add(compiled_code._key([(text, {"SIZE": 1.0})]))
+    assert len(keys) == 5
+
+
+@pytest.mark.usefixtures("fresh")
+@pytest.mark.parametrize("failing", ["_library", "_target"])
+def test_a_compiler_that_does_not_run_is_done_without(failing: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> None:
+        raise OSError("no such library: LLVM")
+
+    monkeypatch.setattr(machine, failing, broken)
+    equations = grinder()
+    with pytest.warns(RuntimeWarning, match="compiled code is not used: .*OSError: no such library: LLVM") as told:
+        chosen = choice.choose(equations, "auto", 1e-6)
+        again = choice.choose(equations, "auto", 1e-6)
+    assert len(told) == 1
+    assert chosen.name == again.name != compiled.NAME
+    with pytest.raises(InputError, match="does not run here"):
+        choice.choose(equations, "compiled", 1e-6)
+
+
+@pytest.mark.usefixtures("fresh")
+def test_code_that_gives_other_numbers_is_done_without(monkeypatch: pytest.MonkeyPatch) -> None:
+    original = compiled_code.program
+
+    def wrong(*given):  # type: ignore[no-untyped-def]
+        found = original(*given)
+        head, body = found.text.split("def rates", 1)
+        return replace(found, text=head + "def rates" + body.replace("dy[4] = ", "dy[4] = 1.0 + "))
+
+    monkeypatch.setattr(compiled_code, "program", wrong)
+    with pytest.warns(RuntimeWarning, match="does not give what the equations do"):
+        assert not waiting.load(assemble(SCENES["friction"]))
+
+
+# Which integrator is chosen.
+
+
+def test_scenes_that_switch_are_compiled() -> None:
+    chosen = choice.choose(grinder(), "auto", 1e-6)
+    assert (chosen.name, chosen.integrate) == (compiled.NAME, compiled.integrate)
+    assert "a scene that switches" in chosen.why
+
+
+def test_short_ones_are_not(fresh: Path) -> None:
+    equations = grinder()
+    short = assemble(replace(equations.scene, duration=2 * equations.scene.revolution))
+    chosen = choice.choose(short, "auto", 1e-6)
+    assert chosen.name == "scipy-dop853"
+    assert "short run" in chosen.why
+    assert list(fresh.iterdir()) == []
+
+
+@pytest.mark.usefixtures("fresh")
+def test_nor_those_that_would_end_before_they_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(waiting, "COMPILING", 1.0)
+    chosen = choice.choose(grinder(), "auto", 1e-6)
+    assert chosen.name == "scipy-dop853"
+    assert "compiling would take" in chosen.why
+
+
+def test_stiff_ones_and_those_decided_by_python_stay_where_they_were() -> None:
+    equations = grinder()
+    races = (replace(equations.scene.races[0], drag=1e7),)
+    assert choice.choose(assemble(replace(equations.scene, races=races)), "auto", 1e-6).name == "scipy-radau"
+    across = assemble(replace(SCENES["across, where Python decides"], duration=2000.0))
+    assert choice.choose(across, "auto", 1e-6).name != compiled.NAME
+
+
+def test_it_is_taken_where_it_is_asked_for() -> None:
+    equations = assemble(SCENES["friction"])
+    assert choice.choose(equations, "compiled", 1e-6).name == compiled.NAME
+    for name in ("compiled", compiled.NAME):
+        assert choice.integrate_with(name, equations, 1e-6, np.array([1.0]), 10**6).integrator == compiled.NAME
+
+
+def test_run_ups_are_met() -> None:
+    """Ω' jumps within the run."""
+    scene = with_effects(straight_grinder(), RunUp(0.5, 0.7), DryRollingFriction(8e-6, 0.008))
+    found = compiled.integrate(assemble(scene), 1e-8, [0.5, scene.duration - 0.7, scene.duration]).y[-2:]
+    turns = 0.25 * scene.speed, (scene.duration - 0.95) * scene.speed, (scene.duration - 0.6) * scene.speed
+    np.testing.assert_allclose(found[0], turns, rtol=1e-9)
+
+
+def test_a_wheel_bounces() -> None:
+    """Wheel and work part and meet many times."""
+    scene = scene_on("planar", GrindingContact(0.7, 0.0, "compliant", 50.0, -1, 0.1, 0.8))
+    found, exact = agree(replace(scene, duration=15.0), within=1e-4)
+    assert found == exact > 5
