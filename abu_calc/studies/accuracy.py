@@ -10,7 +10,7 @@ from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import one_of
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel
 from abu_calc.studies.simulated_scene import finite
@@ -20,6 +20,7 @@ from abu_calc.validity import Range
 BUDGET: Final = Range("budget", 0.1, 3600.0, "s", key="budget_s")
 
 
+@record
 class MeasuredPoint(Record):
     """One way to compute; without a number of it, `note` says why."""
 
@@ -43,6 +44,7 @@ class MeasuredPoint(Record):
         )  # fmt: skip
 
 
+@record
 class Reference(Record):
     """What errors are counted from: two methods; how far they are apart, and errors are no surer."""
 
@@ -59,6 +61,7 @@ class Reference(Record):
         )
 
 
+@record
 class AccuracyResult(Result):
     """The price list of a scene."""
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from abu_calc.errors import InputError, Place
 from abu_calc.fits.seats import BearingSeats, seat_bearing
+from abu_calc.studies.quantity import record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
 
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
 
 
+@record
 class CheckFitResult(Result):
     """The seats of every bearing, in the order of the file: the shaft's, then the housing's."""
 

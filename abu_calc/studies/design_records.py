@@ -13,7 +13,7 @@ from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import Place
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.simulated_scene import finite
 from abu_calc.units import from_si
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
+@record
 class StabilityBoundary(Record):
     """A speed at which the balanced state gains or loses its stability."""
 
@@ -34,6 +35,7 @@ def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundar
                  for one in limits)  # fmt: skip
 
 
+@record
 class Frequency(Record):
     """Where the working speeds lie, by the simple rule and by the eigenvalues."""
 
@@ -60,6 +62,7 @@ class Frequency(Record):
         )
 
 
+@record
 class Autobalancer(Record):
     """One candidate."""
 
@@ -118,6 +121,7 @@ class Autobalancer(Record):
         )
 
 
+@record
 class AccuracyBudget(Record):
     """Displacements 0–peak at the wheel that stay when the balls have settled; None: without bound."""
 
@@ -157,6 +161,7 @@ def _um(length: float) -> float | None:
     return finite(from_si(length, "um"))
 
 
+@record
 class HandleLevels(Record):
     """Levels at one place where the machine is held."""
 
@@ -179,6 +184,7 @@ class HandleLevels(Record):
         )
 
 
+@record
 class Vibration(Record):
     """Levels at the loudest place, and at each; None after: balls cannot balance."""
 
@@ -199,6 +205,7 @@ class Vibration(Record):
         )
 
 
+@record
 class SwingArm(Record):
     """What stiffness and damping the arm must have."""
 
@@ -224,6 +231,7 @@ class SwingArm(Record):
         )
 
 
+@record
 class DrawingLine(Record):
     """One requirement for the drawing."""
 

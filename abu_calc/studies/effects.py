@@ -6,13 +6,14 @@ from typing import Annotated, ClassVar
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Status
 from abu_calc.dynamics.effects.registry import REGISTRY
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.scene_model import SceneModel
 from abu_calc.studies.simulated_scene import EffectEntry, effect_entries
 from abu_calc.studies.subject import Source, subject_of
 
 
+@record
 class KnownEffect(Record):
     """An effect this version knows."""
 
@@ -22,6 +23,7 @@ class KnownEffect(Record):
     table: Annotated[str, Quantity("table of a scene file")]
 
 
+@record
 class KnownEffectsResult(Result):
     """All effects there are."""
 
@@ -35,6 +37,7 @@ class KnownEffectsResult(Result):
         return "pass"
 
 
+@record
 class EffectsResult(Result):
     """The effects a scene has data for."""
 

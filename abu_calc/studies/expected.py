@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Final
 
-from abu_calc.studies.quantity import Quantity, Record, flattened
+from abu_calc.studies.quantity import Quantity, Record, flattened, record
 
 DEFAULT_TOLERANCE: Final = 1e-3
 """Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""
@@ -33,6 +33,7 @@ WORTH_KEEPING: Final = (
 SEAT_KEYS: Final = ("fit", "interference_um.0", "interference_um.1", "recommended_fit")
 
 
+@record
 class ComparedValue(Record):
     """One expected value and what came out."""
 

@@ -1,5 +1,6 @@
 """Records: the parts a result is made of, whose fields say what they are.
 
+    @record
     class Autobalancer(Record):
         ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
 
@@ -8,9 +9,10 @@ Schema of results are made of that.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import FrozenInstanceError
-from inspect import get_annotations
-from typing import Any, ClassVar, Final, NamedTuple, dataclass_transform, get_args, get_origin, get_type_hints
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Final, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints
+
+T = TypeVar("T")
 
 
 class Quantity(NamedTuple):
@@ -24,59 +26,41 @@ class Quantity(NamedTuple):
     """Shown in hundredths."""
 
 
-_CLASS_VAR: Final[object] = ClassVar
-
-
 @dataclass_transform(frozen_default=True, kw_only_default=True)
-class Record:
-    """A part of a result: frozen, its fields given by name, in user units; None: not computed, a check says why.
+def record(kind: type[T]) -> type[T]:
+    """Makes a class a record: a frozen dataclass whose fields are given by name.
 
-    A class below this one is for a type checker what a dataclass is. What dataclasses write for each class anew stands
-    here once, since writing it would take a good part of a command's start.
+    Comparison and text are those of `Record`: to write them for each class would take a good part of a command's start.
     """
+    return dataclass(frozen=True, kw_only=True, eq=False, repr=False)(kind)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Record:
+    """A part of a result. Fields in user units; None: not computed, a check or a warning says why."""
 
     left_out: ClassVar[frozenset[str]] = frozenset()
     """Fields that are no entries of the result."""
     optional: ClassVar[frozenset[str]] = frozenset()
     """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
-    behind: ClassVar[frozenset[str]] = frozenset()
-    """Fields that hold what the result was read from, and are not compared."""
-    fields: ClassVar[tuple[str, ...]] = ()
-    """Names of all fields, those of bases first."""
-
-    def __init_subclass__(cls) -> None:
-        own = (name for name, hint in get_annotations(cls).items() if get_origin(hint) is not _CLASS_VAR)
-        before = (name for base in reversed(cls.__mro__[1:]) if issubclass(base, Record) for name in base.fields)
-        cls.fields = tuple(dict.fromkeys((*before, *own)))
-
-    def __init__(self, **values: Any) -> None:
-        strange = values.keys() - set(self.fields)
-        missing = [name for name in self.fields if name not in values and not hasattr(type(self), name)]
-        if strange or missing:
-            raise TypeError(f"{type(self).__name__}: unknown fields {sorted(strange)}, missing fields {missing}")
-        self.__dict__.update({name: getattr(type(self), name) for name in self.fields if name not in values}, **values)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise FrozenInstanceError(f"{type(self).__name__} is frozen: {name} cannot be set")
-
-    def __delattr__(self, name: str) -> None:
-        raise FrozenInstanceError(f"{type(self).__name__} is frozen: {name} cannot be deleted")
 
     def __eq__(self, other: object) -> bool:
-        if type(self) is not type(other):
+        if type(other) is not type(self):
             return NotImplemented
-        return all(getattr(self, name) == getattr(other, name) for name in self.fields if name not in self.behind)
+        names = [field.name for field in fields(self) if field.compare]
+        return all(getattr(self, name) == getattr(other, name) for name in names)
 
     def __hash__(self) -> int:
         return hash(type(self))  # what it holds need not be hashable
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={getattr(self, name)!r}' for name in self.entries())})"
+        values = (f"{field.name}={getattr(self, field.name)!r}" for field in fields(self) if field.repr)
+        return f"{type(self).__name__}({', '.join(values)})"
 
     @classmethod
     def entries(cls) -> tuple[str, ...]:
         """Names of the fields that are entries of the result, in order."""
-        return tuple(name for name in cls.fields if name not in cls.left_out)
+        return tuple(field.name for field in fields(cls) if field.name not in cls.left_out)
 
     def to_dict(self) -> dict[str, Any]:
         """The entries as JSON has them."""

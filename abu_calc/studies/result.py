@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from abu_calc.checks import Check, Status, overall
-from abu_calc.studies.quantity import Record, as_plain
+from abu_calc.studies.quantity import Record, as_plain, record
 from abu_calc.version import __version__
 
 if TYPE_CHECKING:
@@ -57,6 +57,7 @@ class Provenance:
         }
 
 
+@record
 class Result(Record):
     """What a study answers: its own fields, in user units, the checks that judge them, and where they come from."""
 

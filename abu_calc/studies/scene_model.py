@@ -6,9 +6,10 @@ from typing import Any, Self
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene
-from abu_calc.studies.quantity import Record
+from abu_calc.studies.quantity import Record, record
 
 
+@record
 class RaceModel(Record):
     """A race and its balls."""
 
@@ -36,6 +37,7 @@ class RaceModel(Record):
         )
 
 
+@record
 class SceneModel(Record):
     """A scene as it is integrated; the numbers of its support stand beside the others."""
 

@@ -8,13 +8,14 @@ from abu_calc.fits.seats import BearingSeats, SeatFit
 from abu_calc.fits.stress import inner_ring_diameter
 from abu_calc.standards.balls import seat_material
 from abu_calc.studies.check_fit import judged_seats
-from abu_calc.studies.quantity import Record
+from abu_calc.studies.quantity import Record, record
 from abu_calc.studies.seat_records import Pair
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
 
 
+@record
 class SeatModel(Record):
     """One seat; male is the part inside (shaft, or outer ring), female the part around it (inner ring, or housing)."""
 
@@ -61,6 +62,7 @@ class SeatModel(Record):
         )
 
 
+@record
 class BearingModel(Record):
     """One bearing with its two seats."""
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 
 from abu_calc.spec.bearing import RingLoad
 from abu_calc.standards.limits import Seat
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def _um(length: float | None) -> float | None:
     return None if length is None else um(length)
 
 
+@record
 class Loss(Record):
     """What takes from the interference: the load by both rules, of which the larger counts, then the losses given."""
 
@@ -46,6 +47,7 @@ class Loss(Record):
         return cls(name=loss.name, amount_um=um(loss.value), formula=loss.formula, counted=item.counted)
 
 
+@record
 class AdmissibleFit(Record):
     """A tolerance class that passes all checks."""
 
@@ -61,6 +63,7 @@ class AdmissibleFit(Record):
         )
 
 
+@record
 class Creep(Record):
     """Whether the ring creeps on its seat under its load, and whether it holds when the machine starts."""
 
@@ -88,6 +91,7 @@ class Creep(Record):
         )
 
 
+@record
 class Requirements(Record):
     """What the drawing of the seat must ask for."""
 
@@ -117,6 +121,7 @@ class Requirements(Record):
         )
 
 
+@record
 class Clearance(Record):
     """Radial clearance in the bearing; it belongs to both seats."""
 
@@ -140,6 +145,7 @@ class Clearance(Record):
         )
 
 
+@record
 class SeatResult(Record):
     """One seat, judged; interference is positive when tight, limits count from the nominal size."""
 

@@ -1,6 +1,7 @@
 """One scene integrated: amplitude, level, settling time, where the balls end, and how sure that is."""
 
 from collections.abc import Sequence
+from dataclasses import field
 from typing import ClassVar, Final
 
 from abu_calc.analysis.audit import Audit
@@ -11,6 +12,7 @@ from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import one_of
 from abu_calc.studies.motion import Motion, equally_spaced
+from abu_calc.studies.quantity import record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.simulated_scene import SimulatedScene
@@ -19,21 +21,20 @@ from abu_calc.studies.subject import Source, subject_of
 INTEGRATORS: Final = ("auto", "scipy", "compiled", "heyoka")
 
 
+@record
 class SimulateResult(SimulatedScene, Result):
     """One scene that was simulated; beside what is printed, how it moved."""
 
     command: ClassVar[str] = "simulate"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "run"}
 
-    behind: ClassVar[frozenset[str]] = frozenset({"motion", "run"})
-
     description: str
     """Support, races and balls, in a sentence."""
     start: str
     """How it starts, in words."""
-    motion: Motion | None
+    motion: Motion | None = field(compare=False, repr=False)
     """Axis and balls at the times asked for; None where none were."""
-    run: Simulation
+    run: Simulation = field(compare=False, repr=False)
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
 

@@ -8,7 +8,7 @@ from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import FinalState
 from abu_calc.analysis.simulate import Cost as RunCost
 from abu_calc.analysis.simulate import Simulation
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, wrapped_deg
 
 
@@ -17,6 +17,7 @@ def finite(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
+@record
 class End(Record):
     """Where a run ended; ball angles in (−180, 180], in the order of the file."""
 
@@ -59,6 +60,7 @@ class End(Record):
         )
 
 
+@record
 class EffectEntry(Record):
     """One effect: whether it was simulated, what leaving it out would change, and why."""
 
@@ -76,6 +78,7 @@ def effect_entries(ledger: Ledger) -> tuple[EffectEntry, ...]:
     )
 
 
+@record
 class Cost(Record):
     """Work of all runs of a simulation together; tolerance and steps of the one that is reported."""
 
@@ -96,6 +99,7 @@ class Cost(Record):
         )  # fmt: skip
 
 
+@record
 class Envelope(Record):
     """What the averaged slow motion was good for."""
 
@@ -103,6 +107,7 @@ class Envelope(Record):
     why: Annotated[str, Quantity("why it was taken, or not")]
 
 
+@record
 class Audit(Record):
     """The same scene once more with every effect in: what that changed beside what was promised."""
 
@@ -121,6 +126,7 @@ class Audit(Record):
         )  # fmt: skip
 
 
+@record
 class SettlingEstimate(Record):
     """Settling at another drag: the simulated time, scaled by the rates of the slow motion."""
 
@@ -128,6 +134,7 @@ class SettlingEstimate(Record):
     settling_time_s: Annotated[float | None, Quantity("settling time", "", 3)]
 
 
+@record
 class SimulatedScene(Record):
     """One scene: how it ended, when it settled, what was left out, what it cost, how far it may be off."""
 

@@ -17,7 +17,7 @@ from abu_calc.studies.design_records import (
     SwingArm,
     Vibration,
 )
-from abu_calc.studies.quantity import Quantity
+from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
 
 
+@record
 class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 

@@ -5,10 +5,11 @@ from typing import Self
 
 from abu_calc.analysis.machine import Run
 from abu_calc.sizing.design import Design
-from abu_calc.studies.quantity import Record
+from abu_calc.studies.quantity import Record, record
 from abu_calc.studies.scene_model import SceneModel
 
 
+@record
 class SizeModel(Record):
     """What the steps of sizing worked with; complex numbers as real and imaginary part, x before y."""
 

@@ -8,7 +8,7 @@ from abu_calc.dynamics.balanced.stability import stability as judged
 from abu_calc.errors import InputError, Place
 from abu_calc.studies.arguments import one_of
 from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
-from abu_calc.studies.quantity import Quantity
+from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel
 from abu_calc.studies.simulated_scene import finite
@@ -26,6 +26,7 @@ SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
 Pairs = tuple[tuple[float, float], ...]
 
 
+@record
 class StabilityResult(Result):
     """The balanced state of a scene at its speed; complex numbers as real and imaginary part."""
 

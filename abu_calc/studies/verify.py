@@ -8,13 +8,14 @@ from abu_calc.errors import InputError, Place
 from abu_calc.progress import Progress, silent
 from abu_calc.spec.bearing_file import BearingFile, expected_tolerances, expected_values
 from abu_calc.studies.expected import ComparedValue, compare, current
-from abu_calc.studies.quantity import Quantity, Record
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Provenance, Result
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
 
 
+@record
 class VerifiedFile(Record):
     """One file and its values."""
 
@@ -27,6 +28,7 @@ class VerifiedFile(Record):
         return tuple(each for each in self.values if not each.passed)
 
 
+@record
 class VerifyResult(Result):
     """Every file with its values, a check each."""
 
