@@ -27,7 +27,12 @@ def _shared(
     json: Annotated[bool, typer.Option("--json", help="One JSON document on standard output.")] = False,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="Also write a .json, .toml, .csv or .txt file."),
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Also write a file; its suffix says as what (.json, .toml, .csv, .txt).",
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report; the exit status tells.")] = False,

@@ -53,7 +53,7 @@ def _verdict(seat: SeatResult) -> Paragraph:
     start = ""
     if creep.friction_moment_N_m:
         least, probable = creep.friction_moment_N_m
-        start = f" Friction moment {least:.3g} N·m, probably {probable:.3g}{AT_START[creep.holds_at_start]}."
+        start = f" Friction torque {least:.3g} N·m, probably {probable:.3g}{AT_START[creep.holds_at_start]}."
     text = f"{ring} on {seat.fit}: {creep.verdict} ({creep.why}). {write}{start}"
     return Paragraph(text, MARKS.get(creep.verdict))
 

@@ -1,5 +1,6 @@
 """`--set table.key=value`, or `changed({"table.key": value})`: entries of a file replaced."""
 
+import copy
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -36,11 +37,33 @@ class Override:
 
 
 def overrides_of(values: Mapping[str, object]) -> list[Override]:
-    """Overrides by key path, as Python gives them: values as they are, tuples as lists."""
-    return [
-        Override(_path(key.strip(), "changed"), list(value) if isinstance(value, tuple) else value, "{}")
-        for key, value in values.items()
-    ]
+    """Overrides by key path, as Python gives them; copies, tuples as lists. Raises InputError for what is no path."""
+    if not isinstance(values, Mapping) or not all(isinstance(key, str) for key in values):
+        raise InputError(
+            "key paths with their values are expected",
+            place=Place(key="changed"),
+            found=repr(values)[:60],
+            allowed='{"wheel.mass_kg": 0.5}',
+        )
+    return [Override(_path(key.strip(), "changed"), _listed(value), "{}") for key, value in values.items()]
+
+
+def following(earlier: Sequence[Override], later: Sequence[Override], model: type[Table]) -> tuple[Override, ...]:
+    """Earlier overrides and later ones, without those earlier ones whose place a later one takes."""
+    gone = {override.path for override in later}
+    for override in later:
+        *parent, key = override.path
+        table = table_at(model, tuple(parent))
+        if table is not None and isinstance(key, str):
+            gone |= {(*parent, other) for other in table.displaced_by(key, override.value)}
+    return (*(override for override in earlier if override.path not in gone), *later)
+
+
+def _listed(value: object) -> object:
+    """A copy with lists for tuples, as TOML has them."""
+    if isinstance(value, (list, tuple)):
+        return [_listed(each) for each in value]
+    return {key: _listed(each) for key, each in value.items()} if isinstance(value, dict) else value
 
 
 def parse_override(text: str) -> Override:
@@ -128,13 +151,13 @@ def _put(document: dict[str, object], override: Override) -> None:
                     "no such element", place=place, allowed=f"the file has {len(held)} of them, counted from 0"
                 )
             if following is None:
-                held[step] = override.value
+                held[step] = copy.deepcopy(override.value)
             held = held[step]
         elif not isinstance(held, dict):
             remedy = f"say which one: {step} of element [0]" if isinstance(held, list) else f"set {EXAMPLE[6:]} alike"
             raise InputError(f'"{step}" is below a key that is no table', place=place, remedy=remedy)
         elif following is None:
-            held[step] = override.value
+            held[step] = copy.deepcopy(override.value)
         else:
             held = held.setdefault(step, [] if isinstance(following, int) else {})
 

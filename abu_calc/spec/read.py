@@ -27,9 +27,9 @@ class Machine(Reading):
 
         Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
         """
-        from abu_calc.spec.overrides import overrides_of
+        from abu_calc.spec.overrides import following, overrides_of
 
-        return machine_from(self.document, (*self.overrides, *overrides_of(values)))
+        return machine_from(self.document, following(self.overrides, overrides_of(values), _whole()))
 
     def whole(self, command: str) -> "MachineFile":
         """The tables of a whole machine; raises InputError for a file that holds bearings alone."""
@@ -40,6 +40,18 @@ class Machine(Reading):
             place=Place(self.file, key="machine"),
             remedy="Use `abu check-fit`, or add [suspension], [wheel] and [autobalancer].",
         )
+
+
+def required(machine: object) -> Machine:
+    """The machine itself; raises InputError for anything else, such as the name of its file."""
+    if isinstance(machine, Machine):
+        return machine
+    raise InputError(
+        "a machine that was read is expected",
+        place=Place(key="machine"),
+        found=repr(machine)[:60],
+        remedy='abu_calc.read("machine.toml") returns one.',
+    )
 
 
 def read(source: str | os.PathLike[str]) -> Machine:

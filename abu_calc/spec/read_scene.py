@@ -25,9 +25,9 @@ class SceneDescription(Reading):
 
         Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
         """
-        from abu_calc.spec.overrides import overrides_of
+        from abu_calc.spec.overrides import following, overrides_of
 
-        return _scene_from(self.document, (*self.overrides, *overrides_of(values)))
+        return _scene_from(self.document, following(self.overrides, overrides_of(values), SceneFile))
 
 
 def read_scene(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> SceneDescription:

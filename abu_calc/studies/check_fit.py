@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from abu_calc.errors import InputError, Place
 from abu_calc.fits.seats import BearingSeats, seat_bearing
+from abu_calc.spec.read import required
 from abu_calc.studies.quantity import record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
@@ -52,7 +53,7 @@ def check_fit(machine: "Machine") -> CheckFitResult:
 
 def judged_seats(machine: "Machine") -> tuple[BearingSeats, ...]:
     """The bearings of a machine with their seats, in SI. Raises as `check_fit` does."""
-    if not machine.tables.bearing:
+    if not required(machine).tables.bearing:
         raise InputError(
             "the file has no bearings", place=Place(machine.file, key="bearing"), remedy="Add a table [[bearing]]."
         )

@@ -8,6 +8,7 @@ The unit stands in the name of a field; label, symbol, digits and meaning beside
 Schema of results are made of that.
 """
 
+import datetime
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Final, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints
@@ -76,6 +77,8 @@ def as_plain(value: object) -> Any:
         return {key: as_plain(inner) for key, inner in value.items()}
     if isinstance(value, (tuple, list)):
         return [as_plain(inner) for inner in value]
+    if isinstance(value, (datetime.date, datetime.time)):
+        return value.isoformat()
     return value
 
 

@@ -9,6 +9,7 @@ from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
+from abu_calc.spec.read import required
 from abu_calc.studies.design_records import (
     AccuracyBudget,
     Autobalancer,
@@ -58,7 +59,7 @@ def size(machine: "Machine", accuracy: float = 0.01, progress: Progress = silent
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
-    tables = machine.whole("size")
+    tables = required(machine).whole("size")
     with machine.located():
         design = size_design(tables)
         runs, failures = simulated(design, accuracy, progress)

@@ -15,7 +15,7 @@ from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scen
 from abu_calc.scenes.from_scene import lasting, scene_from
 from abu_calc.sizing import size
 from abu_calc.spec.document import Reading
-from abu_calc.spec.read import Machine
+from abu_calc.spec.read import Machine, required
 from abu_calc.spec.read_scene import SceneDescription
 from abu_calc.studies.arguments import check_effects, one_of
 from abu_calc.studies.result import Provenance
@@ -68,6 +68,8 @@ def subject_of(source: Source, scene: str | None = None, start: str | None = Non
     one_of("start", start, STARTS)
     if isinstance(source, Machine):
         return _of_machine(source, scene or "idle", start or "bunched")
+    if not isinstance(source, (SceneDescription, Scene)):
+        required(source)
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
     for argument, value in (("scene", scene), ("start", start)):
         if value is not None:

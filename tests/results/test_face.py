@@ -1,5 +1,8 @@
 """Use from Python: typed, what the command prints, and errors that say what is wrong."""
 
+import copy
+import dataclasses
+import pickle
 import subprocess
 import sys
 import textwrap
@@ -60,6 +63,47 @@ def test_a_change_leaves_the_machine_as_it_was() -> None:
     changed = machine.changed({"wheel.mass_kg": 0.9}).changed({"limits.settling_time_s": 0.5})
     assert [override.key for override in changed.overrides] == ["wheel.mass_kg", "limits.settling_time_s"]
     assert machine.overrides == () and machine.tables != changed.tables
+
+
+def test_changes_of_changes_leave_earlier_machines_and_the_callers_values_alone() -> None:
+    given = {"contact": "compliant", "press_force_N": 30.0, "contact_stiffness_N_per_m": 1e5}
+    first = abu_calc.read("msh-230").changed({"grinding": given})
+    second = first.changed({"grinding.press_force_N": 99.0})
+    assert given["press_force_N"] == 30.0 and dict(abu_calc.effects(first).provenance.overrides)["grinding"] == given
+    assert [machine.whole("size").grinding.press_force_N for machine in (first, second)] == [30.0, 99.0]  # type: ignore[union-attr]
+
+
+def test_one_key_takes_the_place_of_another_again_and_again() -> None:
+    machine = abu_calc.read("msh-230")
+    for key, value in (("imbalance_g_mm", 100.0), ("balance_grade", "G16"), ("imbalance_g_mm", 90.0)):
+        machine = machine.changed({f"wheel.{key}": value})
+    assert [override.key for override in machine.overrides] == ["wheel.imbalance_g_mm"]
+    assert abu_calc.size(machine).imbalance_g_mm == pytest.approx(90.0)
+
+
+@pytest.mark.parametrize("values", [{1: 2}, {None: 1}, [("a", 1)], None, "wheel.mass_kg=1"], ids=str)
+def test_what_is_no_change_is_refused(values: object) -> None:
+    with pytest.raises(abu_calc.InputError, match="key paths with their values"):
+        abu_calc.read("msh-230").changed(values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("study", [abu_calc.size, abu_calc.check_fit, abu_calc.simulate, abu_calc.stability])
+def test_a_files_name_is_no_machine(study: object) -> None:
+    with pytest.raises(abu_calc.InputError, match="a machine that was read"):
+        study("msh-230")  # type: ignore[operator]
+
+
+def test_dates_stand_in_the_provenance() -> None:
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", "expected.foo=1979-05-27", "--json")
+    assert seen.document["input"]["overrides"] == {"expected.foo": "1979-05-27"}
+
+
+def test_results_are_dataclasses() -> None:
+    result = abu_calc.check_fit(abu_calc.read("mmg-3200k-knife-shaft"))
+    assert dataclasses.replace(result, title="x").title == "x"
+    assert pickle.loads(pickle.dumps(result)) == copy.deepcopy(result) == result
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        result.title = "y"  # type: ignore[misc]
 
 
 def test_a_file_may_be_named_by_a_path(tmp_path: Path) -> None:

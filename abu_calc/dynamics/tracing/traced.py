@@ -4,6 +4,7 @@ Structure is what decides how the code looks: number of balls, kind of support, 
 All other numbers are parameters of the code.
 """
 
+import copy
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
@@ -132,11 +133,11 @@ def mapped(
         return value if same.all() else found
     if is_dataclass(value) and not isinstance(value, type):
         fixed(type(value))
-        copy = object.__new__(type(value))
+        changed = copy.copy(value)
         for part in fields(value):  # past checks of values, which symbols would not stand
             of = ZEROS.get(part.name, zeros) if isinstance(value, Parameters | Acting) else zeros
-            object.__setattr__(copy, part.name, mapped(getattr(value, part.name), number, fixed, of))
-        return copy
+            object.__setattr__(changed, part.name, mapped(getattr(value, part.name), number, fixed, of))
+        return changed
     if isinstance(value, tuple):
         fixed(len(value))
         return tuple(mapped(one, number, fixed, zeros) for one in value)
