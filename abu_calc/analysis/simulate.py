@@ -104,7 +104,7 @@ def _integrated(
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations = assemble(scene)
-    choice = choose(equations, integrator, tolerances(accuracy)[0], lambda what: progress(f"{scene.name}: {what}"))
+    choice = choose(equations, integrator, tolerances(accuracy)[0])
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared = math.nan, 0

@@ -1,7 +1,6 @@
-"""Which integrator: SciPy, always there; compiled code, where scenes switch; heyoka, on long smooth runs."""
+"""Which integrator: SciPy, always there, or heyoka, fast but slow to start; and whether the equations are stiff."""
 
 import importlib.util
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -9,12 +8,13 @@ from typing import Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.compiled import run as compiled
-from abu_calc.dynamics.integrators.compiled import waiting
 from abu_calc.dynamics.integrators.run import Array
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError
+
+COMPILED: Final = "compiled-rk45"
+"""Its name as trajectories tell it."""
 
 WANTED: Final = ("auto", "scipy", "compiled", "heyoka")
 
@@ -37,14 +37,6 @@ START = 0.25
 what it gains has to be worth the compilation of the very first run (0.3 to 1)."""
 
 
-Tell = Callable[[str], None]
-"""Gets what is being done, in a few words."""
-
-
-def silent(_: str) -> None:
-    """For whom does not watch."""
-
-
 @dataclass(frozen=True)
 class Choice:
     """An integrator, ready to run, its name as trajectories tell it, and why it was chosen."""
@@ -55,50 +47,33 @@ class Choice:
     """(equations, tolerance, sample times, most evaluations)"""
 
 
-def choose(equations: Equations, wanted: str, tolerance: float, tell: Tell = silent) -> Choice:
+def choose(equations: Equations, wanted: str, tolerance: float) -> Choice:
     """The integrator for a scene, `wanted` being auto, scipy, compiled or heyoka; its library is loaded.
 
-    auto takes compiled code where a scene switches and heyoka where it does not, if they are installed and SciPy's
-    estimated time is longer than their start. Stiff equations go to SciPy's Radau unless another is asked for. `tell`
-    gets what one waits for. Raises
-    InputError for other words, and for what is not installed or cannot trace an effect.
+    auto takes heyoka where it is installed and SciPy's estimated time is longer than heyoka's start. Stiff equations go
+    to SciPy's Radau unless heyoka is asked for. Raises InputError for other words, and for heyoka where it is not
+    installed or cannot trace an effect.
     """
     if wanted not in WANTED:
         raise InputError("unknown integrator", found=wanted, allowed=", ".join(WANTED))
     missing = unfit(equations)
+    if wanted == "compiled":
+        return _compiled(equations)
     if wanted == "heyoka":
         if missing:
             raise InputError(f"heyoka cannot integrate this scene: {missing[0]}", remedy=missing[1])
         return _heyoka("asked for")
-    if wanted == "compiled":
-        return _compiled_or_refused(equations)
     if scipy_.is_stiff(equations):
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")
     if wanted == "scipy":
         return _scipy("scipy-dop853", "asked for")
-    return _cheapest(equations, RUNS * scipy_seconds(equations, tolerance), tell)
-
-
-def _cheapest(equations: Equations, seconds: float, tell: Tell) -> Choice:
-    """By SciPy's time and what the others take to start."""
-    switches, lacks, missing = watches(equations), waiting.unfit(equations), unfit(equations)
-    work = f"about {seconds:.2g} s of work"
-    if seconds <= waiting.LEAST:
-        return _scipy("scipy-dop853", f"a short run, {work}: anything else would take longer to start")
-    if not lacks and (missing or (switches and not waiting.asks_python(equations))):
-        wait = waiting.waiting(equations)
-        if seconds <= wait < math.inf:
-            return _scipy("scipy-dop853", f"a short run, {work}: compiling would take {wait:.2g} s")
-        if wait > waiting.LEAST:
-            tell(f"compiling, about {wait:.1g} s")
-        if waiting.load(equations):
-            return _compiled(f"{'a scene that switches' if switches else 'a long run'}, {work} for SciPy")
-    if missing:
-        reason = f"compiled code would be faster, but {lacks[0]}" if switches and lacks else ""
-        return _scipy("scipy-dop853", reason or f"heyoka would be faster, but {missing[0]}")
+    seconds = RUNS * scipy_seconds(equations, tolerance)
     if seconds <= START:
-        return _scipy("scipy-dop853", f"a short run, {work}: heyoka would take longer to start")
-    return _heyoka(f"a long run, {work} for SciPy{' and more for its events' if switches else ''}")
+        return _scipy("scipy-dop853", f"a short run, about {seconds:.2g} s of work: heyoka would take longer to start")
+    if missing:
+        return _scipy("scipy-dop853", f"heyoka would be faster, but {missing[0]}")
+    more = " and more for its events" if watches(equations) else ""
+    return _heyoka(f"a long run, about {seconds:.2g} s of work for SciPy{more}")
 
 
 def scipy_seconds(equations: Equations, tolerance: float) -> float:
@@ -120,16 +95,15 @@ def unfit(equations: Equations) -> tuple[str, str] | None:
     return None
 
 
-def _compiled_or_refused(equations: Equations) -> Choice:
+def _compiled(equations: Equations) -> Choice:
+    """Compiled code, which is imported and made when it is asked for; InputError where it does not run."""
+    from abu_calc.dynamics.integrators.compiled import run, waiting
+
     if waiting.unfit(equations) is None:
         waiting.load(equations)
     if missing := waiting.unfit(equations):
         raise InputError(f"compiled code cannot integrate this scene: {missing[0]}", remedy=missing[1])
-    return _compiled("asked for")
-
-
-def _compiled(why: str) -> Choice:
-    return Choice(compiled.NAME, why, compiled.integrate)
+    return Choice(COMPILED, "asked for", run.integrate)
 
 
 def _heyoka(why: str) -> Choice:
@@ -150,8 +124,8 @@ def available(equations: Equations) -> tuple[str, ...]:
 
 def integrate_with(name: str, equations: Equations, tolerance: float, sample_times: Array, most: int) -> Trajectory:
     """The motion by an integrator given by name, within so many evaluations."""
-    if name in ("compiled", compiled.NAME):
-        return _compiled_or_refused(equations).integrate(equations, tolerance, sample_times, most)
+    if name in ("compiled", COMPILED):
+        return _compiled(equations).integrate(equations, tolerance, sample_times, most)
     if name == "heyoka":
         return heyoka_.integrate(equations, tolerance, sample_times, most)
     return scipy_.integrate(equations, tolerance, sample_times, most, method=cast(scipy_.Method, name))
