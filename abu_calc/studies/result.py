@@ -46,8 +46,8 @@ class Provenance:
 
     @property
     def input(self) -> dict[str, Any] | None:
-        """What the JSON document tells of the input; null where there is neither a file nor anything replaced."""
-        if self.file is None and not self.overrides:
+        """What the JSON document tells of the input; null where that was no file."""
+        if self.file is None:
             return None
         return {
             "file": self.file,

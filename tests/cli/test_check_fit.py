@@ -70,7 +70,7 @@ def test_options_and_a_file_of_the_same_bearing_agree(tmp_path):
     by_file, by_options = abu("check-fit", str(file), "--json"), abu(*BARE, "--asked-interference", "3:40", "--json")
     assert by_file.document["result"] == by_options.document["result"]
     assert by_file.document["checks"] == by_options.document["checks"]
-    assert by_options.document["input"]["file"] is None and by_file.document["input"]["file"] == str(file)
+    assert by_options.document["input"] is None and by_file.document["input"]["file"] == str(file)
 
 
 def test_what_plays_no_part_is_told():

@@ -3,20 +3,27 @@
 import re
 import sys
 import types
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import pytest
 
+import abu_calc
 from abu_calc.cli import app
+from abu_calc.formula import formula
 from abu_calc.report import files
 from abu_calc.report.outcome import Outcome
+from abu_calc.report.parts import facts
+from abu_calc.sizing.case import Case, read_case
+from abu_calc.studies.quantity import Quantity, Record, record
 from tests.cli.runner import abu
 from tests.house.structure import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
-MOST = {"an effect": 4 + 1, "a support": 3, "a sizing step": 5, "an output format": 1, "a command": 3}
-"""Existing files that a newcomer of each kind may touch; an effect also has its example in the tests."""
+MOST = {"an effect": 4, "a support": 3, "a sizing step": 5, "an output format": 1, "a command": 3}
+"""Existing files that a newcomer of each kind may touch, its example in the tests included."""
 
 
 @pytest.mark.parametrize("what", MOST)
@@ -28,6 +35,30 @@ def test_a_recipe_touches_few_files(what: str) -> None:
     present = {name for name in named if (ROOT / "abu_calc" / name).is_file() or (ROOT / name).is_file()}
     assert named and named == present, f"not there: {named - present}"
     assert len(present) <= MOST[what], present
+
+
+def test_a_sizing_step_is_a_function_of_the_case_with_its_formula(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A frozen result, a registered formula that `explain` shows, a record that reports show: nothing else is asked."""
+    monkeypatch.setattr("abu_calc.formula.REGISTERED", {})
+    case = read_case(abu_calc.read("msh-230").whole("size"))
+
+    @dataclass(frozen=True)
+    class RimSpeed:
+        value: float
+
+    @formula("Speed of the wheel's rim", "v = Ω·R_w", "m/s", source="geometry")
+    def rim_speed(case: Case) -> RimSpeed:
+        return RimSpeed(case.speed * case.wheel_radius)
+
+    @record
+    class Rim(Record):
+        rim_speed_mm_per_s: Annotated[float, Quantity("speed of the rim", "v", 3)]
+
+    found = rim_speed(case)
+    assert found.value == pytest.approx(case.speed * 0.115, rel=1e-9)
+    assert "Speed of the wheel's rim: v = Ω·R_w [m/s]." in (rim_speed.__doc__ or "")
+    shown = facts(Rim(rim_speed_mm_per_s=1000 * found.value))
+    assert shown.rows[0][:2] == ("speed of the rim", "v") and shown.rows[0][2].endswith(" mm/s")
 
 
 def test_a_command_is_a_module_and_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
