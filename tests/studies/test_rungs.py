@@ -36,7 +36,7 @@ def test_the_closed_form_tells_the_end_and_no_less_than_the_time(one):
     assert one.full.settling_time < one.closed.settling_time < 8 * one.full.settling_time
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_the_envelope_takes_a_tenth_of_the_time():
     """CPU time for one per cent, the best of interleaved pairs; the least of the presets, and in the middle."""
     ladders = [ladder(name) for name in machines()]
