@@ -44,7 +44,6 @@ def chosen(
     accuracy: float,
     wanted: Sequence[str] = (),
     unwanted: Sequence[str] = (),
-    why_unwanted: str = "left out by request",
 ) -> Ledger:
     """The scene with the effects it calls for, out of one that has all there is data for.
 
@@ -56,7 +55,7 @@ def chosen(
     entries = tuple(
         Entry(name, name in wanted or (name not in out and name not in unwanted), weight.value,
               f"asked for; {weight.why}" if name in wanted
-              else f"{why_unwanted}; {weight.why}" if name in unwanted
+              else f"left out by request; {weight.why}" if name in unwanted
               else _why(weight, name in out))
         for name, weight in weights.items()
     )  # fmt: skip

@@ -1,7 +1,6 @@
 """The scenes a machine file calls for, simulated with the effects they call for."""
 
 from dataclasses import dataclass
-from typing import Final
 
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
@@ -10,13 +9,6 @@ from abu_calc.errors import NotTrustworthyError
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
-
-FRICTION: Final = ("dry_rolling_friction",)
-SWITCHING: Final = (*FRICTION, "ball_contact")
-"""Effects that may switch several times in each turn: friction stands in the accuracy budget, and scenes other than the
-idle one are information."""
-
-LEFT_OUT: Final = "left out by abu size, since it takes long; abu simulate takes it in"
 
 
 @dataclass(frozen=True)
@@ -48,9 +40,8 @@ def simulated(
     """All of them, each within the work that `abu size` may take."""
     runs, failures = [], []
     for name in scenes_of(design):
-        unwanted = FRICTION if name == "idle" else SWITCHING
         try:
-            ledger = chosen(scene_of_design(design, name), accuracy, unwanted=unwanted, why_unwanted=LEFT_OUT)
+            ledger = chosen(scene_of_design(design, name), accuracy)
             run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
             runs.append(Run(ledger, run))
         except NotTrustworthyError as error:

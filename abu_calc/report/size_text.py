@@ -17,9 +17,7 @@ CONVENTIONS = (
 START = (
     "Every scene starts at full speed, the axis at rest at its place, balls at rest in the race, bunched side by side "
     "20° ahead of the imbalance; rolling inertia and viscous drag are always in. A weight is what leaving the effect "
-    "out may change, `abu effects` tells more. Two effects take long and are left to `abu simulate`: dry rolling "
-    "friction, which stands in the accuracy budget, and, but for the idle scene, ball contact: balls then pass through "
-    "each other."
+    "out may change, `abu effects` tells more."
 )
 
 
