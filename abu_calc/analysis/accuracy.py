@@ -227,8 +227,8 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
     if expected > budget:
         raise NotTrustworthyError(
             f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"
-            f"  give more time (--budget {2 * expected:.0f}, in Python budget_s=), "
-            "or shorten the run (--duration, in Python duration_s=)"
+            f"  give more time (--budget {2 * expected:.0f}, Python: budget_s=), "
+            "or shorten the run (--duration, Python: duration_s=)"
         )
     first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))
     second = evaluate(full, choice.integrate_with(other, equations, tight, times, MOST_EVALUATIONS))

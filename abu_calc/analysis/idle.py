@@ -53,4 +53,4 @@ def not_simulated(scene: str, reason: str) -> Check:
     """The check of a simulation that gave no number to be trusted."""
     name = "simulated balancing" if scene == "idle" else f"simulated scene {scene}"
     return Check("ABU701" if scene == "idle" else "ABU703", name, "not-done", f"no trustworthy simulation: {reason}",
-                 remedy="A drag nearer to the optimum, or less accuracy (--accuracy, in Python accuracy=).")  # fmt: skip
+                 remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip

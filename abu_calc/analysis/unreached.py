@@ -48,7 +48,7 @@ def unreached(
         return otherwise
     if math.isinf(worst):
         return NotTrustworthyError(
-            f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration, in Python duration_s=)"
+            f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration, Python: duration_s=)"
         )
     return NotTrustworthyError(
         f"{first}: rounding decides\n  ask for less accuracy, shorten the run, or start the balls at other places"

@@ -123,8 +123,8 @@ class Loads:
     forces on the frame.
 
     Set by ONE effect, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0
-    for a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it on
-    the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
+    for a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it
+    on the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
     `across`, one more direction of motion; `bound`, a constraint of the frame.
     """
 

@@ -128,4 +128,4 @@ def _affordable(found: Study) -> Check:
     message = "a way to compute was measured whose error is below the accuracy"
     return Check("ABU811", "accuracy affordable", verdict(best is not None), message,
                  None if best is None else best.error, found.accuracy, None,
-                 None if best else "More time (--budget; in Python budget_s=), or less accuracy.")  # fmt: skip
+                 None if best else "More time (--budget, Python: budget_s=), or less accuracy.")  # fmt: skip

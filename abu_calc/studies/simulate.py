@@ -94,7 +94,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
 
 def _left_out(audited: Audit, accuracy: float) -> Check:
     message = "with every effect in, amplitude, settling time and ball angles differ by no more than the accuracy"
-    remedy = "Ask for more accuracy, or take effects in: --with EFFECT, in Python with_effects=."
+    remedy = "Ask for more accuracy, or take effects in: --with EFFECT, Python: with_effects=."
     held = audited.difference <= accuracy
     return Check("ABU803", "effects left out", verdict(held), message, audited.difference, accuracy, None,
                  None if held else remedy)  # fmt: skip

@@ -115,6 +115,6 @@ def _check(found: Stability) -> Check:
     remedy = (
         None
         if found.stable
-        else "Leave the forbidden speeds (--speeds finds them, in Python speeds_rpm=), or change drag and damping."
+        else "Leave the forbidden speeds (--speeds finds them, Python: speeds_rpm=), or change drag and damping."
     )
     return Check(*name, verdict(bool(found.stable)), message, finite(found.growth_rate), 0.0, "1/s", remedy)
