@@ -40,7 +40,7 @@ def accuracy(
             duration_s=duration_s,
             progress=tell,
         )
-    return Outcome.of(result, accuracy_blocks(result))
+    return Outcome.of(result, lambda: accuracy_blocks(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -8,10 +8,12 @@ import typer
 from abu_calc.cli.bearing_options import NAMES, OPTIONS, band, missing
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.errors import InputError
+from abu_calc.report.blocks import Block
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
+    from abu_calc.studies.check_fit import CheckFitResult
 
 
 def check_fit(
@@ -23,20 +25,24 @@ def check_fit(
     **bearing: object,
 ) -> Outcome:
     """Judge bearing seats: interference, probability of clearance, what is required, what is permitted."""
-    from abu_calc.report.fit_report import check_fit_blocks
     from abu_calc.studies.check_fit import check_fit as study
 
     given = {key: value for key, value in bearing.items() if value is not None}
     source = _of_options(given, set_ or ()) if machine is None else _of_file(machine, set_ or (), given)
     result = study(source)
-    blocks = check_fit_blocks(result)
-    if explain:
-        from abu_calc.report.explain import STEPS, step_blocks
-        from abu_calc.report.fit_numbers import seat_numbers
-        from abu_calc.studies.seat_model import bearing_models
+    return Outcome.of(result, lambda: _blocks(source, result, explain))
 
-        blocks += tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))
-    return Outcome.of(result, blocks)
+
+def _blocks(source: "Machine", result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:
+    from abu_calc.report.fit_report import check_fit_blocks
+
+    if not explain:
+        return check_fit_blocks(result)
+    from abu_calc.report.explain import STEPS, step_blocks
+    from abu_calc.report.fit_numbers import seat_numbers
+    from abu_calc.studies.seat_model import bearing_models
+
+    return (*check_fit_blocks(result), *step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))
 
 
 def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":

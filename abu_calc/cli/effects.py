@@ -32,7 +32,7 @@ def effects(
         if set_ or scene or with_effects or without_effects:
             raise InputError("these options need a file", remedy="Name a machine or a scene.")
         known = known_effects()
-        return Outcome.of(known, known_blocks(known))
+        return Outcome.of(known, lambda: known_blocks(known))
     result = study(
         read_any(file, set_ or ()),
         scene,
@@ -40,7 +40,7 @@ def effects(
         with_effects=with_effects or (),
         without_effects=without_effects or (),
     )
-    return Outcome.of(result, effects_blocks(result))
+    return Outcome.of(result, lambda: effects_blocks(result))
 
 
 def register(app: typer.Typer) -> None:

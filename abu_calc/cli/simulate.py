@@ -60,7 +60,7 @@ def simulate(
         )
     if trajectory and result.motion:  # when nothing can fail or be interrupted for long any more
         write(trajectory, trajectory_csv(result.motion))
-    return Outcome.of(result, simulate_blocks(result))
+    return Outcome.of(result, lambda: simulate_blocks(result))
 
 
 def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) -> None:

@@ -1,13 +1,17 @@
 """`abu size MACHINE`: from one file about a machine to a sized and simulated design."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from abu_calc.cli.command import Machine, Overrides, add_command
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
+from abu_calc.report.blocks import Block
 from abu_calc.report.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.studies.size import SizeResult
 
 
 def size(
@@ -18,18 +22,22 @@ def size(
     accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the simulation.")] = 0.01,
 ) -> Outcome:
     """Size the autobalancer of a machine: region, capacity, balls, track, seats, simulation."""
-    from abu_calc.report.size_text import size_blocks
     from abu_calc.spec.read import read_machine
     from abu_calc.studies.size import size as study
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell)
-    blocks = size_blocks(result)
-    if explain:
-        from abu_calc.report.explain import explanation_blocks
+    return Outcome.of(result, lambda: _blocks(result, explain))
 
-        blocks += explanation_blocks(result.to_dict(), result.model.to_dict())
-    return Outcome.of(result, blocks)
+
+def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:
+    from abu_calc.report.size_text import size_blocks
+
+    if not explain:
+        return size_blocks(result)
+    from abu_calc.report.explain import explanation_blocks
+
+    return size_blocks(result) + explanation_blocks(result.to_dict(), result.model.to_dict())
 
 
 def register(app: typer.Typer) -> None:

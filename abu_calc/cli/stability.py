@@ -30,7 +30,7 @@ def stability(
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
     result = study(read_any(file, set_ or ()), scene, speeds_rpm=speeds)
-    return Outcome.of(result, stability_blocks(result))
+    return Outcome.of(result, lambda: stability_blocks(result))
 
 
 def _two(text: str) -> tuple[float, float]:

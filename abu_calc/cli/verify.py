@@ -43,7 +43,7 @@ def verify(
         if not asked:
             raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
         result = study(asked, tell)
-    return Outcome.of(result, verify_blocks(result))
+    return Outcome.of(result, lambda: verify_blocks(result))
 
 
 def _updated(machines: "list[Machine]", tell: "Progress") -> Outcome:

@@ -1,6 +1,7 @@
 """What a command returns, and the one JSON document it becomes."""
 
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -15,11 +16,12 @@ EXIT_STATUS: dict[Status, int] = {"pass": 0, "fail": 1, "not-done": 1}
 
 @dataclass(frozen=True)
 class Outcome:
-    """The frozen result of a command: numbers in user units, checks, and the blocks that show them."""
+    """The frozen result of a command: numbers in user units, checks, and how they are shown."""
 
     command: str
     result: Any
-    blocks: tuple[Block, ...]
+    view: tuple[Block, ...] | Callable[[], tuple[Block, ...]]
+    """Blocks, or what makes them where text is wanted."""
     provenance: Provenance = field(default_factory=Provenance.today)
     checks: tuple[Check, ...] = ()
     model: dict[str, Any] = field(default_factory=dict)
@@ -29,12 +31,17 @@ class Outcome:
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
 
     @classmethod
-    def of(cls, result: Result, blocks: tuple[Block, ...]) -> "Outcome":
-        """That of a study, and how it is shown."""
+    def of(cls, result: Result, view: Callable[[], tuple[Block, ...]]) -> "Outcome":
+        """That of a study, and what makes its blocks."""
         return cls(
-            result.command, result.to_dict(), blocks, result.provenance, result.checks, result.model.to_dict(),
+            result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
             result.warnings, result.status,
         )  # fmt: skip
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """What is shown to people."""
+        return self.view() if callable(self.view) else self.view
 
     @property
     def exit_status(self) -> int:

@@ -10,8 +10,8 @@ Schema of results are made of that.
 
 import datetime
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Final, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints
+from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, fields
+from typing import Any, ClassVar, Final, NamedTuple, Never, TypeVar, dataclass_transform, get_args, get_type_hints
 
 T = TypeVar("T")
 
@@ -29,14 +29,15 @@ class Quantity(NamedTuple):
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def record(kind: type[T]) -> type[T]:
-    """Makes a class a record: a frozen dataclass whose fields are given by name.
+    """Makes a class a record: a dataclass that cannot be changed, whose fields are given by name.
 
-    Comparison and text are those of `Record`: to write them for each class would take a good part of a command's start.
+    Construction, comparison and text are those of `Record`: to write them for each class anew would take a good part
+    of a command's start.
     """
-    return dataclass(frozen=True, kw_only=True, eq=False, repr=False)(kind)
+    return dataclass(init=False, eq=False, repr=False, match_args=False)(kind)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+@record
 class Record:
     """A part of a result. Fields in user units; None: not computed, a check or a warning says why."""
 
@@ -44,6 +45,21 @@ class Record:
     """Fields that are no entries of the result."""
     optional: ClassVar[frozenset[str]] = frozenset()
     """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
+
+    def __init__(self, **values: object) -> None:
+        for field in fields(self):
+            if field.name not in values:
+                values[field.name] = _default(type(self), field)
+        if len(values) > len(fields(self)):
+            unknown = values.keys() - {field.name for field in fields(self)}
+            raise TypeError(f"{type(self).__name__} has no fields {', '.join(sorted(unknown))}")
+        self.__dict__.update(values)
+
+    def __setattr__(self, name: str, value: object) -> Never:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __delattr__(self, name: str) -> Never:
+        raise FrozenInstanceError(f"cannot delete field {name!r}")
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -67,6 +83,14 @@ class Record:
         """The entries as JSON has them."""
         values = ((name, getattr(self, name)) for name in self.entries())
         return {name: as_plain(value) for name, value in values if value is not None or name not in self.optional}
+
+
+def _default(kind: type[Record], field: "Field[object]") -> object:
+    if field.default_factory is not MISSING:
+        return field.default_factory()
+    if field.default is MISSING:
+        raise TypeError(f"{kind.__name__} needs its field {field.name}")
+    return field.default
 
 
 def as_plain(value: object) -> Any:

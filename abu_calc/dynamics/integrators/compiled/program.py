@@ -9,6 +9,7 @@ always tied in chains, whose gaps are open (0) or joined (1), and a push on each
 numbers.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar
@@ -24,6 +25,10 @@ from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.tracing.plain import Node, Source
 from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
 from abu_calc.dynamics.tracing.traced import mapped
+
+
+STATE = re.compile(r"\by(\d+)\b")
+"""A state in an expression."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +69,7 @@ class Program:
 
 
 class _Named(Source):
-    """Expressions over y[…] and par[…]."""
+    """Expressions over y… and par[…]."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -84,7 +89,7 @@ def program(equations: Equations, acting: Acting) -> Program:
     source = _Named()
     tape = Tape(source)
     symbolic = mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
-    y = np.array([tape.variable(source.name(f"y[{k}]")) for k in range(len(equations.states))])
+    y = np.array([tape.variable(source.name(f"y{k}")) for k in range(len(equations.states))])
     motion, loads, solved = accelerations(Functions, tape.variable(source.time), y, symbolic)
     rates = list(derivative(motion, solved, y, symbolic))
     p, parts = symbolic.parameters, with_states(y, symbolic)
@@ -114,6 +119,8 @@ def _setup(tape: Tape) -> tuple[list[str], int, int]:
 def _function(name: str, arguments: str, source: Source, results: Mapping[str, Sequence[Any]]) -> list[str]:
     """One function that stores its results."""
     lines, texts = source.lines([one for row in results.values() for one in row])
+    states = sorted({int(one) for text in (*lines, *texts) for one in STATE.findall(text)})
+    lines = [*(f"y{k} = y[{k}]" for k in states), *lines]  # each is read once
     text = [f"def {name}({arguments}) -> None:", *(f" {line}" for line in lines)]
     places = [f"{array}[{k}]" for array, row in results.items() for k in range(len(row))]
     return [*text, *(f" {place} = {one}" for place, one in zip(places, texts, strict=True))]

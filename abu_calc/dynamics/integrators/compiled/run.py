@@ -10,18 +10,20 @@ import numpy as np
 from abu_calc.dynamics.effects.ball_contact import Neighbours
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.compiled import arrays
-from abu_calc.dynamics.integrators.compiled.code import Code, code
+from abu_calc.dynamics.integrators.compiled.code import Code, code, text
 from abu_calc.dynamics.integrators.compiled.layout import constants, decides, layout, numbers_places, rules
 from abu_calc.dynamics.integrators.compiled.loop import ROWS
 from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.integrators.compiled.plain import Plain
 from abu_calc.dynamics.integrators.compiled.program import widened
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
-from abu_calc.dynamics.tracing.traced import Numbers
+from abu_calc.dynamics.tracing.traced import Numbers, cached
 from abu_calc.dynamics.trajectory import Trajectory
 
-NAME = "compiled-rk45"
+NAME, PLAIN = "compiled-rk45", "plain-rk45"
+"""The method, with a compiler and without."""
 
 AT_ONCE = 20_000
 """Evaluations between two returns from compiled code, within which no interrupt is heard: some hundredths of a
@@ -39,13 +41,14 @@ def integrate(
     tolerance: float,
     sample_times: Sequence[float] | Array,
     most_evaluations: int = MOST_EVALUATIONS,
+    compiled: bool = True,
 ) -> Trajectory:
-    """The motion from t = 0 to the last of `sample_times` [s], ascending.
+    """The motion from t = 0 to the last of `sample_times` [s], ascending; in plain Python if not `compiled`.
 
     Raises as SciPy's does, and CompilerError where there is no compiler that works.
     """
     ordered, places = in_order(equations)
-    found = _Run(ordered, tolerance, sample_times, most_evaluations).trajectory()
+    found = _Run(ordered, tolerance, sample_times, most_evaluations, compiled=compiled).trajectory()
     y = np.empty_like(found.y)
     y[places] = found.y
     return replace(found, y=y)
@@ -53,13 +56,15 @@ def integrate(
 
 @dataclass
 class _Run(Run):
-    """One integration in compiled code; the balls are in order."""
+    """One integration in compiled code, or in the same code as plain Python; the balls are in order."""
+
+    compiled: bool = True
 
     def __post_init__(self) -> None:
         super().__post_init__()
         equations = self.equations
         self.modes = at_break(equations, 0.0, equations.first_modes)
-        self.code, self.numbers = prepared(equations)
+        self.code, self.numbers = prepared(equations) if self.compiled else written(equations)
         program = self.code.program
         wide = widened(equations, self.modes)
         self.places = numbers_places(wide.modes, len(self.numbers))
@@ -74,8 +79,8 @@ class _Run(Run):
 
     @property
     def name(self) -> str:
-        """The method, and that it is compiled."""
-        return NAME
+        """The method, and whether it is compiled."""
+        return NAME if self.compiled else PLAIN
 
     def _room(self, values: int) -> int:
         """Numbers that the loop works with."""
@@ -156,6 +161,15 @@ def prepared(equations: Equations) -> tuple[Code, Array]:
     """The code of a scene whose balls are in order, and its numbers. Raises CompilerError."""
     wide, structure, numbers = described(equations)
     return code(structure, equations, wide, numbers), numbers.copy()
+
+
+def written(equations: Equations) -> tuple[Plain, Array]:
+    """The same in plain Python."""
+    wide, structure, numbers = described(equations)
+    return cached(_written, structure, lambda: Plain(text(structure, equations, wide))), numbers.copy()
+
+
+_written: dict[object, Plain] = {}
 
 
 @lru_cache(maxsize=8)
