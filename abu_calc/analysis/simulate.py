@@ -14,7 +14,6 @@ from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import choose, unfit
-from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
@@ -76,10 +75,10 @@ def simulate(
 ) -> Simulation:
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
-    `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs;
-    `integrator` is auto, scipy, compiled or heyoka; any but auto asks for the equations. `progress` gets what is being
-    done. Raises NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the
-    motion is then chaotic, or decided by less than rounding.
+    `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, in
+    SciPy's evaluations; `integrator` is auto, scipy, plain, compiled or heyoka; any but auto asks for the equations.
+    `progress` gets what is being done. Raises NotTrustworthyError when the work does not suffice, or when no tolerance
+    reaches the accuracy: the motion is then chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
     scene, warnings = with_parted_balls(scene)
@@ -104,21 +103,21 @@ def _integrated(
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations = assemble(scene)
-    choice = choose(equations, integrator, tolerances(accuracy)[0])
+    choice = choose(equations, integrator, tolerances(accuracy)[0], progress)
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared = math.nan, 0
     for tolerance in tolerances(accuracy):
         progress(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
         try:
-            trajectory = choice.integrate(equations, tolerance, times, most)
+            trajectory = choice.integrate(equations, tolerance, times, choice.evaluations(most))
         except NotTrustworthyError as failure:
             if len(runs) < 2:
                 raise
             raise unreached(
                 scene, accuracy, apart, (runs[0], runs[1]), choice, 10 * tolerance, spared, failure
             ) from None
-        most, spared = most - work(trajectory), 2 * work(trajectory)
+        most, spared = most - choice.work(trajectory), 2 * choice.work(trajectory)
         runs = [*runs[-1:], evaluate(scene, trajectory)]
         evaluations, steps = evaluations + trajectory.evaluations, steps + trajectory.steps
         if len(runs) < 2:

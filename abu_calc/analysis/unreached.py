@@ -59,7 +59,7 @@ def _growth(scene: Scene, response: Response, choice: Choice, tolerance: float, 
     """By how much an error at the start has grown in amplitude and angles; 0 where that run cannot be finished."""
     moved = replace(scene, races=tuple(replace(race, start_angles=_moved(race.start_angles)) for race in scene.races))
     try:
-        trajectory = choice.integrate(assemble(moved), tolerance, needed_times(moved), most)
+        trajectory = choice.integrate(assemble(moved), tolerance, needed_times(moved), choice.evaluations(most))
         apart = [QUANTITIES[key](scene, evaluate(moved, trajectory), response) for key in ("amplitude", "angles")]
     except NotTrustworthyError:
         return 0.0

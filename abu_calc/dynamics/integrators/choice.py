@@ -1,6 +1,7 @@
-"""Which integrator: SciPy, always there, or heyoka, fast but slow to start; and whether the equations are stiff."""
+"""Which integrator: SciPy, always there; a loop of its own for scenes that switch; heyoka, quick but slow to start."""
 
 import importlib.util
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -8,33 +9,20 @@ from typing import Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.run import Array
+from abu_calc.dynamics.integrators.estimates import Seconds, seconds
+from abu_calc.dynamics.integrators.run import Array, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError
+from abu_calc.progress import Progress, silent
 
-COMPILED: Final = "compiled-rk45"
-"""Its name as trajectories tell it."""
+COMPILED, PLAIN = "compiled-rk45", "plain-rk45"
+"""Names as trajectories tell them."""
 
-WANTED: Final = ("auto", "scipy", "compiled", "heyoka")
+WANTED: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
 
-EVALUATIONS, ORDER = 35.0, 8
-"""Of DOP853 per revolution at a tolerance of 1e-6, and the order by which they grow: four balls on a soft planar
-support took 18, 33, 78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12."""
-
-EVALUATION, BALL = 6e-6, 0.6e-6
-"""Time of an evaluation [s] with its share of the step, and of each ball in it: 8 µs for 2 to 4 balls, 15 for 16."""
-
-SWITCHING = 1e-3
-"""Time [s] that events take in a revolution, for each effect that has modes; balls that gravity shakes loose stick and
-slip several times in each."""
-
-RUNS = 2
-"""A result is trusted when two tolerances agree."""
-
-START = 0.25
-"""Time [s] heyoka takes to be imported (0.05 to 0.13) and to load compiled code from disk (0.02 to 0.1), and some more:
-what it gains has to be worth the compilation of the very first run (0.3 to 1)."""
+COMPILED_WORK = 1 / 20
+"""Work of an evaluation in compiled code, that of SciPy's being one: work is bounded alike whoever does it."""
 
 
 @dataclass(frozen=True)
@@ -45,65 +33,107 @@ class Choice:
     why: str
     integrate: Callable[..., Trajectory]
     """(equations, tolerance, sample times, most evaluations)"""
+    share: float = 1.0
+    """Work of one of its evaluations, in SciPy's."""
+
+    def evaluations(self, work: int) -> int:
+        """How many make up so much work."""
+        return int(work / self.share)
+
+    def work(self, run: Trajectory) -> int:
+        """What a run took, counted in SciPy's evaluations."""
+        return math.ceil(self.share * work(run))
 
 
-def choose(equations: Equations, wanted: str, tolerance: float) -> Choice:
-    """The integrator for a scene, `wanted` being auto, scipy, compiled or heyoka; its library is loaded.
+def choose(equations: Equations, wanted: str, tolerance: float, progress: Progress = silent) -> Choice:
+    """The integrator for a scene, `wanted` being auto, scipy, plain, compiled or heyoka; its library is loaded.
 
-    auto takes heyoka where it is installed and SciPy's estimated time is longer than heyoka's start. Stiff equations go
-    to SciPy's Radau unless heyoka is asked for. Raises InputError for other words, and for heyoka where it is not
-    installed or cannot trace an effect.
+    auto takes what is done first, by `estimates`, compilation counted in: SciPy; heyoka; the loop through scenes that
+    switch, compiled or as plain Python. Stiff equations go to SciPy's Radau unless another is asked for.
+    `progress` gets what one waits for. Raises InputError for other words, and for what is not installed or cannot trace
+    an effect.
     """
     if wanted not in WANTED:
         raise InputError("unknown integrator", found=wanted, allowed=", ".join(WANTED))
-    missing = unfit(equations)
     if wanted == "compiled":
-        return _compiled(equations)
+        return _compiled_or_refused(equations)
     if wanted == "heyoka":
-        if missing:
+        if missing := unfit(equations):
             raise InputError(f"heyoka cannot integrate this scene: {missing[0]}", remedy=missing[1])
         return _heyoka("asked for")
+    if wanted == "plain":
+        if missing := untraceable(equations):
+            raise InputError(f"plain code cannot be written for this scene: {missing[0]}", remedy=missing[1])
+        return _plain("asked for")
     if scipy_.is_stiff(equations):
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")
     if wanted == "scipy":
         return _scipy("scipy-dop853", "asked for")
-    seconds = RUNS * scipy_seconds(equations, tolerance)
-    if seconds <= START:
-        return _scipy("scipy-dop853", f"a short run, about {seconds:.2g} s of work: heyoka would take longer to start")
-    if missing:
-        return _scipy("scipy-dop853", f"heyoka would be faster, but {missing[0]}")
-    more = " and more for its events" if watches(equations) else ""
-    return _heyoka(f"a long run, about {seconds:.2g} s of work for SciPy{more}")
+    return _quickest(equations, seconds(equations, tolerance), progress)
 
 
-def scipy_seconds(equations: Equations, tolerance: float) -> float:
-    """About how long SciPy takes for one run [s], by counting: nothing is timed, so that a scene has one answer."""
-    scene = equations.scene
-    per_revolution = EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER)
-    smooth = per_revolution * (EVALUATION + BALL * len(scene.ball_masses))
-    events = SWITCHING * sum(effect.switches for effect in scene.effects)
-    return float(scene.duration / scene.revolution * (smooth + events))
+def _quickest(equations: Equations, about: Seconds, progress: Progress) -> Choice:
+    """What is done first, with what is installed."""
+    from abu_calc.dynamics.integrators.compiled import waiting
+
+    kind = "a scene that switches" if about.switches else "a long run"
+    work = f"about {about.scipy:.2g} s of work for SciPy"
+    plain = about.plain if about.switches and not untraceable(equations) else math.inf
+    least, missing, lacks = min(about.scipy, plain), unfit(equations), waiting.unfit(equations)
+    if least <= waiting.LEAST:
+        short = "a short run, about {:.2g} s of work: anything else would take longer to start"
+        return _scipy("scipy-dop853", short.format(least)) if least == about.scipy else _plain(short.format(least))
+    heyoka = math.inf if missing else about.heyoka
+    wait = math.inf if lacks or waiting.LEAST + about.compiled > min(least, heyoka) else waiting.waiting(equations)
+    if wait + about.compiled <= min(least, heyoka):
+        if wait > waiting.LEAST:
+            progress(f"{equations.scene.name}: compiling, about {wait:.1g} s")
+        if waiting.load(equations):
+            return _compiled(f"{kind}, {work}")
+    if heyoka < least:
+        return _heyoka(f"{kind}, {work}")
+    faster = f"; heyoka would be faster, but {missing[0]}" if missing and about.heyoka < least else ""
+    faster = f"; compiled code would be faster, but {lacks[0]}" if lacks and about.switches else faster
+    why = f"{kind}, {work}{faster or '; compiling would take longer'}"
+    return _plain(why) if plain < about.scipy else _scipy("scipy-dop853", why)
 
 
-def unfit(equations: Equations) -> tuple[str, str] | None:
-    """Why heyoka cannot integrate a scene, and the remedy; None when it can."""
-    if importlib.util.find_spec("heyoka") is None:
-        return "it is not installed", 'pip install "abu-calc[fast]" on Linux; elsewhere from conda-forge; or use scipy'
+def untraceable(equations: Equations) -> tuple[str, str] | None:
+    """The effect that cannot be written in another language, and the remedy; None when all can."""
     for effect in equations.scene.effects:
         if not effect.traceable:
             return f"it cannot trace the effect {effect.name}", "use scipy, or leave the effect out"
     return None
 
 
-def _compiled(equations: Equations) -> Choice:
-    """Compiled code, which is imported and made when it is asked for; InputError where it does not run."""
-    from abu_calc.dynamics.integrators.compiled import run, waiting
+def unfit(equations: Equations) -> tuple[str, str] | None:
+    """Why heyoka cannot integrate a scene, and the remedy; None when it can."""
+    if importlib.util.find_spec("heyoka") is None:
+        return "it is not installed", 'pip install "abu-calc[fast]" on Linux; elsewhere from conda-forge; or use scipy'
+    return untraceable(equations)
+
+
+def _compiled_or_refused(equations: Equations) -> Choice:
+    """Compiled code, which is made when it is asked for; InputError where it does not run."""
+    from abu_calc.dynamics.integrators.compiled import waiting
 
     if waiting.unfit(equations) is None:
         waiting.load(equations)
     if missing := waiting.unfit(equations):
         raise InputError(f"compiled code cannot integrate this scene: {missing[0]}", remedy=missing[1])
-    return Choice(COMPILED, "asked for", run.integrate)
+    return _compiled("asked for")
+
+
+def _compiled(why: str) -> Choice:
+    from abu_calc.dynamics.integrators.compiled import run  # some twenty modules, which not every command needs
+
+    return Choice(COMPILED, why, run.integrate, COMPILED_WORK)
+
+
+def _plain(why: str) -> Choice:
+    from abu_calc.dynamics.integrators.compiled import run
+
+    return Choice(PLAIN, why, partial(run.integrate, compiled=False))
 
 
 def _heyoka(why: str) -> Choice:
@@ -118,14 +148,20 @@ def _scipy(method: scipy_.Method, why: str) -> Choice:
 
 def available(equations: Equations) -> tuple[str, ...]:
     """Names of all integrators that can take a scene here."""
+    from abu_calc.dynamics.integrators.compiled import waiting
+
     names = ("scipy-dop853", "scipy-rk45", "scipy-lsoda", "scipy-radau", "scipy-bdf")
-    return names if unfit(equations) else (*names, "heyoka")
+    plain = () if untraceable(equations) else (PLAIN,)
+    compiled = () if waiting.unfit(equations) else (COMPILED,)
+    return (*names, *plain, *compiled, *(() if unfit(equations) else ("heyoka",)))
 
 
 def integrate_with(name: str, equations: Equations, tolerance: float, sample_times: Array, most: int) -> Trajectory:
     """The motion by an integrator given by name, within so many evaluations."""
     if name in ("compiled", COMPILED):
-        return _compiled(equations).integrate(equations, tolerance, sample_times, most)
+        return _compiled_or_refused(equations).integrate(equations, tolerance, sample_times, most)
+    if name == PLAIN:
+        return _plain("asked for").integrate(equations, tolerance, sample_times, most)
     if name == "heyoka":
         return heyoka_.integrate(equations, tolerance, sample_times, most)
     return scipy_.integrate(equations, tolerance, sample_times, most, method=cast(scipy_.Method, name))

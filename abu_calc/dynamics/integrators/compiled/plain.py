@@ -30,7 +30,7 @@ class Plain:
 
     def go(self, *given: np.ndarray) -> int:
         """`loop.go` on these arrays."""
-        views: list[Any] = [memoryview(one.reshape(-1)) for one in given]
+        views: list[Any] = [one.reshape(-1).data for one in given]
         views[PARAMETERS], views[LAYOUT] = self._parameters, views[LAYOUT].tolist()
         return int(self._go(*views))
 

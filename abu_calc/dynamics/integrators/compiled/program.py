@@ -26,7 +26,6 @@ from abu_calc.dynamics.tracing.plain import Node, Source
 from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
 from abu_calc.dynamics.tracing.traced import mapped
 
-
 STATE = re.compile(r"\by(\d+)\b")
 """A state in an expression."""
 

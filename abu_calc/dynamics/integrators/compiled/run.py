@@ -64,7 +64,8 @@ class _Run(Run):
         super().__post_init__()
         equations = self.equations
         self.modes = at_break(equations, 0.0, equations.first_modes)
-        self.code, self.numbers = prepared(equations) if self.compiled else written(equations)
+        found: tuple[Code | Plain, Array] = (prepared if self.compiled else written)(equations)
+        self.code, self.numbers = found
         program = self.code.program
         wide = widened(equations, self.modes)
         self.places = numbers_places(wide.modes, len(self.numbers))

@@ -2,7 +2,6 @@
 
 import warnings
 
-from abu_calc.dynamics.effect import ACROSS_RATE
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.compiled import code
 from abu_calc.dynamics.integrators.compiled.machine import CompilerError
@@ -12,9 +11,9 @@ from abu_calc.dynamics.integrators.compiled.run import described, prepared
 LEAST = 0.1
 """Time [s] until compiled code runs that is on disk: llvmlite is imported, the equations are traced."""
 
-COMPILING = 1.6e-5
-"""Time [s] of compilation per character of the equations' text: 0.4 s for four balls with friction and contact, 2 for
-sixteen. The loop itself, compiled once for all, is left out."""
+COMPILING = 0.8e-5
+"""Time [s] of compilation per character of the equations' text: 0.2 s for four balls with friction and contact, 1 for
+sixteen. The loop itself, compiled once for all scenes (0.7 s), is left out."""
 
 _broken: list[str] = []
 
@@ -31,17 +30,11 @@ def unfit(equations: Equations) -> tuple[str, str] | None:
     return None
 
 
-def asks_python(equations: Equations) -> bool:
-    """Whether decisions come from Python all the same: balls that move across their race, too, stick or touch."""
-    effects = zip(equations.scene.effects, equations.first_modes, strict=True)
-    rules = [effect.rule(mode) for effect, mode in effects]
-    return ACROSS_RATE in equations.scene.ball_states and any(
-        rule and rule.name != "one-sided contact" for rule in rules
-    )
-
-
 def waiting(equations: Equations) -> float:
-    """About how long until compiled code runs [s], by counting: 0.1 s where the structure was compiled before."""
+    """About how long until compiled code runs [s], by counting: 0.1 s where the structure was compiled before.
+
+    Infinite where it cannot run.
+    """
     ordered, _ = in_order(equations)
     wide, structure, _ = described(ordered)
     if code.known(structure):
