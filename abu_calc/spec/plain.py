@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from abu_calc.errors import InputError, Place
 
-ALLOWED: Final = "text, numbers, True and False, dates, and lists, tuples or dictionaries of them"
+ALLOWED: Final = "text, numbers, Python's True and False, dates, and lists, tuples or dictionaries of them"
 LONGEST_FOUND: Final = 60
 
 
