@@ -78,6 +78,11 @@ __all__ = [
     "verify",
 ]
 
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
 if not TYPE_CHECKING:  # a type checker shall find what is there, and nothing else
 
     def __getattr__(name: str) -> object:

@@ -13,7 +13,7 @@ Status = Literal["pass", "fail", "not-done"]
 class Check:
     """One requirement held against one value, both in `unit` as printed (user units); null where it has none.
 
-    `bound` tells whether the limit is the most or the least that the value may be.
+    `bound`: whether the limit is the most or the least that the value may be.
     """
 
     code: str

@@ -53,9 +53,13 @@ class InputError(AbuError):
         super().__init__(message)
         self.message, self.place, self.found, self.allowed, self.remedy = message, place, found, allowed, remedy
 
-    def at(self, place: Place) -> "InputError":
-        """The same error, told of another place (a reader knows file and line, a formula only the quantity)."""
-        return type(self)(self.message, place=place, found=self.found, allowed=self.allowed, remedy=self.remedy)
+    def at(self, place: Place, more: str = "") -> "InputError":
+        """The same error at another place (a reader knows file and line, a formula only the quantity).
+
+        `more`: what that place adds to the message.
+        """
+        message = self.message + more
+        return type(self)(message, place=place, found=self.found, allowed=self.allowed, remedy=self.remedy)
 
     def __str__(self) -> str:
         head = f"{self.place}: {self.message}" if str(self.place) else self.message

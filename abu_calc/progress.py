@@ -1,4 +1,4 @@
-"""Long work tells what it is at."""
+"""Long work reports what it is at."""
 
 from collections.abc import Callable
 

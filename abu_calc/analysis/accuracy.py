@@ -216,7 +216,7 @@ def _trial(name: str, equations: Equations, times: Any) -> tuple[Trajectory, flo
 def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     """Two methods at tight tolerances; they must agree better than half the accuracy.
 
-    A loose run first tells how long they will take.
+    A loose run first shows how long they will take.
     """
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
@@ -227,7 +227,8 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
     if expected > budget:
         raise NotTrustworthyError(
             f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"
-            f"  give more time (--budget {2 * expected:.0f}), or shorten the run (--duration)"
+            f"  give more time (--budget {2 * expected:.0f}, Python: budget_s=), "
+            "or shorten the run (--duration, Python: duration_s=)"
         )
     first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))
     second = evaluate(full, choice.integrate_with(other, equations, tight, times, MOST_EVALUATIONS))

@@ -43,14 +43,14 @@ def idle_checks(design: Design, response: Response) -> tuple[Check, ...]:
 
 
 def _allowed(design: Design, moved: float) -> float:
-    """What may be left: a tenth of the imbalance, and what race eccentricity and dry friction keep in any case."""
+    """What may be left: a tenth of the imbalance, and what race eccentricity and dry friction leave in any case."""
     one = design.autobalancer
-    kept = one.requirement.effective_mass * (one.budget.race_eccentricity + one.budget.rolling_friction)
-    return SETTLED * max(moved, 0.01 * one.static_moment) + kept
+    remaining = one.requirement.effective_mass * (one.budget.race_eccentricity + one.budget.rolling_friction)
+    return SETTLED * max(moved, 0.01 * one.static_moment) + remaining
 
 
 def not_simulated(scene: str, reason: str) -> Check:
     """The check of a simulation that gave no number to be trusted."""
     name = "simulated balancing" if scene == "idle" else f"simulated scene {scene}"
     return Check("ABU701" if scene == "idle" else "ABU703", name, "not-done", f"no trustworthy simulation: {reason}",
-                 remedy="A drag nearer to the optimum, or less accuracy (--accuracy).")  # fmt: skip
+                 remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip

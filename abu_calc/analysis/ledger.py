@@ -59,8 +59,8 @@ def chosen(
               else _why(weight, name in out))
         for name, weight in weights.items()
     )  # fmt: skip
-    kept = {entry.name for entry in entries if entry.included}
-    scene = replace(full, effects=tuple(effect for effect in full.effects if effect.name in kept))
+    included = {entry.name for entry in entries if entry.included}
+    scene = replace(full, effects=tuple(effect for effect in full.effects if effect.name in included))
     spared = sum(weights[name].value or 0.0 for name in out.difference(wanted, unwanted))
     return Ledger(scene, entries, spared)
 

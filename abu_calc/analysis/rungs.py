@@ -43,7 +43,7 @@ MOST_TIMES: Final = 1001
 
 @dataclass(frozen=True)
 class Estimate:
-    """What a rung tells of a run, as `differences` compares it; `evaluations` of whatever it evaluates."""
+    """What a rung finds of a run, as `differences` compares it; `evaluations` of whatever it evaluates."""
 
     axis_amplitude: float
     velocity_rms: float

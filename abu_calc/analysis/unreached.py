@@ -30,7 +30,7 @@ def unreached(
     most: int,
     otherwise: NotTrustworthyError | None = None,
 ) -> NotTrustworthyError:
-    """The error that says so, from the two finest runs, so far apart; another tells whether the motion is chaotic.
+    """The error that says so, from the two finest runs, so far apart; another run shows whether the motion is chaotic.
 
     `otherwise`: what stopped the runs before rounding did.
     """
@@ -47,7 +47,9 @@ def unreached(
     if otherwise:
         return otherwise
     if math.isinf(worst):
-        return NotTrustworthyError(f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration)")
+        return NotTrustworthyError(
+            f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration, Python: duration_s=)"
+        )
     return NotTrustworthyError(
         f"{first}: rounding decides\n  ask for less accuracy, shorten the run, or start the balls at other places"
     )

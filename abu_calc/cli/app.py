@@ -69,7 +69,7 @@ def main(arguments: list[str] | None = None) -> None:
     status = run(given)
     try:
         sys.stdout.flush()
-    except OSError:  # nobody reads on, or the disk is full: what was to be told is told, or cannot be
+    except OSError:  # nobody reads on, or the disk is full: what could be printed is printed
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     sys.exit(status)
 
@@ -80,7 +80,7 @@ def _warn(message: Warning | str, *_: object, **__: object) -> None:
 
 
 def run(arguments: list[str]) -> int:
-    """Run `abu` with these arguments and return its exit status; every error is told in a line or two."""
+    """Run `abu` with these arguments and return its exit status; every error is printed in a line or two."""
     command = next((word for word in arguments if not word.startswith("-")), "")
     as_json = "--json" in arguments
     try:

@@ -24,7 +24,7 @@ ACROSS_RATE = "across'"
 
 @dataclass(frozen=True)
 class Weight:
-    """What leaving an effect out would change, counted as accuracy counts errors; None where nothing cheap tells."""
+    """What leaving an effect out would change, counted as accuracy counts errors; None without a cheap estimate."""
 
     value: float | None
     why: str
@@ -130,7 +130,7 @@ class Effect:
     balls_meet: ClassVar[bool] = False
     """Whether it gives balls a size, so that they cannot pass each other."""
 
-    # What it tells of itself, so that nobody needs to ask for it by name.
+    # Properties others ask an effect for, so that nobody needs to ask which effect it is.
 
     @property
     def rotor(self) -> Rotor:

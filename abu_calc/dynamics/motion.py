@@ -90,7 +90,7 @@ class Across:
     """One more direction in which each ball can move: its lever (d × n), inertia per ball mass, what drives it (n).
 
     `outward` (n): way along e_r per way in this direction, with which `press` acts on it too; `grip`, `free`: as in
-    `Loads`, with the same owner as there.
+    `Loads`, set by the same effect as there.
     """
 
     along: Array
@@ -122,9 +122,9 @@ class Loads:
     Slots that ADD, by `add`: `pull`, `press` (n), forces on the balls per ball mass along e_t and e_r; `frame` (d),
     forces on the frame.
 
-    Slots of ONE OWNER, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0 for
-    a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it on
-    the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
+    Set by ONE effect, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0
+    for a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it
+    on the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
     `across`, one more direction of motion; `bound`, a constraint of the frame.
     """
 

@@ -34,7 +34,7 @@ class Race:
     pitch_radius R_p [m] to the ball centres; ball_masses [kg], none or more; drag h0 [1/s], the torque on a ball being
     −m·R_p²·h0·(speed relative to the race); inertia_factor J = 1 (point), 7/5 (rolling ball), 3/2 (rolling roller);
     start_angles [rad] in the rotor; start_speeds [rad/s] relative to the race; plane_offset z [m] from the centre of
-    mass; ball_radius r [m], 0 where nothing tells it. Raises RangeError, InputError.
+    mass; ball_radius r [m], 0 where it is not known. Raises RangeError, InputError.
     """
 
     pitch_radius: float

@@ -93,7 +93,7 @@ class SmallMotion:
         moving = np.abs(values) > limit  # a coordinate that nothing holds goes away
         values, shares, places = values[moving], shares[moving], V[: len(push), moving]
         left = self.frame[:2] @ places * (shares / values * np.exp(values * t))
-        # Motions of one rate are one, however they are told apart.
+        # Motions of one rate count as one, however they are named.
         alike = np.abs(values[:, None] - values) < limit
         return float((np.abs(left @ alike) / alike.sum(axis=0)).sum())
 
@@ -118,7 +118,7 @@ class Support(ABC):
     """Whether its motion turns the rotor and the races too. Then what the imbalance weighs in it varies, and half a
     turn of the rotor later it is not the same upside down."""
     bearings: tuple[float, ...] = ()
-    """Places along the spindle [m] where motion is told beside that of the axis."""
+    """Places along the spindle [m] where motion is reported beside that of the axis."""
 
     # What the equations need.
 
@@ -203,7 +203,7 @@ class Support(ABC):
         if not self.couples and (couple or any(places)):
             raise InputError("only a support that tilts knows a couple and places along the spindle")
 
-    # What is told of it.
+    # What is reported of it.
 
     @property
     @abstractmethod

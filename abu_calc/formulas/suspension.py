@@ -19,7 +19,7 @@ class Suspension(Protocol):
 
 @dataclass(frozen=True)
 class Springs:
-    """Springs and dampers in x and y, kept when the mass of the autobalancer is added."""
+    """Springs and dampers in x and y, the same when the mass of the autobalancer is added."""
 
     stiffness: tuple[float, float]
     damping: tuple[float, float]

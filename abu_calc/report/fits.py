@@ -59,7 +59,7 @@ def fit_grid(pair: Seats) -> Grid:
 
 
 def note_blocks(pair: Seats) -> list[Block]:
-    """The notes of both seats, each once and told of its seat where they differ."""
+    """The notes of both seats, each once, with its seat where they differ."""
     blocks: list[Block] = []
     for note in dict.fromkeys(note for seat in pair for note in seat.notes):
         homes = [seat.seat for seat in pair if note in seat.notes]

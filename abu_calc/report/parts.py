@@ -1,10 +1,12 @@
 """Blocks that several reports share: facts of a record, checks, defaults, warnings, where a result comes from."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from abu_calc.checks import Check
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number, shown
+from abu_calc.spec.text import key_path
+from abu_calc.spec.text import shown as exact
 from abu_calc.studies.quantity import Record, quantities
 from abu_calc.studies.result import Provenance, Result
 
@@ -68,10 +70,22 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
     if provenance.file is not None:
         text += f"; {provenance.file}, SHA-256 {(provenance.sha256 or '')[:16]}…"
     blocks: list[Block] = [Heading("Provenance"), Paragraph(text)]
-    if provenance.overrides:
-        replaced = ", ".join(f"{key} = {written(value)}" for key, value in provenance.overrides)
-        blocks.append(Paragraph(f"With {replaced}."))
+    entries = [entry for key, value in provenance.overrides for entry in _entries(key, value)]
+    if entries:
+        blocks += [Paragraph("With these entries replaced:"), *(Paragraph(entry, indent=4) for entry in entries)]
     return blocks
+
+
+def _entries(path: str, value: object) -> Iterator[str]:
+    """An entry that was replaced as a file would have it, exactly; of a table each key on a line of its own."""
+    if isinstance(value, dict) and value:
+        for key, inner in value.items():
+            yield from _entries(f"{path}.{key_path((key,))}", inner)
+    elif isinstance(value, (list, tuple)) and any(isinstance(inner, dict) for inner in value):
+        for index, inner in enumerate(value):
+            yield from _entries(f"{path}[{index}]", inner)
+    else:
+        yield f"{path} = {'{}' if value == {} else exact(value)}"
 
 
 def written(value: object) -> str:

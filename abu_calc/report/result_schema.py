@@ -2,8 +2,9 @@
 
 import types
 from collections.abc import Mapping
-from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, get_type_hints
 
+from abu_calc.checks import Check, Status
 from abu_calc.studies.accuracy import AccuracyResult
 from abu_calc.studies.check_fit import CheckFitResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
@@ -35,40 +36,48 @@ def result_schema() -> Schema:
         "$schema": DRAFT,
         "title": "abu-calc results",
         "type": "object",
-        "properties": _envelope(),
+        "properties": _envelope(definitions),
         "required": ["abu", "input", "status", "checks", "result", "model", "warnings"],
         "allOf": results,
         "$defs": definitions,
     }
 
 
-def _envelope() -> Schema:
+def _envelope(definitions: dict[str, Schema]) -> Schema:
     """What every document has; a document of an error has `error` and no result."""
-    text, words = {"type": "string"}, {"type": "array", "items": {"type": "string"}}
-    check: dict[str, Schema] = {name: {} for name in ("message", "value", "limit", "unit", "remedy", "bound")}
+    text, anything = {"type": "string"}, {"type": "object"}
+    check = {name: _type(hint, definitions) for name, hint in get_type_hints(Check).items()}
     return {
-        "abu": {"type": "object", "properties": {"version": text, "command": text, "schema": {"type": "integer"},
-                                                 "date": text}},
-        "input": {"type": ["object", "null"], "properties": {"file": text, "sha256": text, "overrides": {
-            "type": "object"}, "defaults": {"type": "object"}}},
-        "status": {"enum": ["pass", "fail", "not-done"]},
-        "checks": {"type": "array", "items": {"type": "object", "properties": {
-            "code": text, "name": text, "status": {"enum": ["pass", "fail", "not-done"]}, **check},
-            "required": ["code", "name", "status", *check]}},
+        "abu": _object(version=text, command=text, schema={"type": "integer"}, date=text),
+        "input": {"anyOf": [_object(file=text, sha256=text, overrides=anything, defaults=anything), {"type": "null"}]},
+        "status": _type(Status, definitions),
+        "checks": {"type": "array", "items": _object(**check)},
         "result": {},
-        "model": {"type": "object"},
-        "warnings": words,
-        "error": {"type": "object"},
-    }  # fmt: skip
+        "model": anything,
+        "warnings": {"type": "array", "items": text},
+        "error": {"type": "object", "properties": {"kind": text, "message": text}, "required": ["kind", "message"]},
+    }
+
+
+def _object(**properties: Schema) -> Schema:
+    """An object with all of these."""
+    return {"type": "object", "properties": properties, "required": list(properties)}
 
 
 def _of_command(name: str, definitions: dict[str, Schema]) -> Schema:
-    """Where this command speaks, this is its result."""
+    """Where this command speaks, and of no error, this is its result, and the model behind it."""
     command = {"properties": {"abu": {"properties": {"command": {"const": name}}}}}
-    kinds = [_type(kind.json_type(), definitions) for kind in RESULTS if kind.command == name]
-    found = kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
+    kinds = [
+        {"properties": {"result": _type(kind.json_type(), definitions), "model": _type(_model(kind), definitions)}}
+        for kind in RESULTS
+        if kind.command == name
+    ]
     good = {"not": {"required": ["error"]}}
-    return {"if": {"allOf": [command, good]}, "then": {"properties": {"result": found}}}
+    return {"if": {"allOf": [command, good]}, "then": kinds[0] if len(kinds) == 1 else {"anyOf": kinds}}
+
+
+def _model(kind: type[Result]) -> Any:
+    return hints(kind)["model"]
 
 
 def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
@@ -107,8 +116,8 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
         return {"enum": list(arguments)}
     if origin in (Union, types.UnionType):
         return {"anyOf": [_type(one, definitions) for one in arguments]}
-    if origin in (tuple, list):
-        return {"type": "array", "items": _items(arguments, definitions)}
+    if origin is tuple:
+        return {"type": "array", "items": _items(arguments, definitions), **_length(arguments)}
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return {"type": "object", "additionalProperties": _type(arguments[1], definitions)}
     if isinstance(hint, type) and issubclass(hint, Record):
@@ -119,3 +128,8 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
 def _items(arguments: tuple[Any, ...], definitions: dict[str, Schema]) -> Schema:
     kinds = [one for one in dict.fromkeys(arguments) if one is not Ellipsis]
     return _type(kinds[0], definitions) if len(kinds) == 1 else {"anyOf": [_type(one, definitions) for one in kinds]}
+
+
+def _length(arguments: tuple[Any, ...]) -> Schema:
+    """Of tuples that are written out, their length."""
+    return {} if Ellipsis in arguments else {"minItems": len(arguments), "maxItems": len(arguments)}

@@ -64,7 +64,7 @@ TIME_CONSTANTS = 5.0
 def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched") -> Scene:
     """One scene of a machine, with every effect its file has data for.
 
-    `idle`: at full speed, the axis at rest at its place, the balls as `STARTS` tells, the mass that which is felt in
+    `idle`: at full speed, the axis at rest at its place, the balls as in `STARTS`, the mass that which is felt in
     the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
     contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one.
     `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the race's

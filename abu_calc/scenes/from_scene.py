@@ -194,7 +194,7 @@ def lasting(scene: Scene, duration: float | None, key: str) -> Scene:
     """The scene with another duration [s], if one is given, and not longer than can be integrated.
 
     At least one revolution, and a run-up or run-down to its end; at most 4e6 revolutions times states. Raises
-    RangeError, told of `key`.
+    RangeError with `key` as its place.
     """
     wanted = scene.duration if duration is None else duration
     balls, turning = len(scene.ball_masses), len(scene.rotor.states)

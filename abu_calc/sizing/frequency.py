@@ -79,7 +79,7 @@ def zones(frequencies: tuple[float, float], gap: float) -> tuple[tuple[float, fl
 
 
 def frequency_region(case: Case, ball_mass: float, added_mass: float) -> FrequencyRegion:
-    """Zones over the whole speed range, with the mass of the autobalancer added and the stiffness kept."""
+    """Zones over the whole speed range, with the mass of the autobalancer added and the same stiffness."""
     mass = case.body.effective_mass(added_mass)
     frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
     gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)

@@ -4,6 +4,7 @@ What words faults is imported when there is one.
 """
 
 import hashlib
+import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -39,7 +40,7 @@ class Document(NamedTuple):
 
 @dataclass(frozen=True)
 class Reading:
-    """A file, read and found right, and what is to be told about it."""
+    """A file, read and found right, and what there is to know about it."""
 
     file: str
     text: str
@@ -71,7 +72,28 @@ class Reading:
             key = error.place.key
             if error.place.file is not None or not self.file or (key or "").startswith("--"):
                 raise
+            if given := self._override_of(key or ""):
+                raise given.blamed(error) from None
             raise error.at(Place(self.file, self.lines.get(key) if key else None, key)) from None
+
+    def _override_of(self, key: str) -> "Override | None":
+        """The override that an entry of the file comes from, if any: it, or the last that set a table around it."""
+        around = [one for one in self.overrides if key == one.key or key.startswith((f"{one.key}.", f"{one.key}["))]
+        return around[-1] if around else None
+
+
+def named(source: object) -> str:
+    """The name of a file, or of a preset, that a script gives as text or as a path; raises InputError for all else."""
+    if isinstance(source, (str, os.PathLike)) and isinstance(name := os.fspath(source), str):
+        return name
+    from abu_calc.spec.plain import found_as
+
+    raise InputError(
+        "not the name of a file or a preset",
+        place=Place(key="source"),
+        found=found_as(source),
+        allowed="text or a path",
+    )
 
 
 def open_document(source: str) -> Document:
@@ -92,9 +114,9 @@ def validate(
     known: type[Table],
     choose: Callable[[dict[str, object]], type[Model]],
 ) -> tuple[Model, Reading]:
-    """The table of a document with entries overridden, and what is to be told of it.
+    """The table of a document with entries overridden, and what there is to know of it.
 
-    `known` tells the keys that overrides may name, `choose` the model of the document as overridden. Raises InputError
+    `known` has the keys that overrides may name, `choose` the model of the document as overridden. Raises InputError
     for whatever is wrong; several faults come as SpecErrors.
     """
     content = document.content
@@ -128,9 +150,9 @@ def parsed_overrides(overrides: Sequence[str]) -> "tuple[Override, ...]":
     """Overrides as written on the command line, `table.key=value`."""
     if not overrides:
         return ()
-    from abu_calc.spec.overrides import parse_override
+    from abu_calc.spec.overrides import parse_overrides
 
-    return tuple(map(parse_override, overrides))
+    return parse_overrides(overrides)
 
 
 def _parsed(text: str, source: str) -> dict[str, object]:

@@ -26,9 +26,9 @@ class SpecErrors(InputError):  # noqa: N818 - it is several
         )
         self.errors = tuple(errors)
 
-    def at(self, place: Place) -> InputError:
+    def at(self, place: Place, more: str = "") -> InputError:
         """The first error, at another place."""
-        return self.errors[0].at(place)
+        return self.errors[0].at(place, more)
 
     def __str__(self) -> str:
         listed = [str(error) for error in self.errors[:MOST_LISTED]]

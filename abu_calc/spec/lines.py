@@ -23,7 +23,7 @@ _TOKEN: Final = re.compile(
 
 
 DEEPEST: Final = 32
-"""Steps of the longest path told apart; deeper keys share the line of their table (no file of ours goes beyond 5)."""
+"""Steps of the longest path with a line of its own; deeper keys share that of their table (our files go to 5)."""
 
 
 @dataclass(frozen=True)

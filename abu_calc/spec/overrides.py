@@ -8,12 +8,15 @@ from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.errors import InputError, Place
+from abu_calc.spec.plain import found_as, plain_value
 from abu_calc.spec.table import Table, table_at
 from abu_calc.spec.text import Part, key_path
 
 _STEP: Final = re.compile(
     r"""\.?(?:([A-Za-z_][A-Za-z0-9_-]*)|\[(\d{1,6})\]|(?<=\.)(\d{1,6})(?![\w-])|"([^"]*)"|'([^']*)')"""
 )
+CHANGED: Final = "{}"
+"""What messages call an override that Python gave: by its key alone."""
 EXAMPLE: Final = "--set machine.mass_kg=5.6"
 
 
@@ -35,17 +38,30 @@ class Override:
         """How messages name it."""
         return self.given_as.format(self.key)
 
+    def blamed(self, error: InputError) -> InputError:
+        """An error about an entry that stands in the file no more, or never did: this set it."""
+        inner = (error.place.key or "").removeprefix(self.key)
+        if self.given_as == CHANGED:
+            return error.at(Place(key=f"{self.key}{inner}"), ", in a value that came from changed()")
+        return error.at(Place(key=f"{self.option}: {error.place.key}" if inner else self.option))
+
 
 def overrides_of(values: Mapping[str, object]) -> list[Override]:
-    """Overrides by key path, as Python gives them; copies, tuples as lists. Raises InputError for what is no path."""
+    """Overrides by key path, as Python gives them; copies, as a file would hold them.
+
+    Raises InputError for what is no path, and for what is no value of a file.
+    """
     if not isinstance(values, Mapping) or not all(isinstance(key, str) for key in values):
         raise InputError(
             "key paths with their values are expected",
             place=Place(key="changed"),
-            found=repr(values)[:60],
+            found=found_as(values),
             allowed='{"wheel.mass_kg": 0.5}',
         )
-    return [Override(_path(key.strip(), "changed"), _listed(value), "{}") for key, value in values.items()]
+    return [
+        Override(_path(key.strip(), "changed"), plain_value(value, key.strip()), CHANGED)
+        for key, value in values.items()
+    ]
 
 
 def following(earlier: Sequence[Override], later: Sequence[Override], model: type[Table]) -> tuple[Override, ...]:
@@ -59,11 +75,12 @@ def following(earlier: Sequence[Override], later: Sequence[Override], model: typ
     return (*(override for override in earlier if override.path not in gone), *later)
 
 
-def _listed(value: object) -> object:
-    """A copy with lists for tuples, as TOML has them."""
-    if isinstance(value, (list, tuple)):
-        return [_listed(each) for each in value]
-    return {key: _listed(each) for key, each in value.items()} if isinstance(value, dict) else value
+def parse_overrides(texts: Sequence[str]) -> tuple[Override, ...]:
+    """Overrides as written on the command line, a list of them."""
+    if isinstance(texts, (list, tuple)) and all(isinstance(text, str) for text in texts):
+        return tuple(map(parse_override, texts))
+    place = Place(key="overrides")
+    raise InputError("not a list of overrides", place=place, found=found_as(texts), allowed=f'["{EXAMPLE[6:]}"]')
 
 
 def parse_override(text: str) -> Override:

@@ -1,4 +1,4 @@
-"""Machine files, read and found right: document → overrides → tables, every fault told with its place."""
+"""Machine files, read and found right: document → overrides → tables, every fault with its place."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
 from abu_calc.spec.bearing_file import BearingFile
-from abu_calc.spec.document import LARGEST_FILE, Document, Reading, open_document, parsed_overrides, validate
+from abu_calc.spec.document import LARGEST_FILE, Document, Reading, named, open_document, parsed_overrides, validate
 
 if TYPE_CHECKING:
     from abu_calc.spec.machine import MachineFile
@@ -18,7 +18,10 @@ __all__ = ["LARGEST_FILE", "Machine", "machine_from", "read", "read_machine"]
 
 @dataclass(frozen=True)
 class Machine(Reading):
-    """A machine file, or one of bearings alone; `tables` are what stands in it, in the units people wrote."""
+    """A machine file, or one of bearings alone; `tables` are what stands in it, in the units people wrote.
+
+    Tables that only a whole machine has are those of `whole()`: `machine.whole().wheel.mass_kg`.
+    """
 
     tables: "MachineFile | BearingFile"
 
@@ -31,32 +34,21 @@ class Machine(Reading):
 
         return machine_from(self.document, following(self.overrides, overrides_of(values), _whole()))
 
-    def whole(self, command: str) -> "MachineFile":
-        """The tables of a whole machine; raises InputError for a file that holds bearings alone."""
+    def whole(self, command: str | None = None) -> "MachineFile":
+        """The tables of a whole machine; raises InputError, naming the command, for a file of bearings alone."""
         if not isinstance(self.tables, BearingFile):
             return self.tables
+        needs = f"`abu {command}` needs a whole machine" if command else "not a whole machine"
         raise InputError(
-            f"this file holds bearings only, `abu {command}` needs a whole machine",
+            f"this file holds bearings only, {needs}",
             place=Place(self.file, key="machine"),
             remedy="Use `abu check-fit`, or add [suspension], [wheel] and [autobalancer].",
         )
 
 
-def required(machine: object) -> Machine:
-    """The machine itself; raises InputError for anything else, such as the name of its file."""
-    if isinstance(machine, Machine):
-        return machine
-    raise InputError(
-        "a machine that was read is expected",
-        place=Place(key="machine"),
-        found=repr(machine)[:60],
-        remedy='abu_calc.read("machine.toml") returns one.',
-    )
-
-
 def read(source: str | os.PathLike[str]) -> Machine:
     """Reads a machine file, or a preset by its name; raises InputError with file, line, key and remedy."""
-    return read_machine(os.fspath(source))
+    return read_machine(named(source))
 
 
 def read_machine(source: str, overrides: Sequence[str] = ()) -> Machine:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
-from abu_calc.spec.document import Document, Reading, open_document, parsed_overrides, validate
+from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
 from abu_calc.spec.read import Machine, machine_from
 from abu_calc.spec.scene import SceneFile, SceneTable
 
@@ -35,7 +35,7 @@ def read_scene(source: str | os.PathLike[str], overrides: Sequence[str] = ()) ->
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
-    document = open_document(os.fspath(source))
+    document = open_document(named(source))
     if not _holds_scene(document):
         for table, kind in (("machine", "a machine"), ("rig", "readings of a rig")):
             if table in document.content:

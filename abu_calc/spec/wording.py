@@ -1,4 +1,4 @@
-"""What a key is said to take, from what it takes: bounds and defaults put into its description.
+"""What a key takes, in the words of its description: bounds and defaults put into its description.
 
 A description writes {range} ("above 0 … 100"), {most} ("100") and {default} where they belong in its sentence.
 """

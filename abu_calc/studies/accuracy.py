@@ -1,5 +1,6 @@
 """What accuracy costs: every way to compute a scene, its error and its time."""
 
+from dataclasses import field
 from typing import Annotated, ClassVar, Final, Self
 
 from abu_calc.analysis.accuracy import Point, Study
@@ -9,7 +10,7 @@ from abu_calc.analysis.differences import QUANTITIES
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
-from abu_calc.studies.arguments import one_of
+from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel
@@ -30,8 +31,12 @@ class MeasuredPoint(Record):
     error: Annotated[float | None, Quantity("error", "", 2, "against the reference")]
     evaluations: Annotated[int, Quantity("evaluations")]
     steps: Annotated[int, Quantity("steps")]
-    wall_s: Annotated[float | None, Quantity("warm", "", 3, "median of repeats, everything loaded")]
-    cold_s: Annotated[float | None, Quantity("cold", "", 3, "the first run, with import and compilation")]
+    wall_s: Annotated[float | None, Quantity("warm", "", 3, "median of repeats, everything loaded")] = field(
+        compare=False
+    )
+    cold_s: Annotated[float | None, Quantity("cold", "", 3, "the first run, with import and compilation")] = field(
+        compare=False
+    )
     note: Annotated[str, Quantity("note")]
 
     @classmethod
@@ -51,7 +56,7 @@ class Reference(Record):
     integrators: Annotated[tuple[str, ...], Quantity("integrators")]
     tolerances: Annotated[tuple[float, ...], Quantity("tolerances", "", 1)]
     disagreement: Annotated[float, Quantity("disagreement", "", 2)]
-    wall_s: Annotated[float, Quantity("time it took", "", 3)]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
 
     @classmethod
     def of(cls, run: ReferenceRun) -> Self:
@@ -68,6 +73,7 @@ class AccuracyResult(Result):
     command: ClassVar[str] = "accuracy"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"scene"}
 
+    model: SceneModel
     scene: str
     quantity: Annotated[str, Quantity("quantity", "", 4, "amplitude, level, settling or angles")]
     accuracy: Annotated[float, Quantity("accuracy asked for", "", 2)]
@@ -78,6 +84,7 @@ class AccuracyResult(Result):
     skipped: Annotated[tuple[str, ...], Quantity("not measured in the time allowed")]
 
 
+@checked
 def accuracy(
     source: Source,
     scene: str | None = None,
@@ -97,7 +104,7 @@ def accuracy(
     ACCURACY.check(accuracy)
     one_of("quantity", quantity, QUANTITIES)
     BUDGET.check(budget_s)
-    subject = subject_of(source, scene, start).lasting(duration_s)
+    subject = subject_of(source, scene, start, command="accuracy").lasting(duration_s)
     ledger = subject.ledger(accuracy)
     found = measured(subject.scene, ledger, quantity, accuracy, budget_s, progress)
     return AccuracyResult(
@@ -121,4 +128,4 @@ def _affordable(found: Study) -> Check:
     message = "a way to compute was measured whose error is below the accuracy"
     return Check("ABU811", "accuracy affordable", verdict(best is not None), message,
                  None if best is None else best.error, found.accuracy, None,
-                 None if best else "More time (--budget), or less accuracy.")  # fmt: skip
+                 None if best else "More time (--budget, Python: budget_s=), or less accuracy.")  # fmt: skip

@@ -1,16 +1,119 @@
 """Arguments of studies, refused before anything is computed; the key of such an error is the argument's name."""
 
-from collections.abc import Collection, Sequence
+import sys
+from collections.abc import Callable, Collection, Sequence
+from functools import cache, wraps
+from types import NoneType, UnionType
+from typing import Any, Final, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.errors import InputError, Place
-from abu_calc.spec.names import nearest
+from abu_calc.spec.plain import found_as, plain_number
+
+Arguments = ParamSpec("Arguments")
+Answer = TypeVar("Answer")
+
+WORDS: Final = {
+    "float": "a number",
+    "int": "a whole number",
+    "bool": "True or False",
+    "str": "text",
+    "NoneType": "None",
+    "Callable": "a function",
+    "Machine": "a machine that was read",
+    "SceneDescription": "a scene file that was read",
+    "Scene": "an abu_calc.Scene",
+}
+"""What an argument of each type takes."""
+
+REMEDIES: Final = {
+    "Machine": 'abu_calc.read("machine.toml") returns one.',
+    "Sequence": "A single one, too, stands in a list.",
+}
+
+LARGEST: Final = int(sys.float_info.max)
+
+
+def checked(study: Callable[Arguments, Answer]) -> Callable[Arguments, Answer]:
+    """A study that refuses, by their names, arguments of other types than its signature states.
+
+    Numbers of other libraries (NumPy, Decimal) come to it as Python's own; True and False are no numbers.
+    """
+
+    @wraps(study)
+    def with_checked_arguments(*args: Arguments.args, **named: Arguments.kwargs) -> Answer:
+        hints = _hints(study)
+        # Too many arguments, or unknown ones, are Python's to refuse.
+        first = [_taken(name, value, hint) for (name, hint), value in zip(hints.items(), args, strict=False)]
+        others = {name: _taken(name, value, hints[name]) if name in hints else value for name, value in named.items()}
+        return study(*first, *args[len(first) :], **others)  # type: ignore[arg-type]
+
+    return with_checked_arguments
+
+
+@cache
+def _hints(study: Callable[..., object]) -> dict[str, Any]:
+    """The types of the arguments, in their order."""
+    return {name: hint for name, hint in get_type_hints(study).items() if name != "return"}
+
+
+def _taken(argument: str, value: object, hint: Any) -> Any:
+    """The value as one of the types that an argument takes."""
+    kinds = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    if value is None and NoneType in kinds:
+        return None
+    for kind in kinds:
+        if (found := _as(kind, value)) is not None:
+            return found
+    raise InputError(
+        "not what this argument takes",
+        place=Place(key=argument),
+        found=found_as(value),
+        allowed=" or ".join(map(_words, kinds)),
+        remedy=next((REMEDIES[_name(kind)] for kind in kinds if _name(kind) in REMEDIES), None),
+    )
+
+
+def _as(kind: Any, value: Any) -> Any:
+    """The value as this type, or None."""
+    origin, inner = get_origin(kind), get_args(kind)
+    if kind in (float, int):
+        number = plain_number(value)
+        return kind(number) if isinstance(number, (int, kind)) and not _huge(number) else None
+    if origin is Callable:
+        return value if callable(value) else None
+    if origin not in (tuple, Sequence):
+        return value if isinstance(value, kind) else None
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        return None
+    found = tuple(_as(inner[0], each) for each in value)
+    return found if None not in found and (origin is Sequence or len(found) == len(inner)) else None
+
+
+def _huge(number: float) -> bool:
+    """Whether it is an integer beyond all floats."""
+    return isinstance(number, int) and abs(number) > LARGEST
+
+
+def _name(kind: Any) -> str:
+    name: str = (get_origin(kind) or kind).__name__
+    return name
+
+
+def _words(kind: Any) -> str:
+    """What a type is called in a message."""
+    if get_origin(kind) is tuple:
+        return f"({', '.join(map(_words, get_args(kind)))})"
+    if get_origin(kind) is Sequence:
+        return f"a list, each of it {_words(get_args(kind)[0])}"
+    return WORDS[_name(kind)]
 
 
 def one_of(argument: str, value: str | None, allowed: Collection[str]) -> None:
     """Refuse a word that is not allowed; None asks for what is usual."""
     if value is None or value in allowed:
         return
+    from abu_calc.spec.names import nearest
+
     close = nearest(value, allowed)
     remedy = f'The nearest is "{close}".' if close else None
     raise InputError(
@@ -20,6 +123,8 @@ def one_of(argument: str, value: str | None, allowed: Collection[str]) -> None:
 
 def check_effects(present: Sequence[str], with_effects: Sequence[str], without_effects: Sequence[str]) -> None:
     """Refuse effects nobody knows, those there is no data for, and those asked both in and out."""
+    from abu_calc.dynamics.effects.registry import REGISTRY  # which seats of bearings do without
+
     known = [name for name, _ in REGISTRY]
     for argument, names in (("with_effects", with_effects), ("without_effects", without_effects)):
         for name in names:

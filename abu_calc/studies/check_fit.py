@@ -1,17 +1,15 @@
 """Bearing seats judged: interference, probability of clearance, what is required, what is permitted."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from abu_calc.errors import InputError, Place
 from abu_calc.fits.seats import BearingSeats, seat_bearing
-from abu_calc.spec.read import required
+from abu_calc.spec.read import Machine
+from abu_calc.studies.arguments import checked
 from abu_calc.studies.quantity import record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
-
-if TYPE_CHECKING:
-    from abu_calc.spec.read import Machine
 
 
 @record
@@ -32,7 +30,8 @@ class CheckFitResult(Result):
         return [seat.to_dict() for seat in self.seats]
 
 
-def check_fit(machine: "Machine") -> CheckFitResult:
+@checked
+def check_fit(machine: Machine) -> CheckFitResult:
     """Judge the seats of the bearings of a machine.
 
     Raises InputError with file, line, key and remedy for what is wrong in the file, and for one without bearings.
@@ -51,9 +50,9 @@ def check_fit(machine: "Machine") -> CheckFitResult:
     )
 
 
-def judged_seats(machine: "Machine") -> tuple[BearingSeats, ...]:
+def judged_seats(machine: Machine) -> tuple[BearingSeats, ...]:
     """The bearings of a machine with their seats, in SI. Raises as `check_fit` does."""
-    if not required(machine).tables.bearing:
+    if not machine.tables.bearing:
         raise InputError(
             "the file has no bearings", place=Place(machine.file, key="bearing"), remedy="Add a table [[bearing]]."
         )

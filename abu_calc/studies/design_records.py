@@ -1,4 +1,4 @@
-"""The parts of a sized design, as results tell them: SI in, user units out."""
+"""The parts of a sized design, as results hold them: SI in, user units out."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Status
 from abu_calc.dynamics.effects.registry import REGISTRY
+from abu_calc.studies.arguments import checked
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.scene_model import SceneModel
@@ -44,6 +45,7 @@ class EffectsResult(Result):
     command: ClassVar[str] = "effects"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"promise"}
 
+    model: SceneModel
     scene: Annotated[str, Quantity("scene")]
     accuracy: Annotated[float, Quantity("accuracy asked for", "", 2)]
     effects: tuple[EffectEntry, ...]
@@ -67,6 +69,7 @@ def known_effects() -> KnownEffectsResult:
     )
 
 
+@checked
 def effects(
     source: Source,
     scene: str | None = None,
@@ -77,7 +80,7 @@ def effects(
 ) -> EffectsResult:
     """Which effects of a scene `simulate` takes in at an accuracy, and why. Raises InputError."""
     ACCURACY.check(accuracy)
-    subject = subject_of(source, scene)
+    subject = subject_of(source, scene, command="effects")
     ledger = subject.ledger(accuracy, with_effects, without_effects)
     return EffectsResult(
         title=subject.title,

@@ -46,7 +46,7 @@ class Provenance:
 
     @property
     def input(self) -> dict[str, Any] | None:
-        """What the JSON document tells of the input; null where that was no file."""
+        """What the JSON document has of the input; null where that was no file."""
         if self.file is None:
             return None
         return {

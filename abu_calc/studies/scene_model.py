@@ -1,12 +1,12 @@
 """The SI numbers and states of a scene that is integrated, and what it is in words."""
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene
-from abu_calc.studies.quantity import Record, record
+from abu_calc.studies.quantity import Record, as_plain, record
 
 
 @record
@@ -41,6 +41,8 @@ class RaceModel(Record):
 class SceneModel(Record):
     """A scene as it is integrated; the numbers of its support stand beside the others."""
 
+    left_out: ClassVar[frozenset[str]] = frozenset({"support"})
+
     states: tuple[str, ...]
     support: Mapping[str, object]
     speed_rad_per_s: float
@@ -74,8 +76,7 @@ class SceneModel(Record):
 
     def to_dict(self) -> dict[str, Any]:
         """The support's numbers beside the others."""
-        entries = super().to_dict()
-        return {**entries.pop("support"), **entries}
+        return {**as_plain(self.support), **super().to_dict()}
 
 
 def in_words(scene: Scene) -> str:

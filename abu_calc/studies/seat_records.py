@@ -1,4 +1,4 @@
-"""Bearing seats as results tell them: SI in, user units out; a seat is one ring on its shaft or in its housing."""
+"""Bearing seats as results hold them: SI in, user units out; a seat is one ring on its shaft or in its housing."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Self, TypeAlias

@@ -10,7 +10,7 @@ from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
-from abu_calc.studies.arguments import one_of
+from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.motion import Motion, equally_spaced
 from abu_calc.studies.quantity import record
 from abu_calc.studies.result import Result
@@ -28,6 +28,7 @@ class SimulateResult(SimulatedScene, Result):
     command: ClassVar[str] = "simulate"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "run"}
 
+    model: SceneModel
     description: str
     """Support, races and balls, in a sentence."""
     start: str
@@ -38,6 +39,7 @@ class SimulateResult(SimulatedScene, Result):
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
 
+@checked
 def simulate(
     source: Source,
     scene: str | None = None,
@@ -92,7 +94,7 @@ def _reached(run: Simulation, spared: float, accuracy: float) -> Check:
 
 def _left_out(audited: Audit, accuracy: float) -> Check:
     message = "with every effect in, amplitude, settling time and ball angles differ by no more than the accuracy"
-    remedy = "Ask for more accuracy, or take effects in: --with EFFECT."
+    remedy = "Ask for more accuracy, or take effects in: --with EFFECT, Python: with_effects=."
     held = audited.difference <= accuracy
     return Check("ABU803", "effects left out", verdict(held), message, audited.difference, accuracy, None,
                  None if held else remedy)  # fmt: skip

@@ -1,6 +1,7 @@
-"""One scene that was simulated, as results tell it."""
+"""One scene that was simulated, as results hold it."""
 
 import math
+from dataclasses import field
 from typing import Annotated, ClassVar, Self
 
 from abu_calc.analysis.audit import Audit as AuditRun
@@ -87,7 +88,7 @@ class Cost(Record):
     evaluations: Annotated[int, Quantity("evaluations of the equations")]
     steps: Annotated[int, Quantity("steps")]
     events: Annotated[int, Quantity("events", "", 4, "switches of how effects act")]
-    wall_s: Annotated[float, Quantity("time it took", "", 3)]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
     why: Annotated[str, Quantity("why this integrator")]
 
     @classmethod
@@ -115,7 +116,7 @@ class Audit(Record):
     promise: Annotated[float, Quantity("weights of what was left out", "", 2)]
     effects: Annotated[tuple[str, ...], Quantity("taken in for the audit")]
     evaluations: Annotated[int, Quantity("evaluations of the equations")]
-    wall_s: Annotated[float, Quantity("time it took", "", 3)]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
 
     @classmethod
     def of(cls, run: AuditRun) -> Self:

@@ -1,6 +1,6 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import Annotated, ClassVar
 
 from abu_calc.analysis.idle import idle_checks, not_simulated
 from abu_calc.analysis.machine import Run, simulated
@@ -9,7 +9,8 @@ from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
-from abu_calc.spec.read import required
+from abu_calc.spec.read import Machine
+from abu_calc.studies.arguments import checked
 from abu_calc.studies.design_records import (
     AccuracyBudget,
     Autobalancer,
@@ -25,9 +26,6 @@ from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
 from abu_calc.units import from_si
 
-if TYPE_CHECKING:
-    from abu_calc.spec.read import Machine
-
 
 @record
 class SizeResult(Result):
@@ -35,6 +33,7 @@ class SizeResult(Result):
 
     command: ClassVar[str] = "size"
 
+    model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("mass felt at the wheel", "m_eff")]
     frequency: Frequency
@@ -53,13 +52,14 @@ class SizeResult(Result):
     drawing: tuple[DrawingLine, ...]
 
 
-def size(machine: "Machine", accuracy: float = 0.01, progress: Progress = silent) -> SizeResult:
+@checked
+def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) -> SizeResult:
     """Size the autobalancer of a machine, and simulate the scenes its file calls for to `accuracy`.
 
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
-    tables = required(machine).whole("size")
+    tables = machine.whole("size")
     with machine.located():
         design = size_design(tables)
         runs, failures = simulated(design, accuracy, progress)

@@ -6,7 +6,7 @@ from abu_calc.checks import Check, verdict
 from abu_calc.dynamics.balanced.stability import Boundary, Stability, boundaries, critical_damping
 from abu_calc.dynamics.balanced.stability import stability as judged
 from abu_calc.errors import InputError, Place
-from abu_calc.studies.arguments import one_of
+from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Result
@@ -33,6 +33,7 @@ class StabilityResult(Result):
     command: ClassVar[str] = "stability"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
 
+    model: SceneModel
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
     state: Annotated[str | None, Quantity("state judged", "", 4, "balanced, race still or arm alone")]
     stable: Annotated[bool | None, Quantity("stable")]
@@ -47,6 +48,7 @@ class StabilityResult(Result):
     """The range of speeds that boundaries were looked for in."""
 
 
+@checked
 def stability(
     source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None
 ) -> StabilityResult:
@@ -57,9 +59,9 @@ def stability(
     """
     one_of("scene", scene, SCENES)
     _check_speeds(speeds_rpm)
-    subject = subject_of(source, scene)
+    subject = subject_of(source, scene, command="stability")
     found = judged(subject.scene, subject.half_angle)
-    # Where nothing can be said of one speed, nothing can be said of others.
+    # What cannot be judged at one speed cannot at others.
     limits = _limits(subject, speeds_rpm) if speeds_rpm and found.reason is None else None
     return StabilityResult(
         title=subject.title,
@@ -110,5 +112,9 @@ def _check(found: Stability) -> Check:
     message = "every small disturbance dies out"
     if not found.stable:
         message = "not every small disturbance dies out, although the balls could balance here"
-    remedy = None if found.stable else "Leave the forbidden speeds (--speeds finds them), or change drag and damping."
+    remedy = (
+        None
+        if found.stable
+        else "Leave the forbidden speeds (--speeds finds them, Python: speeds_rpm=), or change drag and damping."
+    )
     return Check(*name, verdict(bool(found.stable)), message, finite(found.growth_rate), 0.0, "1/s", remedy)

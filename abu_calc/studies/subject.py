@@ -15,7 +15,7 @@ from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scen
 from abu_calc.scenes.from_scene import lasting, scene_from
 from abu_calc.sizing import size
 from abu_calc.spec.document import Reading
-from abu_calc.spec.read import Machine, required
+from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import SceneDescription
 from abu_calc.studies.arguments import check_effects, one_of
 from abu_calc.studies.result import Provenance
@@ -62,14 +62,17 @@ class Subject:
             return chosen(self.scene, accuracy, with_effects, without_effects)
 
 
-def subject_of(source: Source, scene: str | None = None, start: str | None = None) -> Subject:
-    """What a source is about; which scene (`idle` unless said) and how the balls start are asked of machines only."""
+def subject_of(
+    source: Source, scene: str | None = None, start: str | None = None, *, command: str = "simulate"
+) -> Subject:
+    """What a source is about; which scene (by default `idle`) and how the balls start are asked of machines only.
+
+    `command`: the study that asks, as its command is called.
+    """
     one_of("scene", scene, SCENES)
     one_of("start", start, STARTS)
     if isinstance(source, Machine):
-        return _of_machine(source, scene or "idle", start or "bunched")
-    if not isinstance(source, (SceneDescription, Scene)):
-        required(source)
+        return _of_machine(source, scene or "idle", start or "bunched", command)
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
     for argument, value in (("scene", scene), ("start", start)):
         if value is not None:
@@ -82,8 +85,8 @@ def subject_of(source: Source, scene: str | None = None, start: str | None = Non
     return subject
 
 
-def _of_machine(machine: Machine, scene: str, start: str) -> Subject:
-    tables = machine.whole("simulate")
+def _of_machine(machine: Machine, scene: str, start: str, command: str) -> Subject:
+    tables = machine.whole(command)
     chosen_start = next(each for each in STARTS if each == start)
     with machine.located():
         design = size(tables)

@@ -318,3 +318,20 @@ def test_an_interruption_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch, tmp_
     output = tmp_path / "design.json"
     seen = abu("size", "msh-230", "--output", str(output))
     assert seen.status == app.INTERRUPTED and "Interrupted" in seen.err and not output.exists()
+
+
+def test_entries_replaced_are_shown_as_a_file_would_have_them() -> None:
+    grinding = '{contact="compliant", press_force_N=30, contact_stiffness_N_per_m=1e5}'
+    seen = abu("effects", "msh-230", "--set", f"grinding={grinding}", "--set", "wheel.mass_kg=0.512345678")
+    assert seen.out.split("With these entries replaced:\n")[1].splitlines() == [
+        '    grinding.contact = "compliant"',
+        "    grinding.press_force_N = 30",
+        "    grinding.contact_stiffness_N_per_m = 100000.0",
+        "    wheel.mass_kg = 0.512345678",
+    ]
+
+
+def test_an_array_of_tables_replaced_is_shown_by_its_elements() -> None:
+    bearing = '[{designation="6203", shaft_fit="k6", housing_fit="H7"}]'
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"bearing={bearing}")
+    assert '    bearing[0].shaft_fit = "k6"\n' in seen.out and "{" not in seen.out

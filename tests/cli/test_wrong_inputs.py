@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+import abu_calc
 from tests.cli.runner import abu
 from tests.spec.samples import BASIC
 from tests.spec.test_wrong_inputs import CASES
@@ -89,3 +90,30 @@ def test_an_error_of_a_later_step_names_the_line(tmp_path: Path) -> None:
     seen = abu("size", str(file))
     line = 1 + BASIC[: BASIC.index("max_width_mm")].count("\n")
     assert seen.status == 2 and f"{file}:{line}: autobalancer.max_width_mm" in seen.err
+
+
+@pytest.mark.parametrize(
+    ("override", "blamed"),
+    [
+        ("autobalancer.max_width_mm=4.0", "--set autobalancer.max_width_mm: "),
+        (
+            "autobalancer={max_outer_diameter_mm=68.0, max_width_mm=4.0}",
+            "--set autobalancer: autobalancer.max_width_mm: ",
+        ),
+    ],
+    ids=["key", "table"],
+)
+def test_an_error_of_a_later_step_names_the_override(tmp_path: Path, override: str, blamed: str) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(BASIC, encoding="utf-8")
+    seen = abu("size", str(file), "--set", override)
+    assert seen.status == 2 and seen.err.startswith(f"abu size: {blamed}"), seen.err
+    assert str(file) not in seen.err
+
+
+@pytest.mark.parametrize("values", [{"max_width_mm": 4.0}, {"": {"max_outer_diameter_mm": 68.0, "max_width_mm": 4.0}}])
+def test_an_error_of_a_later_step_names_the_change(values: dict[str, object]) -> None:
+    changed = abu_calc.read("msh-230").changed({f"autobalancer.{key}".strip("."): each for key, each in values.items()})
+    with pytest.raises(abu_calc.InputError, match=r"too narrow.* came from changed\(\)") as caught:
+        abu_calc.size(changed)
+    assert (caught.value.place.file, caught.value.place.key) == (None, "autobalancer.max_width_mm")

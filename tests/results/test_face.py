@@ -106,6 +106,22 @@ def test_results_are_dataclasses() -> None:
         result.title = "y"  # type: ignore[misc]
 
 
+def test_the_same_machine_gives_an_equal_result_however_long_that_took() -> None:
+    machine = abu_calc.read("msh-230")
+    result, again = abu_calc.size(machine), abu_calc.size(machine)
+    idle = again.simulation[0]
+    longer = dataclasses.replace(idle, cost=dataclasses.replace(idle.cost, wall_s=idle.cost.wall_s + 1.0))
+    assert result == again == dataclasses.replace(again, simulation=(longer, *again.simulation[1:]))
+    other = dataclasses.replace(idle, cost=dataclasses.replace(idle.cost, steps=idle.cost.steps + 1))
+    assert result != dataclasses.replace(again, simulation=(other, *again.simulation[1:]))
+
+
+def test_remedies_name_the_argument_and_the_option() -> None:
+    stiff = {"suspension.natural_frequencies_hz": [90.0, 90.0], "suspension.damping_ratios": [0.05, 0.05]}
+    (check,) = abu_calc.stability(abu_calc.read("msh-230").changed(stiff)).checks
+    assert check.status == "fail" and "(--speeds finds them, Python: speeds_rpm=)" in str(check.remedy)
+
+
 def test_a_file_may_be_named_by_a_path(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(abu("presets", "msh-230").out, encoding="utf-8")
@@ -117,7 +133,7 @@ def test_a_file_may_be_named_by_a_path(tmp_path: Path) -> None:
 def test_every_public_name_is_there() -> None:
     assert all(hasattr(abu_calc, name) for name in abu_calc.__all__)
     named = {name for names in abu_calc._ROOMS.values() for name in names}
-    assert {*named, "__version__"} == set(abu_calc.__all__)
+    assert {*named, "__version__"} == set(abu_calc.__all__) and set(abu_calc.__all__) <= set(dir(abu_calc))
     with pytest.raises(AttributeError, match="no attribute 'sise'"):
         _ = abu_calc.sise  # type: ignore[attr-defined]
 
@@ -140,6 +156,9 @@ def test_a_type_checker_sees_real_types(tmp_path: Path) -> None:
         reveal_type(result.simulation[0].settling_time_s)
         reveal_type(abu_calc.check_fit(machine).seats)
         reveal_type(abu_calc.stability(machine).stable)
+        reveal_type(machine.whole().wheel.mass_kg)
+        reveal_type(result.model.speed_rad_per_s)
+        reveal_type(abu_calc.simulate(machine, samples=2).model)
         result.autobalancer.ball_cont
         abu_calc.sise(machine)
         """),
@@ -157,6 +176,9 @@ def test_a_type_checker_sees_real_types(tmp_path: Path) -> None:
         "float | None",
         "tuple[abu_calc.studies.seat_records.SeatResult, ...]",
         "bool | None",
+        "float",
+        "float",
+        "abu_calc.studies.scene_model.SceneModel",
     ]
     errors = [line for line in said if line.startswith("error")]
     assert len(errors) == 2 and "ball_cont" in errors[0] and "sise" in errors[1]

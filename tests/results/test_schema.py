@@ -1,7 +1,10 @@
 """What `--json` prints is what `abu schema result` says."""
 
+import copy
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pytest
@@ -62,6 +65,39 @@ def test_the_schema_refuses_what_is_not_so(schema: dict[str, object]) -> None:
     document["result"]["autobalancer"].pop("ball_count")
     with pytest.raises(jsonschema.ValidationError, match="ball_count"):
         jsonschema.Draft202012Validator(schema).validate(document)
+
+
+WRONG = (
+    ("size", lambda document: document["model"].update(candidates="many")),
+    ("size", lambda document: document["model"].pop("scenes")),
+    ("size", lambda document: document["model"]["scenes"]["idle"].update(states="x")),
+    ("size", lambda document: document["model"]["speed_range_rad_per_s"].append(1.0)),
+    ("stability", lambda document: document["model"]["races"][0].update(drag_per_s=None)),
+    ("stability", lambda document: document["checks"][0].update(value="-1")),
+    ("stability", lambda document: document["checks"][0].update(bound="middle")),
+    ("stability", lambda document: document["checks"][0].update(message=None)),
+    ("stability", lambda document: document["checks"][0].pop("limit")),
+    ("stability", lambda document: document["input"].pop("sha256")),
+    ("stability", lambda document: document["warnings"].append(1)),
+)
+
+
+@pytest.fixture(scope="module")
+def documents() -> dict[str, dict[str, Any]]:
+    """A document of each command."""
+    return {command: abu(command, "msh-230", "--json").document for command in ("size", "stability")}
+
+
+@pytest.mark.parametrize(("command", "spoil"), WRONG, ids=range(len(WRONG)))
+def test_the_schema_knows_models_and_checks(
+    schema: dict[str, object], documents: dict[str, dict[str, Any]], command: str, spoil: Callable[[Any], object]
+) -> None:
+    document = copy.deepcopy(documents[command])
+    judge = jsonschema.Draft202012Validator(schema)
+    judge.validate(document)
+    spoil(document)
+    with pytest.raises(jsonschema.ValidationError):
+        judge.validate(document)
 
 
 def test_numbers_say_what_they_are(schema: dict[str, object]) -> None:

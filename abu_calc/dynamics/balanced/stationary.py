@@ -1,4 +1,4 @@
-"""What balls must add up to where they rest in the rotor (Kladiev 1996, eq. (4), with the quadrant kept).
+"""What balls must add up to where they rest in the rotor (Kladiev 1996, eq. (4), in the right quadrant).
 
 Imbalances are complex numbers U e^{iφ} [kg m], φ from the zero mark. An idle, freely suspended rotor.
 """

@@ -3,23 +3,23 @@
 How they go together, which tests hold them to:
 
 An effect READS the kinematics (`Motion`), the levers, its own numbers, mode and states, the numbers of the scene
-(`Parameters`), and what the scene tells of itself (`Circumstances`: speed, races, support, how the rotor turns, how
+(`Parameters`), and what is known of the scene (`Circumstances`: speed, races, support, how the rotor turns, how
 long it runs down, which dry friction holds balls, whether balls move across their race). It never reads another effect.
 
 It WRITES
-    Motion        in `move`: acceleration of a guided rotor, offset of the races, radii and speed across; one owner each
+    Motion        in `move`: acceleration of a guided rotor, offset of the races, radii, speed across; one effect each
     Levers        in `act`: `carry` adds; `axial`, `sunk`, `sinking` are extended by what moves along the spindle
     Loads.add     pull, press, frame: forces, which ADD
-    Loads.own     bound; across; mates, leads; grip, free, hold: ONE OWNER each; a second one raises
+    Loads.own     bound; across; mates, leads; grip, free, hold: each SET BY ONE effect; a second one raises
 
-and TELLS of itself, so that nobody asks for it by name: rotor, rotor_inertia, from_rest, run_down, least_duration,
+and ANSWERS, so that nobody asks for it by name: rotor, rotor_inertia, from_rest, run_down, least_duration,
 offset, falling, holding, placed, averaged, balls_meet, ball_states, rule.
 
 What is coupled by physics, and where:
     dry friction needs the normal force          it sets `grip` per normal force; the equations solve both together
     dry friction and the second direction        `across` comes first; friction rubs against the whole velocity, so it
                                                  sets `across.grip` and `across.free` beside its own
-    balls in contact move and stick together     contact owns `mates`, `leads`; friction reads them from `Loads` when it
+    balls in contact move and stick together     contact sets `mates`, `leads`; friction reads them from `Loads` when it
                                                  decides, and contact reads `hold`: one problem, `switching.touching`
     gravity and race eccentricity                the offset stands in `Motion`, since `move` comes before all `act`
     gravity shakes balls loose                   its weight reads `Circumstances.holding`

@@ -27,7 +27,7 @@ from abu_calc.formulas.friction_band import friction_band
 from abu_calc.validity import Range
 
 LEAVES = 1e-4
-"""A ball pulled inward by more of m R_p Ω² than this is told of: near standstill less means nothing."""
+"""A ball pulled inward by more of m R_p Ω² than this is worth a warning: near standstill less means nothing."""
 
 
 @dataclass(frozen=True)

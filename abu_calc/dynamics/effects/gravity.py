@@ -60,7 +60,7 @@ class Gravity(Effect):
         return self.acceleration * height
 
     def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
-        """Told when a ball would fall off its race: R_p γ'² < g sin γ. The equations hold it there."""
+        """A warning when a ball would fall off its race: R_p γ'² < g sin γ. The equations hold it there."""
         scene = equations.scene
         first, balls = 2 * len(scene.support.names), len(scene.ball_masses)
         places, rates = trajectory.y[first : first + balls], trajectory.y[first + balls : first + 2 * balls]

@@ -54,7 +54,7 @@ class GrindingContact(Effect):
     """`press_force` N₀ [N], `cutting_coefficient` f, `contact_stiffness` c_n [N/m] where compliant, `rotation_sense` s.
 
     `runout` ε [m] of the wheel's surface at `runout_angle` φ₀ [rad] from the zero mark, `wheel_radius` R_w [m], 0 where
-    nothing tells it: then cutting does not brake the rotor; `plane_offset` z [m] of the wheel on supports that tilt.
+    it is not known: then cutting does not brake the rotor; `plane_offset` z [m] of the wheel on supports that tilt.
     """
 
     press_force: float

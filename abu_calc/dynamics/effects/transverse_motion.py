@@ -17,7 +17,7 @@ contact locks it. They take nothing from the energy ½ (J − 1) m [(R θ')² + 
     ω_t² = (1/J) Ω² R_p/b,    with free spin Ω² [(1/J) R_p/b + (J − 1)/J]
 
 Locked, J = 7/5: ω_t = Ω at 5 (R − r) = 7 (ρ − r), at every speed (Kladiev 1996, eq. (12), R the radius of the raceway):
-then an axial runout "shakes out" dry friction. Printed: not said that it takes a locked spin; with free spin it is at
+then an axial runout "shakes out" dry friction. In print the locked spin is not mentioned; with free spin it is at
 ρ = R. The axial runout is a motion of the machine along the spindle, once per turn: a swash of the race itself stands
 still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b times the rotor's acceleration in ν'.
 """

@@ -7,7 +7,7 @@ from abu_calc.dynamics.circumstances import Circumstances
 from abu_calc.dynamics.support import Support, undamped_resonance
 
 RESONANCE = 1e-12
-"""Share that stiffness and inertia leave of each other where only rounding tells a speed from an undamped resonance."""
+"""Share that stiffness and inertia leave of each other where only rounding parts a speed from an undamped resonance."""
 
 
 def receptance(support: Support, speed: float) -> NDArray[np.complex128]:

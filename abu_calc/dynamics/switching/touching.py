@@ -80,7 +80,7 @@ def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow:
 
     One after the other, the fastest approach first: each leaves −e times its speed of approach, so energy never grows.
     Pairs that then part or approach more slowly than `slow` (P) [rad/s] get equal speeds to within `rest` [rad/s],
-    momentum kept. Where none approaches by more than that, nothing is done: pairs part as slowly as they do.
+    momentum conserved. Where none approaches by more than that, nothing is done: pairs part as slowly as they do.
     """
     D = answer.pairs
     matrix, relative, total = D.dot(answer.by_torque).dot(D.T), D.dot(y[rates]), np.zeros(len(D))

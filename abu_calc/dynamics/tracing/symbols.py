@@ -98,7 +98,7 @@ class Tape:
     def product(self, a: Any, b: Any) -> Any:
         """a · b, the same expression whichever comes first."""
         key = (min(id(a), id(b)), max(id(a), id(b)))
-        # The factors are kept, so that their ids stay theirs.
+        # References to the factors, so that no other object takes their ids.
         return self._products.setdefault(key, (a, b, a * b))[2]
 
     def times(self, place: int, expression: Any) -> Any:

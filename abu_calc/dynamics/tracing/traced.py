@@ -1,4 +1,4 @@
-"""The equations of a scene told in another language: one trace serves all scenes of one structure and all their modes.
+"""The equations of a scene in another language: one trace serves all scenes of one structure and all their modes.
 
 Structure is what decides how the code looks: number of balls, kind of support, effects, which matrix elements are zero.
 All other numbers are parameters of the code.
@@ -18,7 +18,7 @@ from abu_calc.dynamics.switching.modes import watched, watches
 from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
 
 MOST_KEPT = 32
-"""Structures whose code is kept in this process."""
+"""Structures whose code this process holds at most."""
 
 ZEROS: dict[str, int | None] = {"effects": 0, "modes": None}
 """Zeros of how many dimensions are structure: plain numbers of effects, which decide by them whether they act at all;
@@ -117,7 +117,7 @@ def mapped(
 ) -> Any:
     """The same with each number replaced by what `number` makes of it, and whether it is known not to be zero.
 
-    `fixed` is told all else in it, in order.
+    `fixed` gets all else in it, in order.
     """
     if isinstance(value, float):
         if value == 0 and zeros == 0:

@@ -1,0 +1,57 @@
+"""Values that scripts give, as a TOML file would hold them: numbers of other libraries as Python's own."""
+
+import datetime
+from collections.abc import Mapping
+from numbers import Integral, Number
+from typing import Any, Final
+
+from abu_calc.errors import InputError, Place
+
+ALLOWED: Final = "text, numbers, Python's True and False, dates, and lists, tuples or dictionaries of them"
+LONGEST_FOUND: Final = 60
+
+
+def plain_number(value: object) -> int | float | None:
+    """An integer or float of Python's own for any real number, Decimal and NumPy's among them; None for all else.
+
+    >>> plain_number(2), plain_number(2.5), plain_number("2"), plain_number(True), plain_number(2j)
+    (2, 2.5, None, None, None)
+    """
+    if isinstance(value, bool) or not isinstance(value, Number):
+        return None
+    try:
+        return int(value) if isinstance(value, Integral) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):  # complex numbers, signalling NaN, fractions beyond all floats
+        return None
+
+
+def plain_value(value: object, key: str) -> Any:
+    """A copy with lists for tuples. Raises InputError, naming the key, for what no file can hold, such as None."""
+    number = plain_number(value)
+    if number is not None:
+        return number
+    if isinstance(value, (bool, datetime.date, datetime.time)):
+        return value
+    if isinstance(value, str):
+        return str.__str__(value)  # of a subclass, such as NumPy's, too
+    if isinstance(value, (list, tuple)):
+        return [plain_value(each, key) for each in value]
+    if isinstance(value, Mapping) and all(isinstance(inner, str) for inner in value):
+        return {str.__str__(inner): plain_value(each, f"{key}.{inner}") for inner, each in value.items()}
+    remedy = "Leave the entry out; to be without what the file has, read a file that does not have it."
+    raise InputError(
+        "not a value that a file can hold",
+        place=Place(key=key),
+        found=found_as(value),
+        allowed=ALLOWED,
+        remedy=remedy if value is None else None,
+    )
+
+
+def found_as(value: object) -> str:
+    """How messages show a value of Python, cut where it is long."""
+    try:
+        text = repr(value)
+    except Exception:  # integers of thousands of digits have none, and whatever a script may define
+        text = f"a value of type {type(value).__name__}"
+    return text if len(text) <= LONGEST_FOUND else text[: LONGEST_FOUND - 1] + "…"
