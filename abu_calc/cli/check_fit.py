@@ -31,8 +31,9 @@ def check_fit(
     result = study(source)
     blocks = check_fit_blocks(result)
     if explain:
-        from abu_calc.report.explain import STEPS, step_blocks
+        from abu_calc.report.explain import step_blocks
         from abu_calc.report.fit_numbers import seat_numbers
+        from abu_calc.report.steps import STEPS
         from abu_calc.studies.seat_model import bearing_models
 
         blocks += tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))

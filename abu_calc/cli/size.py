@@ -28,7 +28,7 @@ def size(
     if explain:
         from abu_calc.report.explain import explanation_blocks
 
-        blocks += explanation_blocks(result.to_dict(), result.model.to_dict())
+        blocks += explanation_blocks(result)
     return Outcome.of(result, blocks)
 
 

@@ -35,6 +35,7 @@ class SizeResult(Result):
 
     command: ClassVar[str] = "size"
 
+    model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("mass felt at the wheel", "m_eff")]
     frequency: Frequency
