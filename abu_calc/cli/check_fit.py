@@ -38,8 +38,9 @@ def _blocks(source: "Machine", result: "CheckFitResult", explain: bool) -> tuple
 
     if not explain:
         return check_fit_blocks(result)
-    from abu_calc.report.explain import STEPS, step_blocks
+    from abu_calc.report.explain import step_blocks
     from abu_calc.report.fit_numbers import seat_numbers
+    from abu_calc.report.steps import STEPS
     from abu_calc.studies.seat_model import bearing_models
 
     return (*check_fit_blocks(result), *step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))

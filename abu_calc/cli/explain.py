@@ -15,7 +15,7 @@ What = Annotated[str | None, typer.Argument(metavar="[STEP|CODE]", help="A step 
 def explain(step: What = None) -> Outcome:
     """Show equation, units, range and source of every formula of a step, or what a check asks; without one, list."""
     from abu_calc.check_codes import CHECK_CODES
-    from abu_calc.report.explain import STEPS
+    from abu_calc.report.steps import STEPS
     from abu_calc.spec.names import nearest
 
     if step is None:
@@ -33,7 +33,7 @@ def explain(step: What = None) -> Outcome:
 
 def _listed() -> Outcome:
     from abu_calc.check_codes import CHECK_CODES
-    from abu_calc.report.explain import STEPS
+    from abu_calc.report.steps import STEPS
 
     steps = tuple((name, each.title, ", ".join(one.name for one in each.formulas)) for name, each in STEPS.items())
     blocks = (
@@ -51,7 +51,8 @@ def _listed() -> Outcome:
 
 
 def _step(name: str) -> Outcome:
-    from abu_calc.report.explain import STEPS, step_blocks
+    from abu_calc.report.explain import step_blocks
+    from abu_calc.report.steps import STEPS
 
     step = STEPS[name]
     texts = {one.name: one.text for one in step.formulas}

@@ -37,7 +37,7 @@ def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:
         return size_blocks(result)
     from abu_calc.report.explain import explanation_blocks
 
-    return size_blocks(result) + explanation_blocks(result.to_dict(), result.model.to_dict())
+    return size_blocks(result) + explanation_blocks(result)
 
 
 def register(app: typer.Typer) -> None:

@@ -1,10 +1,10 @@
-"""Expected values of a file against its recomputed result: paths into the result as JSON has it."""
+"""Expected values of a file against its recomputed result, at the paths by which JSON names them."""
 
 import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Final
 
-from abu_calc.studies.quantity import Quantity, Record, flattened, record
+from abu_calc.studies.quantity import Quantity, Record, as_plain, record
 
 DEFAULT_TOLERANCE: Final = 1e-3
 """Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""
@@ -46,20 +46,18 @@ class ComparedValue(Record):
 
 
 def compare(
-    expected: Mapping[str, Any], tolerances: Mapping[str, float], result: Mapping[str, Any]
+    expected: Mapping[str, Any], tolerances: Mapping[str, float], entries: Mapping[str, object]
 ) -> tuple[ComparedValue, ...]:
     """Every expected value against the result at its path; a path that is not there has failed."""
-    leaves = dict(flattened(result))
-    return tuple(_compared(path, value, tolerances.get(path), result, leaves) for path, value in expected.items())
+    return tuple(
+        _compared(path, value, tolerances.get(path), value_at(entries, path)) for path, value in expected.items()
+    )
 
 
-def _compared(
-    path: str, value: Any, tolerance: float | None, result: Mapping[str, Any], leaves: Mapping[str, Any]
-) -> ComparedValue:
+def _compared(path: str, value: Any, tolerance: float | None, found: Any) -> ComparedValue:
     usual = SIMULATED_TOLERANCE if path.startswith("simulation.") else DEFAULT_TOLERANCE
     allowed = usual if tolerance is None else tolerance
-    found = leaves[path] if path in leaves else _inner(result, path)
-    if isinstance(value, list) and isinstance(found, (list, tuple)) and len(value) == len(found):
+    if isinstance(value, list) and isinstance(found, list) and len(value) == len(found):
         pairs = [_deviation(a, b) for a, b in zip(value, found, strict=True)]
         deviation = None if None in pairs else max((each for each in pairs if each is not None), default=0.0)
     else:
@@ -68,25 +66,30 @@ def _compared(
     return ComparedValue(path=path, expected=value, found=found, tolerance=allowed, deviation=deviation, passed=passed)
 
 
-def current(paths: tuple[str, ...], result: Mapping[str, Any]) -> dict[str, Any]:
+def current(paths: tuple[str, ...], entries: Mapping[str, object]) -> dict[str, Any]:
     """The values a file should expect: those at its own paths, or a choice when it has none."""
-    leaves = dict(flattened(result))
     if not paths:
-        seats = [f"fits.{index}.{key}" for index in range(len(result.get("fits") or ())) for key in SEAT_KEYS]
-        paths = tuple(path for path in (*WORTH_KEEPING, *seats) if leaves.get(path) is not None)
-    found = {path: leaves[path] if path in leaves else _inner(result, path) for path in paths}
+        seats = range(len(value_at(entries, "fits") or ()))
+        paths = (*WORTH_KEEPING, *(f"fits.{index}.{key}" for index in seats for key in SEAT_KEYS))
+    found = {path: value_at(entries, path) for path in paths}
     return {path: _rounded(value) for path, value in found.items() if value is not None}
 
 
-def _inner(result: Any, path: str) -> Any:
+def value_at(entries: Mapping[str, object], path: str) -> Any:
+    """What stands at a path in entries of a result, `autobalancer.ball_count`, `fits.0.fit`, as JSON has it; None where
+    nothing does.
+    """
+    value: object = entries
     for part in path.split("."):
-        if isinstance(result, (list, tuple)) and part.isdigit() and int(part) < len(result):
-            result = result[int(part)]
-        elif isinstance(result, Mapping) and part in result:
-            result = result[part]
+        if isinstance(value, Record) and part in value.entries():
+            value = getattr(value, part)
+        elif isinstance(value, tuple) and part.isdigit() and int(part) < len(value):
+            value = value[int(part)]
+        elif isinstance(value, Mapping) and part in value:
+            value = value[part]
         else:
             return None
-    return result
+    return as_plain(value)
 
 
 def _deviation(expected: Any, found: Any) -> float | None:

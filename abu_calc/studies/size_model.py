@@ -7,11 +7,12 @@ from abu_calc.analysis.machine import Run
 from abu_calc.sizing.design import Design
 from abu_calc.studies.quantity import Record, record
 from abu_calc.studies.scene_model import SceneModel
+from abu_calc.units import from_si
 
 
 @record
 class SizeModel(Record):
-    """What the steps of sizing worked with; complex numbers as real and imaginary part, x before y."""
+    """What the steps of sizing worked with, a few numbers in user units too; complex ones as (real, imaginary)."""
 
     speed_rad_per_s: float
     speed_range_rad_per_s: tuple[float, float]
@@ -22,8 +23,11 @@ class SizeModel(Record):
     runout_m: float
     runout_factor: float
     runout_part_kg_m: float
+    runout_part_g_mm: float
     eccentricity_part_kg_m: float
+    eccentricity_part_g_mm: float
     plane_ratio: float
+    ball_radius_mm: float
     inertia_factor: float
     drag_per_s: float
     ball_stiffness_per_s2: float | None
@@ -48,8 +52,11 @@ class SizeModel(Record):
             runout_m=case.runout,
             runout_factor=need.runout_factor,
             runout_part_kg_m=need.runout_part,
+            runout_part_g_mm=from_si(need.runout_part, "g_mm"),
             eccentricity_part_kg_m=need.eccentricity_part,
+            eccentricity_part_g_mm=from_si(need.eccentricity_part, "g_mm"),
             plane_ratio=need.plane_ratio,
+            ball_radius_mm=from_si(one.ball_diameter / 2, "mm"),
             inertia_factor=case.inertia_factor,
             drag_per_s=case.drag,
             ball_stiffness_per_s2=design.track.ball_stiffness,

@@ -55,17 +55,17 @@ def present_values(machine: "Machine") -> dict[str, Any]:
     return current(tuple(expected_values(machine.tables)), recompute(machine))
 
 
-def recompute(machine: "Machine") -> Mapping[str, Any]:
-    """The result of a file as paths in [expected] name it, its status included."""
+def recompute(machine: "Machine") -> Mapping[str, object]:
+    """The entries of a file's result by which the paths in [expected] begin, its status among them."""
     if isinstance(machine.tables, BearingFile) or machine.tables.autobalancer is None:
         from abu_calc.studies.check_fit import check_fit
 
         seats = check_fit(machine)
-        return {"status": seats.status, "fits": seats.to_dict()}
+        return {"status": seats.status, "fits": seats.seats}
     from abu_calc.studies.size import size
 
     result = size(machine)
-    return {"status": result.status, **result.to_dict()}
+    return {"status": result.status, **{name: getattr(result, name) for name in result.entries()}}
 
 
 def _verified(machine: "Machine") -> VerifiedFile:

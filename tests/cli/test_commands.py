@@ -11,8 +11,11 @@ import jsonschema
 import pytest
 from hypothesis import given, settings
 
+import abu_calc
 from abu_calc.analysis import machine
 from abu_calc.cli import app
+from abu_calc.report.explain import explanation_blocks
+from abu_calc.report.numbers import number
 from tests.cli.runner import abu
 from tests.sizing.machines import BASE
 from tests.sizing.test_properties import machines
@@ -162,6 +165,22 @@ def test_explain_puts_the_numbers_in() -> None:
     for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
         seen = abu("explain", step)
         assert seen.status == 0 and "Source:" in seen.out
+
+
+def test_the_numbers_put_in_are_those_of_the_result() -> None:
+    result = abu_calc.size(abu_calc.read("avtovaz-707-222"))
+    model, shown = result.model, [getattr(block, "text", "") for block in explanation_blocks(result)]
+    assert model.runout_part_g_mm > 0 and model.eccentricity_part_g_mm > 0
+    for kg_m, g_mm in (
+        (model.runout_part_kg_m, model.runout_part_g_mm),
+        (model.eccentricity_part_kg_m, model.eccentricity_part_g_mm),
+    ):
+        assert g_mm == pytest.approx(1e6 * kg_m, rel=1e-12)
+    assert 2 * model.ball_radius_mm == result.autobalancer.ball_diameter_mm
+    parts = " + ".join(map(number, (result.imbalance_g_mm, model.runout_part_g_mm, model.eccentricity_part_g_mm)))
+    summed = f"→ m₀e + M·ε·√{{…}} + M·Δ = {parts} = {number(result.required_capacity_g_mm)} g·mm"
+    assert [line for line in shown if line.startswith(summed)]
+    assert [line for line in shown if line.startswith(f"→ sin β = r/(R−r) = {number(model.ball_radius_mm)}/")]
 
 
 def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:

@@ -9,16 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effect import Effect, Weight
-from abu_calc.dynamics.effects.ball_contact import BallContact
-from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effect import Weight
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
-from abu_calc.dynamics.effects.motor import Motor
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.equations.jacobian import STEP
 from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
@@ -27,34 +21,9 @@ from abu_calc.dynamics.supports.linear import LinearSupport
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.errors import InputError
 from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
+from tests.dynamics.examples import CONTACT, EXAMPLES, HELD, NOTHING, mirrored_effect, turned_effect
 from tests.dynamics.scenes import SUPPORTS, scene_on, with_effects
 from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned
-
-CONTACT = GrindingContact(0.7, 0.35, "compliant", 2.0, -1, 0.1, 0.8, 1.1)
-EXAMPLES: dict[str, Effect] = {
-    "run_up": RunUp(3.0, 2.0),
-    "motor": Motor(2.0, 3.0, 6.0),
-    "race_eccentricity": RaceEccentricity(0.05, 0.3),
-    "transverse_motion": TransverseMotion(0.7, 0.1, 0.02),
-    "transverse_motion, free spin": TransverseMotion(0.7, 0.1, 0.02, free_spin=True),
-    "gravity": Gravity(0.3),
-    "grinding_contact": CONTACT,
-    "grinding_contact, rigid": replace(CONTACT, contact="rigid", contact_stiffness=0.0),
-    "grinding_contact, face": replace(CONTACT, contact="face", contact_stiffness=0.0),
-    "ball_contact": BallContact(0.1, 0.5),
-    "dry_rolling_friction": DryRollingFriction(0.02, 0.1),
-}
-"""Numbers that fit `scene_on`, some effects in several ways."""
-
-NOTHING: list[Effect] = [
-    RaceEccentricity(0.0, 0.3),
-    Gravity(0.0),
-    replace(CONTACT, press_force=0.0, contact_stiffness=1e-300),
-    replace(CONTACT, press_force=0.0, contact="face", contact_stiffness=0.0),
-    BallContact(0.1, 0.5),
-    DryRollingFriction(0.0, 0.1),
-]
-"""Effects without strength, or with nothing to act on, which need no states."""
 
 ORDER = [name for name, _ in REGISTRY]
 WAYS = [name for name in EXAMPLES if name not in ("run_up", "motor")]
@@ -147,7 +116,7 @@ def of_kind(kind: str) -> list[str]:
 def test_the_registry_is_complete():
     assert [name for name, _ in REGISTRY] == [kind.name for _, kind in REGISTRY]
     assert {type(effect) for effect in EXAMPLES.values()} == {kind for _, kind in REGISTRY}
-    assert len(ORDER) == len(set(ORDER)) == 8
+    assert len(ORDER) == len(set(ORDER)) >= 8
     assert {kind.kind for _, kind in REGISTRY} == {"conservative", "dissipative", "driven"}
 
 
@@ -277,29 +246,6 @@ def test_points_in_a_groove_obey_lagrange(support, rotor):
         matrix = mass_matrix(scene, sample.t, sample.y)
         assert len(matrix) == free
         assert np.linalg.eigvalsh(matrix).min() > 0
-
-
-def turned_effect(effect: Effect, angle: float) -> Effect:
-    """The effect's own direction turned; of one that has none, itself."""
-    return replace(effect, angle=effect.angle + angle) if isinstance(effect, RaceEccentricity) else effect
-
-
-def mirrored_effect(effect: Effect, whole: float) -> Effect:
-    """An angle becomes `whole` less the angle; that is 0 where up and down change places."""
-    if isinstance(effect, RaceEccentricity):
-        return replace(effect, angle=whole - effect.angle)
-    if isinstance(effect, Gravity) and whole == 0:
-        return replace(effect, acceleration=-effect.acceleration)
-    if isinstance(effect, Motor):
-        return replace(effect, stall_torque=-effect.stall_torque, no_load_speed=-effect.no_load_speed)
-    if isinstance(effect, GrindingContact):
-        # The direction of rotation is told by s: T drives or brakes as before.
-        return replace(effect, rotation_sense=-effect.rotation_sense, runout_angle=whole - effect.runout_angle)
-    return effect
-
-
-HELD = ("gravity", "grinding_contact", "grinding_contact, rigid", "grinding_contact, face")
-"""Effects whose direction in space cannot be told another."""
 
 
 @pytest.mark.parametrize("rotor", ["", "run_up", "motor"])

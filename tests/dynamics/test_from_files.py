@@ -88,7 +88,7 @@ def test_every_effect_is_built_in_si_and_in_order(tmp_path):
         BallContact(0.008, 0.5),
         DryRollingFriction(2e-6, 0.008),
     )
-    assert [effect.name for effect in found.effects] == [name for name, _ in REGISTRY]
+    assert [kind for _, kind in REGISTRY if kind in map(type, expected)] == list(map(type, expected))
     for effect, wanted in zip(found.effects, expected, strict=True):
         assert type(effect) is type(wanted)
         assert vars(effect) == pytest.approx(vars(wanted)), effect.name

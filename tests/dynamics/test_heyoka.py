@@ -17,6 +17,7 @@ from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, placed
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.errors import InputError, NotTrustworthyError, RangeError
+from tests.dynamics.examples import EXAMPLES
 from tests.dynamics.scenes import (
     ROTORS,
     SUPPORTS,
@@ -26,7 +27,7 @@ from tests.dynamics.scenes import (
     straight_grinder,
     with_effects,
 )
-from tests.dynamics.test_contract import EXAMPLES, taken
+from tests.dynamics.test_contract import taken
 from tests.dynamics.test_integrators import run_away
 
 heyoka = pytest.importorskip("heyoka")

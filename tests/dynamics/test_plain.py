@@ -13,9 +13,10 @@ from abu_calc.dynamics.switching.modes import settled, watched, watches
 from abu_calc.dynamics.tracing import plain
 from abu_calc.dynamics.tracing.traced import Numbers
 from abu_calc.errors import NotTrustworthyError
+from tests.dynamics.examples import EXAMPLES
 from tests.dynamics.random_scenes import random_scene
 from tests.dynamics.scenes import ROTORS, SUPPORTS, scene_on, straight_grinder
-from tests.dynamics.test_contract import EXAMPLES, taken
+from tests.dynamics.test_contract import taken
 
 ROUNDING = 1e-11
 """Relative to the largest part of the answer: sums are taken in another order."""

@@ -1,11 +1,9 @@
 """The rooms of dynamics: arrows run one way, no circle of files, and a new effect or support needs no other file."""
 
 import ast
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, ClassVar, Self, get_args
+from typing import Any, ClassVar, get_args
 
 import numpy as np
 import pytest
@@ -21,11 +19,9 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.right_hand_side import motion_of
 from abu_calc.dynamics.integrators import heyoka_, scipy_
 from abu_calc.dynamics.motion import Levers, Loads, Motion
-from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
-from abu_calc.dynamics.race import Balls, Race
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.switching.modes import starting
 from abu_calc.errors import InputError
@@ -33,6 +29,7 @@ from abu_calc.scenes.from_scene import SUPPORTS as KINDS
 from abu_calc.spec.scene import NEEDED, REFUSED, SceneTable
 from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import SUPPORTS, dimensionless, scene_on, with_effects
+from tests.house.newcomers.rail import Rail
 
 DYNAMICS = Path(abu_calc.dynamics.__file__).parent
 PACKAGE = DYNAMICS.parent
@@ -183,82 +180,6 @@ def test_a_new_effect_is_one_class():
 
 
 # A new support
-
-
-@dataclass(frozen=True)
-class RailGeometry(Geometry):
-    """The frame moves along one line, at an angle to x."""
-
-    cos: Any
-    sin: Any
-
-    def levers(self, m: Motion, p: Parameters) -> Levers:
-        """Of one acceleration."""
-        along, outward = m.cos * self.sin - m.sin * self.cos, m.cos * self.cos + m.sin * self.sin
-        return p.rotor.carry(m, Levers(along[None, :], outward[None, :], p.frame.whole))
-
-    def imbalance(self, m: Motion, p: Parameters) -> tuple[Any, Any]:
-        """Its part along the rail."""
-        place = m.turn + p.imbalance_angle
-        towards = self.cos * m.xp.cos(place) + self.sin * m.xp.sin(place)
-        across = self.sin * m.xp.cos(place) - self.cos * m.xp.sin(place)
-        force = np.array([p.imbalance * (m.speed * m.speed * towards)])
-        return p.rotor.unbalanced(m, force, None, lambda: np.array([p.imbalance * across]), lambda: 0.0)
-
-
-@dataclass(frozen=True)
-class Rail(Support):
-    """A toy: a rotor of a mass [kg] that slides along one line at an angle [rad], on a spring and a damper."""
-
-    mass: float
-    stiffness: float
-    damping: float
-    angle: float
-    names: tuple[str, ...] = ("way",)
-
-    @property
-    def unit(self) -> Any:
-        """2 × 1."""
-        return np.array([[math.cos(self.angle)], [math.sin(self.angle)]])
-
-    def frame(self, balls: Balls) -> Frame:
-        mass = np.array([[self.mass]])
-        return Frame(mass, np.array([[-self.stiffness, -self.damping]]), whole=mass + balls.masses.sum())
-
-    def geometry(self, unbalance: Unbalance) -> Geometry:
-        return RailGeometry(math.cos(self.angle), math.sin(self.angle))
-
-    @property
-    def felt_mass(self) -> float:
-        return self.mass
-
-    def shares(self, races: Sequence[Race]) -> list[float]:
-        return [1.0]
-
-    def small_motion(self, speed: float) -> SmallMotion:
-        return SmallMotion(np.array([[self.mass]]), np.array([[self.damping]]), np.array([[self.stiffness]]), self.unit)
-
-    def holding(self, balls: Balls) -> Self:
-        return replace(self, mass=self.mass + float(balls.masses.sum()))
-
-    def resonances(self, balls: Balls) -> list[float]:
-        return [math.sqrt(self.stiffness / self.holding(balls).mass)]
-
-    def resting_position(self, force: tuple[float, float] = (0.0, 0.0)) -> tuple[float, ...]:
-        return (float(self.unit[:, 0] @ force) / self.stiffness,)
-
-    def axis(self, q: Any, plane: float = 0.0) -> Any:
-        return self.unit @ q
-
-    def axis_velocity(self, q: Any, rates: Any) -> Any:
-        return self.unit @ rates
-
-    @property
-    def description(self) -> str:
-        return "Rotor on a rail"
-
-    def model(self) -> dict[str, Any]:
-        return {"mass_kg": self.mass, "angle_rad": self.angle}
 
 
 def on_rail(*effects: Effect) -> Scene:

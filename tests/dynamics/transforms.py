@@ -13,29 +13,9 @@ from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.supports.linear import LinearSupport
 from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.supports.tilting import TiltingSupport
+from tests.dynamics.examples import UNITS
 
 Matrix = tuple[tuple[float, ...], ...]
-Units = dict[str, tuple[int, int, int]]
-
-FIELDS: Units = {
-    "magnitude": (1, 0, 0),
-    "acceleration": (1, 0, -2),
-    "up": (0, 0, 1),
-    "down": (0, 0, 1),
-    "stall_torque": (2, 1, -2),
-    "no_load_speed": (0, 0, -1),
-    "inertia": (2, 1, 0),
-    "lever_arm": (1, 0, 0),
-    "ball_radius": (1, 0, 0),
-    "groove_radius": (1, 0, 0),
-    "axial_runout": (1, 0, 0),
-    "press_force": (1, 1, -2),
-    "contact_stiffness": (0, 1, -2),
-    "runout": (1, 0, 0),
-    "wheel_radius": (1, 0, 0),
-    "plane_offset": (1, 0, 0),
-}
-"""Powers of length, mass and time in the fields of the effects that have units."""
 
 
 def _rows(matrix: Any) -> Matrix:
@@ -180,7 +160,7 @@ def _race_in_units(race: Race, length: float, mass: float, time: float) -> Race:
 def _effect_in_units(effect: Effect, length: float, mass: float, time: float) -> Effect:
     told = {}
     for field in fields(effect):
-        if field.name in FIELDS:
-            a, b, c = FIELDS[field.name]
+        if field.name in UNITS:
+            a, b, c = UNITS[field.name]
             told[field.name] = getattr(effect, field.name) * length**a * mass**b * time**c
     return replace(effect, **told)

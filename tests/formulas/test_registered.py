@@ -16,7 +16,7 @@ import pytest
 import abu_calc
 from abu_calc.check_codes import CHECK_CODES
 from abu_calc.formula import REGISTERED, Formula, formula_of
-from abu_calc.report.explain import STEPS
+from abu_calc.report.steps import STEPS
 from abu_calc.validity import Range
 from tests.cli.runner import abu
 

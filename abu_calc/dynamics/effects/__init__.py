@@ -28,5 +28,5 @@ ORDER: that of the registry. What moves the rotor and the races comes before wha
 direction before what rubs in it, and what decides by all forces comes last.
 
 A new effect is a file here, its line in `registry.py`, its table in `spec.scene_effects`, its line in
-`scenes.from_tables`.
+`scenes.from_tables`, and its example in `tests/dynamics/examples.py`.
 """
