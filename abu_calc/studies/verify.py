@@ -1,18 +1,17 @@
 """Files held to the results they expect."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from abu_calc.checks import Check, verdict
 from abu_calc.errors import InputError, Place
 from abu_calc.progress import Progress, silent
 from abu_calc.spec.bearing_file import BearingFile, expected_tolerances, expected_values
+from abu_calc.spec.read import Machine
+from abu_calc.studies.arguments import checked
 from abu_calc.studies.expected import ComparedValue, compare, current
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Provenance, Result
-
-if TYPE_CHECKING:
-    from abu_calc.spec.read import Machine
 
 
 @record
@@ -37,7 +36,8 @@ class VerifyResult(Result):
     files: tuple[VerifiedFile, ...]
 
 
-def verify(machines: "Sequence[Machine]", progress: Progress = silent) -> VerifyResult:
+@checked
+def verify(machines: Sequence[Machine], progress: Progress = silent) -> VerifyResult:
     """Recompute machine files and compare with what they expect.
 
     Raises InputError for a file that expects nothing.
@@ -50,12 +50,12 @@ def verify(machines: "Sequence[Machine]", progress: Progress = silent) -> Verify
     return VerifyResult(title="verify", checks=checks, provenance=Provenance.today(), files=tuple(files))
 
 
-def present_values(machine: "Machine") -> dict[str, Any]:
+def present_values(machine: Machine) -> dict[str, Any]:
     """What the file should expect now: at its own paths, or a choice where it has none."""
     return current(tuple(expected_values(machine.tables)), recompute(machine))
 
 
-def recompute(machine: "Machine") -> Mapping[str, object]:
+def recompute(machine: Machine) -> Mapping[str, object]:
     """The entries of a file's result by which the paths in [expected] begin, its status among them."""
     if isinstance(machine.tables, BearingFile) or machine.tables.autobalancer is None:
         from abu_calc.studies.check_fit import check_fit
@@ -68,7 +68,7 @@ def recompute(machine: "Machine") -> Mapping[str, object]:
     return {"status": result.status, **{name: getattr(result, name) for name in result.entries()}}
 
 
-def _verified(machine: "Machine") -> VerifiedFile:
+def _verified(machine: Machine) -> VerifiedFile:
     expected = expected_values(machine.tables)
     if not expected:
         raise InputError(

@@ -6,8 +6,10 @@ import pytest
 
 from abu_calc.analysis import machine
 from abu_calc.analysis.idle import WORK
+from abu_calc.dynamics.integrators.choice import COMPILED, COMPILED_WORK
 from tests.cli.runner import abu
 
+EXTRAS = ("heyoka", "llvmlite")
 STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
 
 
@@ -22,8 +24,9 @@ def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
     assert seen.status in (0, 1), seen.err
     document = seen.document
     for run in document["result"]["simulation"]:
+        share = COMPILED_WORK if run["cost"]["integrator"] == COMPILED else 1
         # The last of two runs may start just before the bound and is stopped at it.
-        assert run["cost"]["evaluations"] <= machine.WORK + 20
+        assert share * run["cost"]["evaluations"] <= machine.WORK + 20
     return seen.status, {check["code"]: check for check in document["checks"]}, document["result"]
 
 
@@ -32,27 +35,29 @@ def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
 def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: float) -> None:
     """The suspension's own sway may outlast the balls; they balance all the same, but for what race eccentricity keeps.
 
-    Undamped, and pressed to the work, the machine bounces in no way that could be foretold; that is told.
+    Pressed to the work, a machine whose balls stick and slip may bounce in no way to be foretold; it then says so.
     """
     _, checks, result = _checks(
         STRAIGHT, f"suspension.damping_ratios={damping}", f"autobalancer.rolling_drag_per_s={drag}"
     )
     others = [check for check in checks.values() if check["status"] != "pass"]
-    assert others == [] or (damping < 0.2 and [check["code"] for check in others] == ["ABU703"]), others
+    assert not others or [check["code"] for check in others] == ["ABU703"], others
+    assert all("chaotic" in check["message"] or "work" in check["message"] for check in others), others
     idle = result["simulation"][0]
     # Δ = 0.01 mm at 6.4 kg, as an imbalance.
     assert idle["scene"] == "idle" and idle["residual_imbalance_g_mm"] == pytest.approx(64, abs=5)
 
 
 @pytest.mark.parametrize("drag", [*(pytest.param(drag, marks=pytest.mark.slow) for drag in (15, 45)), 92])
-def test_bounces_at_the_start_are_gone_through_without_heyoka(drag: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bounces_at_the_start_are_gone_through_without_extras(drag: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its tolerances must be tighter there, and its work still suffices."""
     found = importlib.util.find_spec
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "heyoka" else found(name))
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in EXTRAS else found(name))
     entries = "suspension.damping_ratios=0.25", f"autobalancer.rolling_drag_per_s={drag}"
+    entries = *entries, "autobalancer.rolling_friction_mm=0"
     _, checks, result = _checks(STRAIGHT, *entries)
     assert {check["status"] for check in checks.values()} == {"pass"}
-    assert {run["cost"]["integrator"] for run in result["simulation"]} == {"scipy-dop853"}
+    assert {run["cost"]["integrator"] for run in result["simulation"]} <= {"scipy-dop853", "plain-rk45"}
 
 
 @pytest.mark.parametrize("drag", [0, 1, 1e5])

@@ -256,16 +256,14 @@ def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
 # machines
 def test_a_machine_is_simulated_as_it_is_sized() -> None:
     sized = abu("size", "msh-230", "--json").document["result"]["simulation"][0]
-    document = abu("simulate", "msh-230", "--without", "dry_rolling_friction", "--json").document
+    document = abu("simulate", "msh-230", "--json").document
     found = document["result"]
     assert found["scene"] == "idle"
-    # Size leaves dry friction, which takes long, to its accuracy budget.
     simulated = {effect["name"]: effect["included"] for effect in found["effects"]}
     assert simulated == {effect["name"]: effect["included"] for effect in sized["effects"]}
     for key in ("duration_s", "settling_time_s", "axis_amplitude_mm", "level_db", "final"):
         assert found[key] == sized[key], key
-    again = abu("simulate", "msh-230", "--scene", "idle", "--start", "bunched", "--without", "dry_rolling_friction",
-                "--json")  # fmt: skip
+    again = abu("simulate", "msh-230", "--scene", "idle", "--start", "bunched", "--json")
     assert again.document["result"]["final"] == found["final"]
 
 

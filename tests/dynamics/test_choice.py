@@ -7,8 +7,9 @@ import pytest
 
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
+from abu_calc.dynamics.integrators import heyoka_, scipy_
 from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.integrators.estimates import BALL, EVALUATION, RUNS, seconds
 from abu_calc.errors import InputError
 from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
 
@@ -64,7 +65,7 @@ def test_stiff_equations_go_to_radau():
 
 def test_what_is_asked_for_is_taken():
     assert choose(long_run(), "scipy", 1e-6).name == "scipy-dop853"
-    with pytest.raises(InputError, match="auto, scipy, compiled, heyoka"):
+    with pytest.raises(InputError, match="auto, scipy, plain, compiled, heyoka"):
         choose(long_run(), "Heyoka", 1e-6)
 
 
@@ -80,5 +81,5 @@ def test_the_estimate_of_work_is_near_the_truth():
     equations = assemble(scene)
     for tolerance in (1e-4, 1e-8):
         counted = scipy_.integrate(equations, tolerance, [scene.duration]).evaluations
-        estimated = choice.scipy_seconds(equations, tolerance) / choice.EVALUATION
+        estimated = seconds(equations, tolerance).scipy / RUNS / (EVALUATION + BALL * len(scene.ball_masses))
         assert 0.5 < estimated / counted < 2

@@ -79,10 +79,10 @@ def test_accuracy_returns_what_the_command_prints(file: Path, monkeypatch: pytes
 
 
 def test_sizing_and_simulating_agree_on_a_scene() -> None:
-    """With the effects that sizing takes in: it leaves dry friction, which takes long, to its accuracy budget."""
+    """With the same effects, to the last digit."""
     machine = abu_calc.read("avtovaz-707-222")
     sized = abu_calc.size(machine).simulation[0].to_dict()
-    alone = abu_calc.simulate(machine, without_effects=[FRICTION]).to_dict()
+    alone = abu_calc.simulate(machine).to_dict()
     for key in sized.keys() - {"effects", "cost", "settling_estimates"}:
         assert alone[key] == sized[key], key
     assert {each["name"]: each["included"] for each in alone["effects"]} == {
