@@ -3,7 +3,7 @@
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Final
@@ -13,8 +13,8 @@ from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.integrators import choice
-from abu_calc.dynamics.integrators.run import EVENT, work
+from abu_calc.dynamics.integrators import choice, estimates
+from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
@@ -28,10 +28,13 @@ TRIAL, ORDER = 1e-3, 8
 FINEST: Final = 2e-6
 """Accuracy for which the verifying integrators are at the tightest tolerances they have; no reference is finer."""
 
-QUICK: Final = ("heyoka", "scipy-dop853")
+QUICK: Final = ("compiled-rk45", "heyoka", "scipy-dop853")
 """Integrators that are measured first."""
-MOST_EVALUATIONS: Final = 2_000_000
-"""Of one run; a method that needs more has no number."""
+MOST_EVALUATIONS, MOST_IN_PYTHON = 2_000_000, 150_000
+"""Of one run, events counted in, in compiled code and in Python: some seconds. What needs more is left out."""
+
+ASKED: Final = estimates.EVENT
+"""Time of an event by the second of the verifying integrators [s]."""
 
 REPEATS: Final = 3
 LONG, LOADING = 0.5, 3.0
@@ -111,17 +114,32 @@ def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: f
     reference = _reference(full, quantity, accuracy, budget)
     points: list[Point] = []
     skipped: list[str] = []
-    longest: dict[tuple[str, str | None], float] = {}
-    for method in methods(full, with_parted_balls(ledger.scene)[0]):
-        kind, name = (method.rung, method.integrator), method.name
-        # A tighter tolerance takes longer than the one before.
-        if time.perf_counter() + longest.get(kind, 0.0) > end:
-            skipped.append(name)
-            continue
-        progress(name)
-        points.append(_point(full, method, reference, quantity, end))
-        longest[kind] = points[-1].cold_s or 0.0
+    waiting = groups(full, with_parted_balls(ledger.scene)[0])
+    while waiting:
+        now = time.perf_counter()
+        share = now + max(end - now, 0.0) / len(waiting)
+        found, left = _measured(full, waiting.pop(0), reference, quantity, share, progress)
+        points += found
+        skipped += left
     return Study(quantity, accuracy, reference, tuple(points), cheapest(points, accuracy, reference), tuple(skipped))
+
+
+def _measured(
+    full: Scene, group: list[Method], reference: Reference, quantity: str, end: float, progress: Progress
+) -> tuple[list[Point], list[str]]:
+    """One kind of method from loose to tight as long as there is time, and the names of those left out."""
+    points: list[Point] = []
+    for place, method in enumerate(group):
+        # A tighter tolerance takes longer than the one before.
+        before = points[-1].cold_s or 0.0 if points else 0.0
+        if time.perf_counter() + before > end:
+            return points, [each.name for each in group[place:]]
+        progress(method.name)
+        try:
+            points.append(_point(full, method, reference, quantity, end))
+        except TooMuchWorkError:
+            return points, [each.name for each in group[place:]]
+    return points, []
 
 
 def cheapest(points: list[Point], accuracy: float, reference: Reference) -> Point | None:
@@ -133,23 +151,27 @@ def cheapest(points: list[Point], accuracy: float, reference: Reference) -> Poin
     return min(sure, key=lambda point: point.wall_s or 0.0, default=None)
 
 
-def methods(full: Scene, scene: Scene) -> Iterator[Method]:
-    """All ways to compute, cheap ones first; closed forms and envelope leave out what they cannot average."""
+def groups(full: Scene, scene: Scene) -> list[list[Method]]:
+    """All ways to compute, those of one kind together from loose to tight; each gets an equal share of the time left.
+
+    Cheap ones first; closed forms and envelope leave out what they cannot average.
+    """
     smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
-    yield Method("closed-form", None, None, lambda: closed_form(smooth), _estimated)
-    for tolerance in ENVELOPE_TOLERANCES:
-        yield Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _estimated)
-    quick: list[str] = [name for name in QUICK if name in choice.available(assemble(scene))]
-    for name in quick:
-        for tolerance in TOLERANCES:
-            yield _integration("equations", scene, name, tolerance)
+    found = [[Method("closed-form", None, None, lambda: closed_form(smooth), _estimated)]]
+    found.append([
+        Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _estimated)
+        for tolerance in ENVELOPE_TOLERANCES
+    ])  # fmt: skip
+    here = list(choice.available(assemble(scene)))
+    if choice.COMPILED in here:
+        here.remove(choice.PLAIN)  # the same numbers, slower
+    quick = [name for name in QUICK if name in here]
+    found += [[_integration("equations", scene, name, tolerance) for tolerance in TOLERANCES] for name in quick]
     if full.effects != scene.effects:
-        for name in (name for name in quick if name in choice.available(assemble(full))):
-            for tolerance in TOLERANCES[1:5:2]:
-                yield _integration("everything", full, name, tolerance)
-    for name in (name for name in choice.available(assemble(scene)) if name not in QUICK):
-        for tolerance in TOLERANCES:
-            yield _integration("equations", scene, name, tolerance)
+        usable = [name for name in quick if name in choice.available(assemble(full))]
+        found += [[_integration("everything", full, name, each) for each in TOLERANCES[1:5:2]] for name in usable]
+    others = [name for name in here if name not in QUICK]
+    return found + [[_integration("equations", scene, name, each) for each in TOLERANCES] for name in others]
 
 
 def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
@@ -158,6 +180,7 @@ def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
 
 def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method:
     equations, times = assemble(scene), needed_times(scene)
+    most = MOST_EVALUATIONS if name in (choice.COMPILED, "heyoka") else MOST_IN_PYTHON
 
     def read(trajectory: Trajectory) -> tuple[Measures, int, int]:
         """What is compared of a run, and its work."""
@@ -165,7 +188,7 @@ def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method
 
     def run() -> Trajectory:
         """The integration alone."""
-        return choice.integrate_with(name, equations, tolerance, times, MOST_EVALUATIONS)
+        return choice.integrate_with(name, equations, tolerance, times, most)
 
     return Method(rung, name, tolerance, run, read)
 
@@ -175,6 +198,8 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     started = time.perf_counter()
     try:
         run = method.run()
+    except TooMuchWorkError:
+        raise
     except AbuError as failure:
         note = str(failure).splitlines()[0]
         return Point(method.rung, method.integrator, method.tolerance, None, 0, 0, None, None, note)
@@ -221,9 +246,9 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
     trial, spent = _trial(one, equations, times)
-    # Events are as many and as long at every tolerance.
     steps = 1 - EVENT * trial.events / work(trial)
-    expected = spent * (1 + (1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER))
+    # Events are as many and as long at every tolerance; whoever is second asks Python for each.
+    expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
         raise NotTrustworthyError(
             f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"

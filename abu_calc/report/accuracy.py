@@ -10,7 +10,7 @@ from abu_calc.studies.accuracy import AccuracyResult, MeasuredPoint
 
 MARKS: Final = {
     "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
-    "scipy-radau": "I", "scipy-bdf": "B", "heyoka": "H", "compiled-rk45": "C",
+    "scipy-radau": "I", "scipy-bdf": "B", "heyoka": "H", "compiled-rk45": "C", "plain-rk45": "P",
 }  # fmt: skip
 WIDTH: Final = 58
 HEIGHT: Final = 16
@@ -54,7 +54,7 @@ def _grouped(names: tuple[str, ...]) -> list[str]:
     groups: dict[str, list[str]] = {}
     for name in names:
         method, _, tolerance = name.rpartition(" ") if " " in name else (name, "", "")
-        groups.setdefault(method.replace("scipy-", ""), []).append(tolerance)
+        groups.setdefault(_short(method), []).append(tolerance)
     return [f"{method} {'/'.join(tolerances)}".rstrip() for method, tolerances in groups.items()]
 
 
@@ -63,7 +63,7 @@ def _not_computed(points: tuple[MeasuredPoint, ...]) -> list[str]:
     groups: dict[str, dict[str, None]] = {}
     for point in points:
         if point.error is None and point.note:
-            method = point.rung if point.rung != "equations" else (point.integrator or "").removeprefix("scipy-")
+            method = point.rung if point.rung != "equations" else _short(point.integrator or "")
             groups.setdefault(point.note, {})[method] = None
     return [f"Not computed by {', '.join(methods)}: {reason}." for reason, methods in groups.items()]
 
@@ -77,9 +77,14 @@ def _chosen(result: AccuracyResult) -> str:
     return f"For an error of {result.accuracy:g}: {method}; error {number(one.error, 2)}, {_time(one.wall_s)}."
 
 
+def _short(integrator: str) -> str:
+    """Its name in a column of a table."""
+    return integrator.replace("scipy-", "").replace("compiled-rk45", "compiled").replace("plain-rk45", "plain")
+
+
 def _grid(result: AccuracyResult) -> Grid:
     rows = tuple(
-        (point.rung, (point.integrator or "").removeprefix("scipy-"),
+        (point.rung, _short(point.integrator or ""),
          "" if point.tolerance is None else f"{point.tolerance:.0e}",
          "-" if point.error is None else f"{point.error:.1e}", str(point.evaluations or ""),
          _time(point.wall_s), _time(point.cold_s))

@@ -170,7 +170,10 @@ def integrate_with(name: str, equations: Equations, tolerance: float, sample_tim
 def verifiers(equations: Equations, accuracy: float) -> tuple[tuple[str, float], tuple[str, float]]:
     """Two integrators of different kinds, each with a tolerance tight for that accuracy, to hold against each other."""
     tight = min(max(1e-5 * accuracy, 1e-11), 1e-7)
-    if not unfit(equations):
+    names = available(equations)
+    if watches(equations) and COMPILED in names:
+        return (COMPILED, tight), ("heyoka", tight / 100) if "heyoka" in names else ("scipy-dop853", tight / 10)
+    if "heyoka" in names:
         return ("scipy-dop853", tight), ("heyoka", tight / 100)
     # LSODA interpolates too loosely for events; its steps are cheap where there are none.
     return ("scipy-dop853", tight / 10), ("scipy-rk45" if watches(equations) else "scipy-lsoda", tight)

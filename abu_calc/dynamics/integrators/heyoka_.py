@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, exceeded, lost
 from abu_calc.dynamics.parameters import Acting, Modes
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.tracing.plain import functions
@@ -125,7 +125,7 @@ class _Run(Run):
         )
         self.steps, self.evaluations = self.steps + steps, self.evaluations + steps * order
         if outcome == heyoka.taylor_outcome.step_limit:
-            raise lost(integrator.time, f"more work than allowed, {self.evaluations} evaluations")
+            raise exceeded(integrator.time, self.evaluations, self.events)
         if outcome == heyoka.taylor_outcome.err_nf_state or not np.isfinite(rows).all():
             raise lost(integrator.time, NOT_FINITE)
         return rows, _fallen(outcome) is not None

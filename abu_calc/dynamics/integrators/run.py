@@ -100,7 +100,7 @@ class Run(ABC):
                 if stalled > MOST_STALLED:
                     raise lost(t, "the motion stalls in ever more events")
                 if self.evaluations + EVENT * self.events > self.most_evaluations:
-                    raise lost(t, f"more work than allowed, {self.evaluations} evaluations and {self.events} events")
+                    raise exceeded(t, self.evaluations, self.events)
             if t == bound:
                 modes = at_break(equations, t, modes)
             if t < end:
@@ -112,9 +112,23 @@ def work(run: Trajectory) -> int:
     return run.evaluations + EVENT * run.events
 
 
+class TooMuchWorkError(NotTrustworthyError):
+    """A run needs more evaluations than it may take."""
+
+
+def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
+    """The error of a run that was given up at its bound."""
+    did = f"{evaluations} evaluations" + (f" and {events} events" if events else "")
+    return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"))
+
+
 def lost(t: float, reason: str) -> NotTrustworthyError:
     """The error that says where and why an integration was given up."""
-    return NotTrustworthyError(
+    return NotTrustworthyError(_lost(t, reason))
+
+
+def _lost(t: float, reason: str) -> str:
+    return (
         f"integration lost at t = {t:.6g} s: {reason.rstrip('.')}\n"
         "  shorten the run, or look for a drag, stiffness or speed that is far from any real machine"
     )

@@ -12,7 +12,7 @@ import numpy as np
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators.events import Watcher
-from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, exceeded, lost
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import starting, watches
 from abu_calc.dynamics.tracing.plain import Function, functions
@@ -96,7 +96,7 @@ class _Run(Run):
         while solver.status == "running":
             self.evaluations = spent + _evaluations(solver, watcher)
             if self.evaluations > self.most_evaluations:
-                raise lost(solver.t, f"more work than allowed, {self.evaluations} evaluations")
+                raise exceeded(solver.t, self.evaluations, self.events)
             try:
                 message = solver.step()
             except ValueError:  # implicit methods meet a number that is none in their matrices

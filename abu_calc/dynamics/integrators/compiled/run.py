@@ -16,7 +16,7 @@ from abu_calc.dynamics.integrators.compiled.loop import ROWS
 from abu_calc.dynamics.integrators.compiled.order import in_order
 from abu_calc.dynamics.integrators.compiled.plain import Plain
 from abu_calc.dynamics.integrators.compiled.program import widened
-from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, lost
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, exceeded, lost
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.tracing.traced import Numbers, cached
@@ -130,7 +130,7 @@ class _Run(Run):
         )
         now = float(self.clock[arrays.TIME])
         if how == arrays.TOO_MUCH:
-            raise lost(now, f"more work than allowed, {self.evaluations} evaluations and {self.events} events")
+            raise exceeded(now, self.evaluations, self.events)
         if how in REASONS:
             raise lost(now, REASONS[how])
         return now, self.state, how == arrays.UNDECIDED
