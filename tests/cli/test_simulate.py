@@ -8,7 +8,7 @@ import pytest
 
 from abu_calc.analysis import simulate as simulate_module
 from abu_calc.dynamics.effects.registry import REGISTRY
-from tests.cli.runner import abu
+from tests.cli.runner import abu, once
 from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING
 from tests.spec.test_scene import CASES, TILTING_CASES
 
@@ -255,7 +255,7 @@ def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
 
 # machines
 def test_a_machine_is_simulated_as_it_is_sized() -> None:
-    sized = abu("size", "msh-230", "--json").document["result"]["simulation"][0]
+    sized = once("size", "msh-230", "--json").document["result"]["simulation"][0]
     document = abu("simulate", "msh-230", "--without", "dry_rolling_friction", "--json").document
     found = document["result"]
     assert found["scene"] == "idle"

@@ -32,6 +32,26 @@ from tests.dynamics.test_integrators import run_away
 heyoka = pytest.importorskip("heyoka")
 from abu_calc.dynamics.integrators import heyoka_  # noqa: E402
 
+UNROLLED = heyoka_.MOST_UNROLLED
+CODES: dict[bool, dict[Any, Any]] = {True: {}, False: {}}
+"""Compiled code that is unrolled, and that is not."""
+
+
+@pytest.fixture(autouse=True)
+def in_loops(monkeypatch):
+    """No code is unrolled, which would take four times as long to compile; `unrolled` tests do what runs else."""
+    monkeypatch.setattr(heyoka_, "MOST_UNROLLED", 0)
+    monkeypatch.setattr(heyoka_, "_systems", CODES[False])
+
+
+@pytest.fixture
+def unrolled(in_loops, monkeypatch):
+    """As for users."""
+    monkeypatch.setattr(heyoka_, "MOST_UNROLLED", UNROLLED)
+    monkeypatch.setattr(heyoka_, "_systems", CODES[True])
+    yield
+    assert CODES[True] and not any(one.integrator.compact_mode for one in CODES[True].values())
+
 
 def agree(scene: Scene, tolerance: float = 1e-9, within: float = 1e-7) -> int:
     """Compare both integrators all along a run, in units of the states' scales; returns the number of events.
@@ -99,6 +119,7 @@ def test_breaks_are_met():
     np.testing.assert_allclose(turn, [(7.0, 35.0, 44.0), (2.0, 2.0, 0.0)], atol=1e-9)
 
 
+@pytest.mark.usefixtures("unrolled")
 def test_errors_fall_with_the_tolerance():
     """Three decades of tolerance are at least two of error, until rounding of some hundred steps is met."""
     scene = straight_grinder()
@@ -192,6 +213,7 @@ def test_events_are_work(library, monkeypatch):
         library.integrate(equations, 1e-6, [100.0], most_evaluations=free.evaluations * (free.events - 1))
 
 
+@pytest.mark.usefixtures("unrolled")
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-8, 1e-11])
 def test_every_order_keeps_the_tolerance(tolerance):
     """Orders 12, 15 and 19, from loose to tight: errors of hundreds of steps stay near it."""
@@ -255,6 +277,7 @@ def test_symbols_are_arithmetic(rhs, expected):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("unrolled")
 def test_a_million_revolutions_without_drift():
     """An undamped rotor whose balls swing about the places where they balance it keeps its integral of motion.
 
