@@ -42,6 +42,9 @@ LONG = {(scene, name) for scene, name in CASES if name in (*COSTLY, "heyoka") an
 """Slow ones, left to `-m slow`: those that solve for their steps, and what heyoka compiles, in the largest systems."""
 
 
+pytestmark = pytest.mark.usefixtures("in_loops")
+
+
 def slope(xs: np.ndarray, ys: np.ndarray) -> float:
     """Of log y over log x."""
     return float(np.polyfit(np.log(xs), np.log(ys), 1)[0])

@@ -32,25 +32,18 @@ from tests.dynamics.test_integrators import run_away
 heyoka = pytest.importorskip("heyoka")
 from abu_calc.dynamics.integrators import heyoka_  # noqa: E402
 
-UNROLLED = heyoka_.MOST_UNROLLED
-CODES: dict[bool, dict[Any, Any]] = {True: {}, False: {}}
-"""Compiled code that is unrolled, and that is not."""
+pytestmark = pytest.mark.usefixtures("in_loops")
 
-
-@pytest.fixture(autouse=True)
-def in_loops(monkeypatch):
-    """No code is unrolled, which would take four times as long to compile; `unrolled` tests do what runs else."""
-    monkeypatch.setattr(heyoka_, "MOST_UNROLLED", 0)
-    monkeypatch.setattr(heyoka_, "_systems", CODES[False])
+UNROLLED, SYSTEMS = heyoka_.MOST_UNROLLED, {}
 
 
 @pytest.fixture
 def unrolled(in_loops, monkeypatch):
-    """As for users."""
+    """Code of small smooth scenes as users have it."""
     monkeypatch.setattr(heyoka_, "MOST_UNROLLED", UNROLLED)
-    monkeypatch.setattr(heyoka_, "_systems", CODES[True])
+    monkeypatch.setattr(heyoka_, "_systems", SYSTEMS)
     yield
-    assert CODES[True] and not any(one.integrator.compact_mode for one in CODES[True].values())
+    assert SYSTEMS and not any(one.integrator.compact_mode for one in SYSTEMS.values())
 
 
 def agree(scene: Scene, tolerance: float = 1e-9, within: float = 1e-7) -> int:
