@@ -157,9 +157,14 @@ def test_report_reads_like_a_calculation_note() -> None:
 
 
 def test_explain_puts_the_numbers_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    runs = []
-    simulated = size_module.simulated
-    monkeypatch.setattr(size_module, "simulated", lambda *given: runs or runs.extend(simulated(*given)) or runs)
+    simulated, known = size_module.simulated, []
+
+    def simulated_once(*given):
+        if not known:
+            known.append(simulated(*given))
+        return known[0]
+
+    monkeypatch.setattr(size_module, "simulated", simulated_once)
     plain, told = abu("size", "swing-arm-grinder").out, abu("size", "swing-arm-grinder", "--explain").out
     assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
     assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)

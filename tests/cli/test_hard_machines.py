@@ -9,7 +9,7 @@ from tests.cli.runner import abu, without_heyoka
 STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
 
 
-@pytest.fixture(params=[10_000, pytest.param(WORK, marks=pytest.mark.slow)])
+@pytest.fixture(params=[5_000, pytest.param(WORK, marks=pytest.mark.slow)])
 def work(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """A bound that ends sooner what would use up all of it; the real one takes minutes, with heyoka."""
     monkeypatch.setattr(machine, "WORK", request.param)

@@ -122,7 +122,7 @@ def test_the_tilts_are_those_that_move_the_axis_off_the_middle(tmp_path: Path) -
     text = text.replace("start_angles_deg = [10, 60]", "start_angles_deg = []").replace(
         "[110.0, -150.0]", "[100, -100]"
     )
-    result = abu("simulate", written(tmp_path, text), "--duration", "6", "--json").document["result"]
+    result = abu("simulate", written(tmp_path, text), "--duration", "3", "--json").document["result"]
     final = result["final"]
     assert result["axis_amplitude_mm"] < 1e-9
     one, other = final["bearing_amplitudes_mm"]
@@ -291,7 +291,7 @@ def test_duration_of_a_machine() -> None:
 
 
 def test_the_report_fits_80_columns(scene: str) -> None:
-    for seen in (abu("simulate", "avtovaz-707-222"), abu("simulate", scene, "--duration", "40")):
+    for seen in (abu("simulate", "avtovaz-707-222", "--duration", "0.3"), abu("simulate", scene, "--duration", "40")):
         assert seen.status == 0 and seen.width <= 80
         assert "not settled" in seen.out or "settled in" in seen.out
 
