@@ -1,4 +1,4 @@
-"""How the tests are shared out among processes."""
+"""How the tests are shared out among processes; what makes them quicker."""
 
 from typing import Any
 
@@ -13,3 +13,15 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     from xdist.scheduler import WorkStealingScheduling
 
     return WorkStealingScheduling(config, log)
+
+
+SYSTEMS: dict[Any, Any] = {}
+
+
+@pytest.fixture
+def in_loops(monkeypatch: pytest.MonkeyPatch) -> None:
+    """heyoka unrolls no code, which of small smooth scenes takes up to four times as long to compile as loops do."""
+    from abu_calc.dynamics.integrators import heyoka_
+
+    monkeypatch.setattr(heyoka_, "MOST_UNROLLED", 0)
+    monkeypatch.setattr(heyoka_, "_systems", SYSTEMS)

@@ -37,6 +37,12 @@ LEAST = 100 * REFERENCE
 """Errors below are those of the reference."""
 COSTLY = {"scipy-radau": 5, "scipy-bdf": 5}
 """How many of the tolerances these go through in every run, for the time they take; `-m slow` goes through all."""
+CASES = [(scene, name) for scene in SMOOTH for name in INTEGRATORS]
+LONG = {(scene, name) for scene, name in CASES if name in (*COSTLY, "heyoka") and scene in ("coupled", "tilting")}
+"""Slow ones, left to `-m slow`: those that solve for their steps, and what heyoka compiles, in the largest systems."""
+
+
+pytestmark = pytest.mark.usefixtures("in_loops")
 
 
 def slope(xs: np.ndarray, ys: np.ndarray) -> float:
@@ -65,8 +71,9 @@ def by_tolerance(scene, name: str, count: int = len(TOLERANCES)) -> tuple[float,
     return slope(asked[known], errors[known]), runs[-1].events
 
 
-@pytest.mark.parametrize("name", INTEGRATORS)
-@pytest.mark.parametrize("scene", SMOOTH)
+@pytest.mark.parametrize(
+    ("scene", "name"), [pytest.param(*one, marks=[pytest.mark.slow] * (one in LONG)) for one in CASES]
+)
 def test_errors_are_proportional_to_the_tolerance(scene, name):
     found, _ = by_tolerance(SMOOTH[scene], name, COSTLY.get(name, len(TOLERANCES)))
     assert 0.7 < found < 1.3

@@ -16,7 +16,7 @@ from tests.dynamics.scenes import dimensionless
 
 CALM = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 40.0)
 TUMBLING = replace(
-    dimensionless(3.0, 0.1, 0.05, 0.1, 0.0, (1.5, -1.7, 0.3), 160.0), effects=(Gravity(4.0),), name="tumbling"
+    dimensionless(3.0, 0.1, 0.05, 0.1, 0.0, (1.5, -1.7, 0.3), 100.0), effects=(Gravity(4.0),), name="tumbling"
 )
 """Balls without drag; at the top of their race their weight is half of what presses them to it."""
 TOLERANCE, MOST = 1e-11, 10**6

@@ -1,10 +1,14 @@
 """Runs `abu` inside the test's process and tells what a user would see."""
 
 import contextlib
+import importlib.util
 import io
 import json
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
+
+import pytest
 
 from abu_calc.cli.app import run
 
@@ -34,6 +38,21 @@ def abu(*arguments: str) -> Seen:
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         status = run(list(arguments))
     return Seen(status, out.getvalue(), err.getvalue())
+
+
+@cache
+def once(*arguments: str) -> Seen:
+    """What `abu arguments…` does, run once for all tests that ask: for commands that write no file."""
+    return abu(*arguments)
+
+
+EXTRAS = ("heyoka", "llvmlite")
+
+
+def without_extras(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where they are not installed. They compile for each number of balls, for longer than short runs take."""
+    found = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in EXTRAS else found(name))
 
 
 def _refuse(name: str) -> None:

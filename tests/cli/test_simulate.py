@@ -8,7 +8,7 @@ import pytest
 
 from abu_calc.analysis import simulate as simulate_module
 from abu_calc.dynamics.effects.registry import REGISTRY
-from tests.cli.runner import abu
+from tests.cli.runner import abu, once
 from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING
 from tests.spec.test_scene import CASES, TILTING_CASES
 
@@ -122,7 +122,7 @@ def test_the_tilts_are_those_that_move_the_axis_off_the_middle(tmp_path: Path) -
     text = text.replace("start_angles_deg = [10, 60]", "start_angles_deg = []").replace(
         "[110.0, -150.0]", "[100, -100]"
     )
-    result = abu("simulate", written(tmp_path, text), "--duration", "6", "--json").document["result"]
+    result = abu("simulate", written(tmp_path, text), "--duration", "3", "--json").document["result"]
     final = result["final"]
     assert result["axis_amplitude_mm"] < 1e-9
     one, other = final["bearing_amplitudes_mm"]
@@ -255,8 +255,8 @@ def test_any_number_of_balls(tmp_path: Path, balls: int) -> None:
 
 # machines
 def test_a_machine_is_simulated_as_it_is_sized() -> None:
-    sized = abu("size", "msh-230", "--json").document["result"]["simulation"][0]
-    document = abu("simulate", "msh-230", "--json").document
+    sized = once("size", "msh-230", "--json").document["result"]["simulation"][0]
+    document = once("simulate", "msh-230", "--json").document
     found = document["result"]
     assert found["scene"] == "idle"
     simulated = {effect["name"]: effect["included"] for effect in found["effects"]}
@@ -289,7 +289,7 @@ def test_duration_of_a_machine() -> None:
 
 
 def test_the_report_fits_80_columns(scene: str) -> None:
-    for seen in (abu("simulate", "avtovaz-707-222"), abu("simulate", scene, "--duration", "40")):
+    for seen in (abu("simulate", "avtovaz-707-222", "--duration", "0.3"), abu("simulate", scene, "--duration", "40")):
         assert seen.status == 0 and seen.width <= 80
         assert "not settled" in seen.out or "settled in" in seen.out
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.runner import abu
+from tests.cli.runner import abu, once
 from tests.spec.scenes import SCENE
 
 RPM = 9.549296585513721
@@ -213,7 +213,7 @@ def test_scenes_of_a_machine() -> None:
 
 
 def test_size_tells_the_true_region() -> None:
-    frequency = abu("size", "avtovaz-707-370", "--json").document["result"]["frequency"]
+    frequency = once("size", "avtovaz-707-370", "--json").document["result"]["frequency"]
     (one,) = frequency["stability_boundaries_rpm"]
     assert frequency["stable"] is True and one["stable_above"] and 130 < one["speed_rpm"] < 250
 

@@ -236,7 +236,7 @@ def test_points_in_a_groove_obey_lagrange(support, rotor):
     """Balls that roll two ways may not slip, so only points do; their drag acts at R instead of R_p."""
     scene = taken(support, *rotor, "transverse_motion", "race_eccentricity", "gravity")
     scene = replace(scene, races=tuple(replace(race, inertia_factor=1.0, drag=0.0) for race in scene.races))
-    for sample in samples(scene, 5):
+    for sample in samples(scene, 2):
         free = Bodies(scene).freedoms
         supplied = resisting(scene, sample.t, sample.y)
         if rotor == ("motor",):

@@ -49,7 +49,7 @@ def every_scene(*rotors: str) -> pytest.MarkDecorator:
 
 
 @every_scene()
-@settings(deadline=None, derandomize=True, max_examples=8)
+@settings(deadline=None, derandomize=True, max_examples=5)
 @given(seed=seeds, t=moments, more=st.sampled_from(MORE))
 def test_every_coordinate_obeys_lagrange(support, rotor, seed, t, more):
     """d/dt ∂L/∂v − ∂L/∂x is what dampers, gyroscopic moments, drag and motor supply."""

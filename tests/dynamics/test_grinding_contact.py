@@ -319,7 +319,7 @@ def test_balls_that_run_away_are_told():
     rigid = GrindingContact(1.0, 0.5, "rigid", rotation_sense=1)
     scene = grinder(rigid, (0.3, 1.2, 2.5), drag=0.0, inertia_factor=1.0)
     race = replace(scene.races[0], ball_masses=(1.0,) * 3, start_speeds=(30 * W, -20 * W, 10 * W))
-    with pytest.raises(NotTrustworthyError, match=r"ball 2 runs away at t = 0\.\d+ s: a rigid contact cannot part"):
+    with pytest.raises(NotTrustworthyError, match=r"ball \d runs away at t = 0\.\d+ s: a rigid contact cannot part"):
         scipy_.integrate(assemble(replace(scene, races=(race,))), 1e-4, [scene.duration])
     compliant = replace(rigid, contact="compliant", contact_stiffness=M * W**2)
     end = scipy_.integrate(assemble(replace(scene, races=(race,), effects=(compliant,))), 1e-4, [scene.duration / 50])

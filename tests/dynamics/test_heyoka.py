@@ -33,6 +33,19 @@ from tests.dynamics.test_integrators import run_away
 heyoka = pytest.importorskip("heyoka")
 from abu_calc.dynamics.integrators import heyoka_  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("in_loops")
+
+UNROLLED, SYSTEMS = heyoka_.MOST_UNROLLED, {}
+
+
+@pytest.fixture
+def unrolled(in_loops, monkeypatch):
+    """Code of small smooth scenes as users have it."""
+    monkeypatch.setattr(heyoka_, "MOST_UNROLLED", UNROLLED)
+    monkeypatch.setattr(heyoka_, "_systems", SYSTEMS)
+    yield
+    assert SYSTEMS and not any(one.integrator.compact_mode for one in SYSTEMS.values())
+
 
 def agree(scene: Scene, tolerance: float = 1e-9, within: float = 1e-7) -> int:
     """Compare both integrators all along a run, in units of the states' scales; returns the number of events.
@@ -100,6 +113,7 @@ def test_breaks_are_met():
     np.testing.assert_allclose(turn, [(7.0, 35.0, 44.0), (2.0, 2.0, 0.0)], atol=1e-9)
 
 
+@pytest.mark.usefixtures("unrolled")
 def test_errors_fall_with_the_tolerance():
     """Three decades of tolerance are at least two of error, until rounding of some hundred steps is met."""
     scene = straight_grinder()
@@ -193,6 +207,7 @@ def test_events_are_work(library, monkeypatch):
         library.integrate(equations, 1e-6, [100.0], most_evaluations=free.evaluations * (free.events - 1))
 
 
+@pytest.mark.usefixtures("unrolled")
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-8, 1e-11])
 def test_every_order_keeps_the_tolerance(tolerance):
     """Orders 12, 15 and 19, from loose to tight: errors of hundreds of steps stay near it."""
@@ -256,6 +271,7 @@ def test_symbols_are_arithmetic(rhs, expected):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("unrolled")
 def test_a_million_revolutions_without_drift():
     """An undamped rotor whose balls swing about the places where they balance it keeps its integral of motion.
 

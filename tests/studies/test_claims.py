@@ -11,8 +11,11 @@ QUICK = (3, 12, 17, 37, 38, 39, 43)
 MORE = (7, 14, 19, 23, 49, 53)
 """More of them."""
 
-AVERAGED = (14, 45, 53, 62, 107)
+AVERAGED = (45, 62)
 """Seeds whose smooth part the envelope may take."""
+
+MORE_AVERAGED = (14, 53, 107)
+"""More of them, which take longer."""
 
 
 @pytest.fixture
@@ -21,7 +24,7 @@ def patient(monkeypatch):
     monkeypatch.setattr(claims, "SECONDS", 3600)
 
 
-@pytest.mark.usefixtures("patient")
+@pytest.mark.usefixtures("patient", "in_loops")
 @pytest.mark.parametrize("seed", [*QUICK, *(pytest.param(seed, marks=pytest.mark.slow) for seed in MORE)])
 def test_claims_hold_on_a_few_scenes(seed):
     verdicts, unmeasured = study([seed], judged)
@@ -29,11 +32,12 @@ def test_claims_hold_on_a_few_scenes(seed):
     assert [one for one in verdicts if one.refused or one.broken > 1 or one.claim > one.accuracy] == []
 
 
-@pytest.mark.usefixtures("patient")
-def test_claims_of_the_envelope_hold_on_a_few_scenes():
-    verdicts, _ = study(AVERAGED, averaged_and_judged)
-    assert len(verdicts) >= 5
-    assert [one for one in verdicts if one.broken > 1] == []
+@pytest.mark.usefixtures("patient", "in_loops")
+@pytest.mark.parametrize("seed", [*AVERAGED, *(pytest.param(seed, marks=pytest.mark.slow) for seed in MORE_AVERAGED)])
+def test_claims_of_the_envelope_hold_on_a_few_scenes(seed):
+    verdicts, unmeasured = study([seed], averaged_and_judged)
+    assert len(verdicts) == 1 and not unmeasured
+    assert verdicts[0].broken <= 1
 
 
 @pytest.mark.hard
