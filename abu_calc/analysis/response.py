@@ -203,8 +203,10 @@ def _largest_radius(place: Array, middle: Array) -> float:
     """Largest distance from the middle of samples, equally spaced but for the first; its square refined by a quartic
     through five.
     """
-    square = (place[0] - middle[0]) ** 2
-    square += (place[1] - middle[1]) ** 2
+    squares = place - middle
+    squares *= squares
+    squares[0] += squares[1]
+    square = squares[0]
     top = int(square.argmax())
     largest = float(square[top])
     if 2 < top < len(square) - 2 and largest > 0:

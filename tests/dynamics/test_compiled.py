@@ -139,6 +139,7 @@ def test_memory_is_that_of_the_samples() -> None:
 
 def test_numbers_that_are_none_are_told() -> None:
     equations = grinder()
+    compiled.integrate(equations, 1e-4, [0.01])
     far = replace(equations, initial=(1e308, *equations.initial[1:]))
     with pytest.raises(NotTrustworthyError, match="integration lost at t = 0 s"):
         compiled.integrate(far, 1e-6, [1.0])

@@ -110,7 +110,8 @@ class _Run(Run):
         self.fill(states[:, 1 : 1 + len(wanted)])
         if stopped:
             return float(integrator.time), integrator.state * self.units, True
-        return bound, states[:, -1], False
+        # A copy: all these rows need not stay until the next are there.
+        return bound, states[:, -1].copy(), False
 
     def _put(self, integrator: Any, t: float, state: Array) -> None:
         integrator.time, integrator.state[:] = t, state / self.units
