@@ -16,6 +16,9 @@ from abu_calc.units import level_from_velocity
 SAMPLES_PER_REVOLUTION = 64
 """In the amplitude window."""
 
+BLOCK = 2**16
+"""Samples of which distances are taken at once."""
+
 HELD = 2**22
 """Numbers in a trajectory that holds every sample."""
 
@@ -199,18 +202,22 @@ def _mean(values: Array) -> Array:
     return np.asarray(total / (3 * (values.shape[-1] - 1)))
 
 
+def _squares(place: Array, middle: Array, first: int, count: int) -> Array:
+    """Of the distances from the middle."""
+    return np.asarray(((place[:, first : first + count] - middle) ** 2).sum(axis=0))
+
+
 def _largest_radius(place: Array, middle: Array) -> float:
     """Largest distance from the middle of samples, equally spaced but for the first; its square refined by a quartic
     through five.
     """
-    squares = place - middle
-    squares *= squares
-    squares[0] += squares[1]
-    square = squares[0]
-    top = int(square.argmax())
-    largest = float(square[top])
-    if 2 < top < len(square) - 2 and largest > 0:
-        near = Polynomial.fit(np.arange(-2, 3), square[top - 2 : top + 3] / largest, 4)
+    count = place.shape[1]
+    tops = [first + int(_squares(place, middle, first, BLOCK).argmax()) for first in range(0, count, BLOCK)]
+    squares = [float(_squares(place, middle, top, 1)[0]) for top in tops]
+    largest = max(squares)
+    top = tops[squares.index(largest)]
+    if 2 < top < count - 2 and largest > 0:
+        near = Polynomial.fit(np.arange(-2, 3), _squares(place, middle, top - 2, 5) / largest, 4)
         crests = [root.real for root in near.deriv().roots().tolist() if root.imag == 0 and abs(root.real) <= 1]
         largest *= max([1.0, *near(np.array(crests)).tolist()])
     return math.sqrt(largest)
