@@ -10,7 +10,7 @@ import numpy as np
 from abu_calc.analysis.course import Course
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.remarks import Remarks
-from abu_calc.analysis.response import Response, evaluate, sampling
+from abu_calc.analysis.response import Response, evaluate, needed_times, sampling
 from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
 from abu_calc.dynamics.equations.assemble import assemble
@@ -109,14 +109,15 @@ def _integrated(
     offered: Offer, progress: Progress,
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
-    equations = assemble(scene)
+    equations, needed = assemble(scene), needed_times(scene)
+    needed = needed if len(needed) < len(times.times) else times.times  # one array of both where they are the same
     choice = choose(equations, integrator, tolerances(accuracy)[0])
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared, last = math.nan, 0, 0
     for tolerance in tolerances(accuracy):
         progress(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
-        course, remarks = Course(scene), Remarks(equations)
+        course, remarks = Course(scene), Remarks(equations, needed)
         # What is held whole is looked at once, when the run is known to be the last.
         readers = (course, remarks) if runs and times.held is not None else (course,)
         try:

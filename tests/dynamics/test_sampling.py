@@ -11,6 +11,7 @@ from abu_calc.analysis import simulate as simulate_module
 from abu_calc.analysis.course import settling_times
 from abu_calc.analysis.response import amplitude_window, needed_times
 from abu_calc.analysis.simulate import Simulation, simulate
+from abu_calc.dynamics.effect import Laws
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import recorder, scipy_
@@ -124,3 +125,22 @@ def test_samples_of_many_balls_are_refused_where_they_would_fill_the_memory() ->
     assert len(equally_spaced(SCENE, 1_000_000)) == 1_000_000
     with pytest.raises(InputError, match=r"found 300000; allowed: 2 … 270000\)\n  ask for fewer samples"):
         equally_spaced(scene, 300_000)
+
+
+@pytest.mark.parametrize("held", [2**22, 0])
+def test_samples_change_no_remark(monkeypatch: pytest.MonkeyPatch, held: int) -> None:
+    """Gravity tells of the first of the times that results need, not of those asked for between them."""
+    monkeypatch.setattr(response_module, "HELD", held)
+    monkeypatch.setattr(recorder, "BLOCK", 50)
+    asked: list[np.ndarray] = []
+    remarks = Gravity.remarks
+
+    def counted(self: Gravity, equations: Laws, samples: Samples) -> tuple[str, ...]:
+        asked.append(samples.t)
+        return remarks(self, equations, samples)
+
+    monkeypatch.setattr(Gravity, "remarks", counted)
+    scene = replace(SCENE, effects=(Gravity(1e-3),))
+    run = simulate(scene, integrator="scipy", sample_times=np.linspace(0, 300, 9999))
+    assert run.warnings == () and len(run.trajectory.t) > 9999
+    np.testing.assert_array_equal(np.unique(np.concatenate(asked)), needed_times(scene))
