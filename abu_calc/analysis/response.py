@@ -5,21 +5,22 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from numpy.typing import NDArray
 
+from abu_calc.analysis.course import Course, axis_place, settling_times, total_imbalance
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
 
 SAMPLES_PER_REVOLUTION = 64
 """In the amplitude window."""
 
-SETTLING_SAMPLES_PER_REVOLUTION = 16
-"""Over the whole run: the residual ripples with the speed, and a crest may be the last to pass the limit."""
+BLOCK = 2**16
+"""Samples of which distances are taken at once."""
 
-Array = NDArray[np.float64]
+HELD = 2**22
+"""Numbers in a trajectory that holds every sample."""
 
 
 @dataclass(frozen=True)
@@ -85,46 +86,53 @@ def amplitude_window(scene: Scene) -> Window:
     return Window(times=np.maximum(times, scene.duration - length), whole=turns * SAMPLES_PER_REVOLUTION)
 
 
-def settling_times(scene: Scene) -> Array:
-    """Equally spaced times [s] from 0 to the end, 16 per revolution, at which settling is judged."""
-    count = math.ceil(scene.duration / scene.revolution * SETTLING_SAMPLES_PER_REVOLUTION)
-    return np.linspace(0.0, scene.duration, count + 1)
-
-
 def needed_times(scene: Scene) -> Array:
     """All times [s] a trajectory must be sampled at to be evaluated."""
     return np.union1d(settling_times(scene), amplitude_window(scene).times)
 
 
-def evaluate(scene: Scene, trajectory: Trajectory) -> Response:
-    """The results of a trajectory that was sampled at least at `needed_times`.
-
-    Raises NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
+def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
+    """At the needed times and further ones [s]. Trajectories of up to 32 MB hold all of them; of longer runs what is
+    wanted and the amplitude window stays, and results have to be read as they go on, by a course.
     """
-    window, times = amplitude_window(scene), settling_times(scene)
-    first = 2 * len(scene.support.names)
-    if lost := scene.support.lost(trajectory.t, trajectory.y[: first // 2]):
-        raise lost
+    wanted = np.empty(0) if wanted is None else wanted
+    times = np.union1d(needed_times(scene), wanted)
+    whole = len(times) * scene.state_count <= HELD
+    return Sampling(times, None if whole else np.union1d(amplitude_window(scene).times, wanted))
+
+
+def evaluate(scene: Scene, trajectory: Trajectory, course: Course | None = None) -> Response:
+    """The results of a run that was sampled at least at `needed_times`.
+
+    Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
+    NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
+    """
+    if course is None:
+        course = Course(scene)
+        course(trajectory)
+    if course.lost:
+        raise course.lost
+    window, first = amplitude_window(scene), 2 * len(scene.support.names)
     balls = slice(first, first + len(scene.ball_masses))
-    states, run = trajectory.at(window.times), trajectory.at(times)
+    states = trajectory.at(window.times)
     whole = states[:, -1 - window.whole :]
     place = axis_place(scene, states)
     mean = _mean(axis_place(scene, whole))
     rms = float(np.sqrt(_mean(axis_velocity(scene, whole) ** 2)).max())
-    residuals = np.abs(total_imbalance(scene, run[balls]))
+    residuals = course.residuals
     settled = float(_mean(np.abs(total_imbalance(scene, whole[balls])))[0])
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(times, residuals, settled + SETTLED * reference_imbalance(scene)),
+        settling_time=settling_time(settling_times(scene), residuals, settled + SETTLED * reference_imbalance(scene)),
         residual_imbalance=float(residuals[-1]),
-        axis_amplitude=_largest_radius(place - mean),
+        axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,
         level=level_from_velocity(rms) if rms > 0 else None,
         unbalanced_amplitude=unbalanced_amplitude(scene),
-        largest_amplitude=_largest_radius(axis_place(scene, run) - mean),
+        largest_amplitude=_largest_radius(course.places, mean),
         bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
         # The mean of a speed is the way made; exact, whatever the samples.
         final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
@@ -150,14 +158,6 @@ def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalSta
     )
 
 
-def axis_place(scene: Scene, states: Array, plane: float = 0.0) -> Array:
-    """x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, time].
-
-    Of a swing arm: from where it lies along +x.
-    """
-    return scene.support.axis(states[: len(scene.support.names)], plane)
-
-
 def axis_velocity(scene: Scene, states: Array) -> Array:
     """The velocity of the axis [m/s], likewise."""
     size = len(scene.support.names)
@@ -166,15 +166,7 @@ def axis_velocity(scene: Scene, states: Array) -> Array:
 
 def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
     places = scene.support.bearings
-    return tuple(_largest_radius(axis_place(scene, states, z) - _mean(axis_place(scene, whole, z))) for z in places)
-
-
-def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
-    """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, time]."""
-    total = np.full(angles.shape[1:], scene.imbalance * np.exp(1j * scene.imbalance_angle))
-    for static_moment, angle in zip(scene.static_moments, angles, strict=True):
-        total += static_moment * np.exp(1j * angle)
-    return total
+    return tuple(_largest_radius(axis_place(scene, states, z), _mean(axis_place(scene, whole, z))) for z in places)
 
 
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
@@ -188,14 +180,14 @@ def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
     last = int(above[-1])
     if last == len(t) - 1:
         return None
-    time = _crossing(t, residuals - limit, last)
+    time = _crossing(t, residuals, limit, last)
     return time if time <= 0.95 * t[-1] else None
 
 
-def _crossing(t: Array, values: Array, last: int) -> float:
-    """Where values, of which that at `last` is above zero and the next one not, pass zero."""
+def _crossing(t: Array, values: Array, limit: float, last: int) -> float:
+    """Where values, of which that at `last` is above the limit and the next one not, pass it."""
     near, low, high = slice(max(last - 2, 0), last + 4), float(t[last]), float(t[last + 1])
-    curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near])
+    curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near] - limit)
     inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
     # Rounding may move a root that is a sample itself out of the interval.
     return low + (high - low) * max(inside, default=1.0)
@@ -210,13 +202,22 @@ def _mean(values: Array) -> Array:
     return np.asarray(total / (3 * (values.shape[-1] - 1)))
 
 
-def _largest_radius(place: Array) -> float:
-    """Largest √(x² + y²) of samples, equally spaced but for the first; its square refined by a quartic through five."""
-    square = (place**2).sum(axis=0)
-    top = int(square.argmax())
-    largest = float(square[top])
-    if 2 < top < len(square) - 2 and largest > 0:
-        near = Polynomial.fit(np.arange(-2, 3), square[top - 2 : top + 3] / largest, 4)
+def _squares(place: Array, middle: Array, first: int, count: int) -> Array:
+    """Of the distances from the middle."""
+    return np.asarray(((place[:, first : first + count] - middle) ** 2).sum(axis=0))
+
+
+def _largest_radius(place: Array, middle: Array) -> float:
+    """Largest distance from the middle of samples, equally spaced but for the first; its square refined by a quartic
+    through five.
+    """
+    count = place.shape[1]
+    tops = [first + int(_squares(place, middle, first, BLOCK).argmax()) for first in range(0, count, BLOCK)]
+    squares = [float(_squares(place, middle, top, 1)[0]) for top in tops]
+    largest = max(squares)
+    top = tops[squares.index(largest)]
+    if 2 < top < count - 2 and largest > 0:
+        near = Polynomial.fit(np.arange(-2, 3), _squares(place, middle, top - 2, 5) / largest, 4)
         crests = [root.real for root in near.deriv().roots().tolist() if root.imag == 0 and abs(root.real) <= 1]
         largest *= max([1.0, *near(np.array(crests)).tolist()])
     return math.sqrt(largest)

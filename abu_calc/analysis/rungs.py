@@ -1,14 +1,15 @@
 """The rungs of the ladder that integrate no equations of motion: closed form and envelope, and what that may be off."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.analysis.course import settling_count, total_imbalance
 from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import settling_time, settling_times, total_imbalance
+from abu_calc.analysis.response import settling_time
 from abu_calc.dynamics.balanced.resting import resting_angles
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.slow.averages import averages
@@ -16,13 +17,13 @@ from abu_calc.dynamics.slow.envelope import (
     ball_rate,
     envelope,
     free_amplitude,
-    motion,
     natural_gap,
     not_averaged,
     whirl,
 )
+from abu_calc.dynamics.slow.followed import followed
 from abu_calc.dynamics.supports.receptance import reference_imbalance, weighing_amplitude
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.formulas.slow_motion import decay_rate
@@ -121,10 +122,10 @@ def _window(scene: Scene) -> float:
 
 def slow_times(scene: Scene) -> NDArray[np.float64]:
     """Equally spaced times [s] at which slow motion is looked at: like the equations', but it has no ripple."""
-    return np.linspace(0.0, scene.duration, min(len(settling_times(scene)), MOST_TIMES))
+    return np.linspace(0.0, scene.duration, min(settling_count(scene) + 1, MOST_TIMES))
 
 
-def offer(scene: Scene, accuracy: float, times: NDArray[np.float64]) -> Offer:
+def offer(scene: Scene, accuracy: float, times: Times) -> Offer:
     """The envelope at the times [s] if it is as accurate as that. What cannot be accurate enough is not even run."""
     falls = next((effect.name for effect in scene.effects if effect.falling), None)
     reason = f"{falls} is not averaged" if falls else not_averaged(scene)
@@ -139,7 +140,7 @@ def offer(scene: Scene, accuracy: float, times: NDArray[np.float64]) -> Offer:
         return Offer(None, str(error).splitlines()[0])
 
 
-def _followed(scene: Scene, limit: float, tolerance: float, times: NDArray[np.float64]) -> Offer:
+def _followed(scene: Scene, limit: float, tolerance: float, times: Times) -> Offer:
     """The envelope by its two orders, their difference and what neither knows of."""
     leading, full = (averaged(scene, tolerance, order) for order in (1, 2))
     free = free_amplitude(scene, _window(scene)) / max(full.axis_amplitude, weighing_amplitude(scene))
@@ -147,9 +148,8 @@ def _followed(scene: Scene, limit: float, tolerance: float, times: NDArray[np.fl
     error = LEADING * difference(scene, leading, full) + _slowness(scene) + free + ripple
     if not error <= limit:
         return Offer(error, f"the error of the averages is estimated at {error:.2g}")
-    slow = envelope(scene, tolerance, times)
-    work = leading.evaluations + full.evaluations + slow.evaluations
-    run = Trajectory(times, motion(scene, slow), "scipy-lsoda", tolerance, work, slow.steps)
+    run = followed(scene, tolerance, times)
+    run = replace(run, evaluations=leading.evaluations + full.evaluations + run.evaluations)
     return Offer(error, "the averages are accurate enough, and cost less than the equations", run)
 
 

@@ -4,8 +4,9 @@ import math
 from dataclasses import replace
 from typing import Final
 
+from abu_calc.analysis.course import Course
 from abu_calc.analysis.differences import QUANTITIES
-from abu_calc.analysis.response import Response, evaluate, needed_times
+from abu_calc.analysis.response import Response, evaluate, sampling
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import Choice
 from abu_calc.dynamics.scene import Scene
@@ -59,8 +60,10 @@ def _growth(scene: Scene, response: Response, choice: Choice, tolerance: float, 
     """By how much an error at the start has grown in amplitude and angles; 0 where that run cannot be finished."""
     moved = replace(scene, races=tuple(replace(race, start_angles=_moved(race.start_angles)) for race in scene.races))
     try:
-        trajectory = choice.integrate(assemble(moved), tolerance, needed_times(moved), choice.evaluations(most))
-        apart = [QUANTITIES[key](scene, evaluate(moved, trajectory), response) for key in ("amplitude", "angles")]
+        course, times = Course(moved), sampling(moved)
+        trajectory = choice.integrate(assemble(moved), tolerance, times.read_by(course), choice.evaluations(most))
+        found = evaluate(moved, trajectory, course)
+        apart = [QUANTITIES[key](scene, found, response) for key in ("amplitude", "angles")]
     except NotTrustworthyError:
         return 0.0
     return max(apart) / MOVED

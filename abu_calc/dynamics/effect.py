@@ -14,7 +14,7 @@ from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.rotor import STEADY, Rotor
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Samples
 
 Kind = Literal["conservative", "dissipative", "driven"]
 
@@ -238,8 +238,11 @@ class Effect:
         """Power [W] it puts in, by the coordinates' own motion; negative where it takes out."""
         return 0.0
 
-    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
-        """What a user should know of a run: that it left the range in which the effect holds, for instance."""
+    def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
+        """What a user should know of a run: that it left the range in which the effect holds, for instance.
+
+        A long run is shown block by block, until there is something to say.
+        """
         return ()
 
     def weight(self, scene: Circumstances) -> Weight:

@@ -44,6 +44,12 @@ class Scene(Circumstances):
         return tuple(name for effect in self.effects for name in effect.ball_states)
 
     @property
+    def state_count(self) -> int:
+        """Of its equations."""
+        balls = (2 + len(self.ball_states)) * len(self.ball_masses)
+        return 2 * len(self.support.names) + balls + len(self.rotor.states)
+
+    @property
     def balls_meet(self) -> bool:
         """Whether any effect says so."""
         return any(effect.balls_meet for effect in self.effects)

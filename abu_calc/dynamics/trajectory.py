@@ -1,22 +1,41 @@
-"""What an integrator hands on."""
+"""What an integrator hands on, and which samples it is asked for."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
-class Trajectory:
-    """States over time: y[state, time] at the times asked for, in ascending order [s]; a run that fails raises.
+class Samples:
+    """States over time: y[state, time] at times [s] in ascending order."""
+
+    t: Array
+    y: Array
+
+    def at(self, times: Sequence[float] | Array) -> Array:
+        """y at some of these times; raises ValueError for any other."""
+        wanted = np.asarray(times, dtype=float)
+        index = np.minimum(np.searchsorted(self.t, wanted), len(self.t) - 1)
+        if not np.array_equal(self.t[index], wanted):
+            raise ValueError("the trajectory was not sampled at these times")
+        first = int(index[0]) if len(index) else 0
+        together = slice(first, first + len(index))
+        # What stands together needs no copy: the amplitude window of a long run is large.
+        return self.y[:, together if np.array_equal(self.t[together], wanted) else index]
+
+
+@dataclass(frozen=True)
+class Trajectory(Samples):
+    """A whole run, at the times asked for; one that fails raises.
 
     `evaluations` counts calls of the right-hand side and of what is watched (order × steps stands for them with heyoka,
     which makes none).
     """
 
-    t: NDArray[np.float64]
-    y: NDArray[np.float64]
     integrator: str
     tolerance: float
     evaluations: int
@@ -24,10 +43,31 @@ class Trajectory:
     events: int = 0
     """Switches of modes."""
 
-    def at(self, times: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
-        """y at times that were asked for of the integrator; raises ValueError for any other."""
-        wanted = np.asarray(times, dtype=float)
-        index = np.minimum(np.searchsorted(self.t, wanted), len(self.t) - 1)
-        if not np.array_equal(self.t[index], wanted):
-            raise ValueError("the trajectory was not sampled at these times")
-        return self.y[:, index]
+
+Reader = Callable[[Samples], None]
+"""Takes what it needs of some samples; their arrays are used again afterwards."""
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Times [s] at which a run is sampled, ascending; `readers` are shown all samples, block by block, in their order.
+
+    `held`: those of the times that stay in the trajectory; None: all of them.
+    """
+
+    times: Array
+    held: Array | None = None
+    readers: tuple[Reader, ...] = ()
+
+    @classmethod
+    def of(cls, times: "Times") -> "Sampling":
+        """At times that are all held, if they are no sampling yet."""
+        return times if isinstance(times, Sampling) else cls(np.asarray(times, dtype=float))
+
+    def read_by(self, *readers: Reader) -> "Sampling":
+        """The same times for others to read."""
+        return replace(self, readers=readers)
+
+
+Times = Sequence[float] | Array | Sampling
+"""What an integrator is asked for."""

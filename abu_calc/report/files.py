@@ -4,7 +4,7 @@ import csv
 import io
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -60,19 +60,19 @@ def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> 
         raise OutputError(f"{path} exists already", remedy="Choose another name, or overwrite it with --force.")
 
 
-def write(path: Path, text: str) -> None:
-    """Write a file whole or not at all: beside it first, then put in its place."""
+def write(path: Path, text: str | Iterable[str]) -> None:
+    """Write a file whole or not at all: beside it first, then put in its place. A long text may come in pieces."""
     try:
-        _write(path, text)
+        _write(path, [text] if isinstance(text, str) else text)
     except OSError as error:
         raise OutputError(f"{path} cannot be written: {error.strerror}") from error
 
 
-def _write(path: Path, text: str) -> None:
+def _write(path: Path, pieces: Iterable[str]) -> None:
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.absolute().parent)
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+            file.writelines(pieces)
         Path(name).chmod(path.stat().st_mode if path.exists() else 0o666 & ~_umask())
         Path(name).replace(path)
     except BaseException:

@@ -1,7 +1,6 @@
 """A motion as CSV: the axis in mm, ball angles in degrees, unwrapped."""
 
-import csv
-import io
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -9,13 +8,14 @@ from abu_calc.studies.motion import Motion
 
 DIGITS = 12
 
+BLOCK = 10_000
+"""Rows that are text at once: a million of them would take a gigabyte."""
 
-def trajectory_csv(motion: Motion) -> str:
-    """Columns t_s, x_mm, y_mm, ball1_deg, …; a row for each time."""
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    balls = range(1, len(motion.ball_angles_deg) + 1)
-    writer.writerow(("t_s", "x_mm", "y_mm", *(f"ball{k}_deg" for k in balls)))
-    for row in np.vstack([motion.t_s, motion.x_mm, motion.y_mm, motion.ball_angles_deg]).T.tolist():
-        writer.writerow([f"{value:.{DIGITS}g}" for value in row])
-    return buffer.getvalue()
+
+def trajectory_csv(motion: Motion) -> Iterator[str]:
+    """Columns t_s, x_mm, y_mm, ball1_deg, …; a row for each time; in pieces of some rows each."""
+    yield ",".join(("t_s", "x_mm", "y_mm", *(f"ball{k + 1}_deg" for k in range(len(motion.ball_angles_deg))))) + "\n"
+    for first in range(0, len(motion.t_s), BLOCK):
+        part = slice(first, first + BLOCK)
+        rows = np.vstack([motion.t_s[part], motion.x_mm[part], motion.y_mm[part], motion.ball_angles_deg[:, part]]).T
+        yield "".join(",".join([f"{value:.{DIGITS}g}" for value in row]) + "\n" for row in rows.tolist())

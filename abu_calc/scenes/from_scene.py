@@ -197,9 +197,7 @@ def lasting(scene: Scene, duration: float | None, key: str) -> Scene:
     RangeError with `key` as its place.
     """
     wanted = scene.duration if duration is None else duration
-    balls, turning = len(scene.ball_masses), len(scene.rotor.states)
-    states = 2 * len(scene.support.names) + (2 + len(scene.ball_states)) * balls + turning
-    longest = MOST_VALUES / states * scene.revolution
+    longest = MOST_VALUES / scene.state_count * scene.revolution
     least = max((scene.revolution, *(effect.least_duration for effect in scene.effects)))
     remedy = "one revolution and the run-up at least; at most what this version can integrate"
     try:

@@ -78,7 +78,7 @@ def simulate(
         provenance=subject.provenance,
         description=in_words(run.scene),
         start=subject.start,
-        motion=Motion.of(run, times) if times else None,
+        motion=Motion.of(run, times) if len(times) else None,
         run=run,
     )
 

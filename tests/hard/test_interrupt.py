@@ -10,10 +10,13 @@ from pathlib import Path
 import pytest
 
 from abu_calc.cli import app, start
+from abu_calc.dynamics.integrators.compiled import code
 from tests.cli.runner import abu
 from tests.spec.scenes import SCENE
 
 pytestmark = pytest.mark.hard
+
+LIBRARIES = {"compiled": "llvmlite", "heyoka": "heyoka"}
 
 
 def _heed_interrupts() -> None:
@@ -21,14 +24,16 @@ def _heed_interrupts() -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows knows no SIGINT for one process")
-@pytest.mark.parametrize("integrator", ["scipy", "heyoka"])
+@pytest.mark.parametrize("integrator", ["scipy", "compiled", "heyoka"])
 def test_a_long_simulation_is_interrupted(integrator: str, tmp_path: Path) -> None:
     """Hours of work end within seconds of the signal: one line, no traceback, status 130, and the folder as before.
 
     However slow the machine: while it still imports, Python itself may end with the signal, which shells call 130 too.
     """
-    if integrator == "heyoka":
-        pytest.importorskip("heyoka")
+    if integrator in LIBRARIES:
+        pytest.importorskip(LIBRARIES[integrator])
+    if integrator == "compiled" and not code.installed():
+        pytest.skip("compiled code was not tried on this system")
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.replace("duration_s = 700.0", "duration_s = 1000000.0"), encoding="utf-8")
     files = "--output", str(tmp_path / "out.json"), "--trajectory", str(tmp_path / "motion.csv")

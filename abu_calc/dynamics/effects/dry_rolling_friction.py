@@ -22,7 +22,7 @@ from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Samples
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.validity import Range
 
@@ -118,13 +118,13 @@ class DryRollingFriction(Effect):
             speed = sigma * m.xp.sqrt(sigma * (along * along + m.rolled * m.rolled) + (1 - sigma))
         return -self.coefficient * (p.masses * mode.side * solved.normal).dot(speed)
 
-    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
+    def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """The first sample at which a ball is off the outer side of its race, counting all balls as rolling."""
         p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
         index, first_modes = p.effects.index(self), equations.first_modes
         if first_modes[index] is None:
             return ()
-        for t, y in zip(trajectory.t, trajectory.y.T, strict=True):
+        for t, y in zip(samples.t, samples.y.T, strict=True):
             sigma = np.sign(y[first : first + p.balls])
             direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
             mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))

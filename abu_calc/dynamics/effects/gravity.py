@@ -16,7 +16,7 @@ from abu_calc.dynamics.effect import Effect, Kind, Laws, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
 from abu_calc.units import GRAVITY
 
@@ -59,13 +59,13 @@ class Gravity(Effect):
             height = height + p.masses.sum() * m.offset[1]
         return self.acceleration * height
 
-    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
+    def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """A warning when a ball would fall off its race: R_p γ'² < g sin γ. The equations hold it there."""
         scene = equations.scene
         first, balls = 2 * len(scene.support.names), len(scene.ball_masses)
-        places, rates = trajectory.y[first : first + balls], trajectory.y[first + balls : first + 2 * balls]
-        turn, speed = scene.rotor.turning(trajectory.t, trajectory.y, scene.speed)
-        carried = equations.parameters.geometry.turning(trajectory.y[:first])
+        places, rates = samples.y[first : first + balls], samples.y[first + balls : first + 2 * balls]
+        turn, speed = scene.rotor.turning(samples.t, samples.y, scene.speed)
+        carried = equations.parameters.geometry.turning(samples.y[:first])
         if carried is not None:
             turn, speed = turn + carried[0], speed + carried[1]
         radii = np.array([[race.pitch_radius] for race in scene.races for _ in race.ball_masses])
@@ -75,7 +75,7 @@ class Gravity(Effect):
         sample = int(falls.any(axis=0).argmax())
         ball = 1 + int(falls[:, sample].argmax())
         return (
-            f"gravity: ball {ball} would fall off its race at t = {trajectory.t[sample]:.4g} s, where it is pulled "
+            f"gravity: ball {ball} would fall off its race at t = {samples.t[sample]:.4g} s, where it is pulled "
             "harder than it is pressed; here it is held",
         )
 

@@ -29,7 +29,7 @@ from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weig
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance, weighing_amplitude
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
 
@@ -196,21 +196,21 @@ class GrindingContact(Effect):
         normal = solved.reaction if self.contact == "rigid" else self.pressed(m, mode, p)
         return self._force(m, p, normal).dot(p.rotor.on_frame(p.geometry.rates(m, p), m.speed))
 
-    def normal_forces(self, equations: Laws, trajectory: Trajectory) -> Array:
+    def normal_forces(self, equations: Laws, samples: Samples) -> Array:
         """N [N] at the samples of a run; 0 where wheel and work are apart, and negative where a rigid contact pulls.
 
         Balls that stick by dry friction count as rolling.
         """
         p, acting = equations.parameters, equations.in_mode(equations.first_modes)
-        found = [equations.accelerations(np, t, y, acting) for t, y in zip(trajectory.t, trajectory.y.T, strict=True)]
+        found = [equations.accelerations(np, t, y, acting) for t, y in zip(samples.t, samples.y.T, strict=True)]
         if self.contact == "rigid":
             return np.array([solved.reaction for _, _, solved in found], dtype=float)
         return np.array([max(self.pressed(m, TOUCHING, p), 0.0) for m, _, _ in found], dtype=float)
 
-    def remarks(self, equations: Laws, trajectory: Trajectory) -> tuple[str, ...]:
+    def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """Whether wheel and work part in the last twentieth of the run."""
-        late = trajectory.t >= 0.95 * equations.scene.duration
-        last = replace(trajectory, t=trajectory.t[late], y=trajectory.y[:, late])
+        late = samples.t >= 0.95 * equations.scene.duration
+        last = replace(samples, t=samples.t[late], y=samples.y[:, late])
         if self.contact == "face" or not late.any() or self.normal_forces(equations, last).min() > 0:
             return ()
         text = "wheel and work {}: press harder, or run the wheel truer"

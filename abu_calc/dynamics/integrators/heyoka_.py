@@ -24,11 +24,13 @@ from abu_calc.dynamics.parameters import Acting, Modes
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.tracing.plain import functions
 from abu_calc.dynamics.tracing.traced import cached, numbers_of, trace
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Times, Trajectory
 
 COMPILED = 1e-9, 1e-12, 1e-15
 """heyoka's own tolerances: orders 12, 15 and 19. The first that leaves even angles of balls that stand still in space,
 which grow with every turn, below 1."""
+
+LEAST_ORDER = 12
 
 MOST_UNROLLED = 120
 """Products in a smooth scene's equations up to which its code is unrolled: it runs in half the time, but takes two
@@ -58,7 +60,7 @@ def load() -> None:
 def integrate(
     equations: Equations,
     tolerance: float,
-    sample_times: Sequence[float] | Array,
+    sample_times: Times,
     most_evaluations: int = MOST_EVALUATIONS,
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending.
@@ -77,7 +79,7 @@ class _Run(Run):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.numbers = numbers_of(self.equations)
+        self.per_step, self.numbers = LEAST_ORDER, numbers_of(self.equations)
         turned = max(1.0, self.equations.scene.speed * float(self.samples[-1]))
         self.compiled = next((one for one in COMPILED if one * turned <= self.tolerance), COMPILED[-1])
         self.units = np.array(self.equations.scales) * (self.tolerance / self.compiled)
@@ -103,11 +105,13 @@ class _Run(Run):
         wanted = self.samples[self.done : np.searchsorted(self.samples, bound, side="right")]
         times = np.concatenate([[t], wanted, [bound] if bound not in wanted[-1:] else []])
         rows, stopped = self._propagate(integrator, times)
-        states = (rows * self.units).T
+        rows *= self.units
+        states = rows.T
         self.fill(states[:, 1 : 1 + len(wanted)])
         if stopped:
             return float(integrator.time), integrator.state * self.units, True
-        return bound, states[:, -1], False
+        # A copy: all these rows need not stay until the next are there.
+        return bound, states[:, -1].copy(), False
 
     def _put(self, integrator: Any, t: float, state: Array) -> None:
         integrator.time, integrator.state[:] = t, state / self.units

@@ -1,17 +1,17 @@
 """What all integrators share: the way from event to event, and how a run is refused, given up and handed on."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.integrators.recorder import Recorder
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
-from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.dynamics.trajectory import Sampling, Times, Trajectory
+from abu_calc.errors import NotTrustworthyError
 from abu_calc.validity import Range
 
 Array = NDArray[np.float64]
@@ -37,27 +37,32 @@ class Run(ABC):
 
     equations: Equations
     tolerance: float
-    sample_times: Sequence[float] | Array
+    sample_times: Times
     most_evaluations: int
     evaluations: int = 0
     steps: int = 0
     events: int = 0
-    done: int = 0
-    """How many samples are filled."""
+    recorder: Recorder = field(init=False)
     samples: Array = field(init=False)
-    states: Array = field(init=False)
+    longest: float = field(init=False)
+    """No step is longer [s]."""
+    per_step: int = field(init=False, default=1)
+    """Evaluations that a step takes at the least."""
 
     def __post_init__(self) -> None:
         TOLERANCE.check(self.tolerance)
-        self.samples = samples = np.asarray(self.sample_times, dtype=float)
-        if not (len(samples) and samples[0] >= 0 and 0 < samples[-1] < np.inf and np.all(np.diff(samples) > 0)):
-            raise InputError("sample times must be finite and ascend from 0 or later")
-        self.states = np.empty((len(self.equations.states), len(samples)))
+        self.recorder = Recorder(Sampling.of(self.sample_times))
+        self.samples, self.longest = self.recorder.sampling.times, self.equations.longest_step
 
     @property
     @abstractmethod
     def name(self) -> str:
         """Of the integrator."""
+
+    @property
+    def done(self) -> int:
+        """How many samples are filled."""
+        return self.recorder.done
 
     @abstractmethod
     def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
@@ -65,12 +70,16 @@ class Run(ABC):
 
     def trajectory(self) -> Trajectory:
         """The whole run. Raises NotTrustworthyError, naming the time, when it cannot be finished."""
+        least = float(self.samples[-1]) / self.longest * self.per_step
+        if least > self.most_evaluations:
+            raise too_much(f"at least {least:.3g}", self.most_evaluations)
         # Overflow and invalid numbers are looked for as the run goes on, where the time can be told.
         with np.errstate(all="ignore"):
             self._go()
+        samples = self.recorder.samples()
         return Trajectory(
-            t=self.samples,
-            y=self.states,
+            t=samples.t,
+            y=samples.y,
             integrator=self.name,
             tolerance=self.tolerance,
             evaluations=self.evaluations,
@@ -80,9 +89,7 @@ class Run(ABC):
 
     def fill(self, states: Array) -> None:
         """The next samples, one column each."""
-        more = self.done + states.shape[1]
-        self.states[:, self.done : more] = states
-        self.done = more
+        self.recorder.fill(states)
 
     def _go(self) -> None:
         equations, end = self.equations, float(self.samples[-1])
@@ -120,6 +127,14 @@ def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
     """The error of a run that was given up at its bound."""
     did = f"{evaluations} evaluations" + (f" and {events} events" if events else "")
     return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"))
+
+
+def too_much(found: str, most: int) -> TooMuchWorkError:
+    """The error for a run that is not begun, since so many evaluations are not allowed."""
+    return TooMuchWorkError(
+        f"the run takes more work than allowed (found {found} evaluations; allowed: {most:.3g})\n"
+        "  shorten the run, or ask for less accuracy"
+    )
 
 
 def lost(t: float, reason: str) -> NotTrustworthyError:

@@ -3,7 +3,6 @@ Radau IIA of order 5 where the equations are stiff (Hairer & Wanner 1996, the se
 """
 
 import importlib
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,7 +16,7 @@ from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import starting, watches
 from abu_calc.dynamics.tracing.plain import Function, functions
 from abu_calc.dynamics.tracing.traced import numbers_of
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Times, Trajectory
 
 if TYPE_CHECKING:
     from scipy.integrate import OdeSolver
@@ -31,6 +30,9 @@ KINDS = {
     "scipy-radau": "Radau",
     "scipy-bdf": "BDF",
 }
+
+STAGES = {"scipy-dop853": 12, "scipy-rk45": 6}
+"""Evaluations of every step; those of the other methods vary."""
 
 LOOSE, ORDER = 1e-3, 8
 """Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
@@ -56,7 +58,7 @@ def is_stiff(equations: Equations) -> bool:
 def integrate(
     equations: Equations,
     tolerance: float,
-    sample_times: Sequence[float] | Array,
+    sample_times: Times,
     most_evaluations: int = MOST_EVALUATIONS,
     method: Method = "scipy-dop853",
 ) -> Trajectory:
@@ -78,7 +80,8 @@ class _Run(Run):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.longest = self.equations.longest_step * min(1.0, (self.tolerance / LOOSE) ** (1 / ORDER))
+        self.per_step = STAGES.get(self.method, 1)
+        self.longest *= min(1.0, (self.tolerance / LOOSE) ** (1 / ORDER))
         self.step = self.longest / 100
         self.numbers = numbers_of(self.equations)
 

@@ -47,8 +47,10 @@ class Envelope:
     steps: int
 
 
-def envelope(scene: Scene, tolerance: float, sample_times: Array, order: int = 2) -> Envelope:
-    """The slow motion from the scene's start through `sample_times` [s], the first of which is 0, by LSODA.
+def envelope(
+    scene: Scene, tolerance: float, sample_times: Array, order: int = 2, start: Array | None = None
+) -> Envelope:
+    """The slow motion through `sample_times` [s] by LSODA, from the scene's start at the first, 0, or from another.
 
     Balls that do not turn with the rotor at first are beyond it only in their first turns. Raises NotTrustworthyError
     when the integration fails.
@@ -58,7 +60,8 @@ def envelope(scene: Scene, tolerance: float, sample_times: Array, order: int = 2
     solve: Any = scipy.integrate.odeint  # it takes a tolerance for each state, though its type stubs know one only
     model, balls = averages(scene), len(scene.ball_masses)
     speeds = np.array([speed for race in scene.races for speed in race.start_speeds])
-    start = np.concatenate([scene.start_angles, speeds + model.kick if order > 1 else speeds])
+    if start is None:
+        start = np.concatenate([scene.start_angles, speeds + model.kick if order > 1 else speeds])
     scales = tolerance * np.repeat((1.0, ball_rate(scene)), balls)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what went wrong is asked for

@@ -1,7 +1,6 @@
 """Integration in compiled code, from one general decision to the next: steps, events and natural next modes."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Any
 
@@ -13,14 +12,14 @@ from abu_calc.dynamics.integrators.compiled import arrays
 from abu_calc.dynamics.integrators.compiled.code import Code, code, text
 from abu_calc.dynamics.integrators.compiled.layout import constants, decides, layout, numbers_places, rules
 from abu_calc.dynamics.integrators.compiled.loop import ROWS
-from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.integrators.compiled.order import Places, in_order
 from abu_calc.dynamics.integrators.compiled.plain import Plain
 from abu_calc.dynamics.integrators.compiled.program import widened
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, exceeded, lost
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.tracing.traced import Numbers, cached
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Times, Trajectory
 
 NAME, PLAIN = "compiled-rk45", "plain-rk45"
 """The method, with a compiler and without."""
@@ -28,6 +27,9 @@ NAME, PLAIN = "compiled-rk45", "plain-rk45"
 AT_ONCE = 20_000
 """Evaluations between two returns from compiled code, within which no interrupt is heard: some hundredths of a
 second."""
+
+STAGES = 6
+"""Evaluations of a step."""
 
 REASONS = {
     arrays.NOT_FINITE: NOT_FINITE,
@@ -39,7 +41,7 @@ REASONS = {
 def integrate(
     equations: Equations,
     tolerance: float,
-    sample_times: Sequence[float] | Array,
+    sample_times: Times,
     most_evaluations: int = MOST_EVALUATIONS,
     compiled: bool = True,
 ) -> Trajectory:
@@ -48,17 +50,19 @@ def integrate(
     Raises as SciPy's does, and CompilerError where there is no compiler that works.
     """
     ordered, places = in_order(equations)
-    found = _Run(ordered, tolerance, sample_times, most_evaluations, compiled=compiled).trajectory()
-    y = np.empty_like(found.y)
-    y[places] = found.y
-    return replace(found, y=y)
+    given = np.argsort(places)
+    return _Run(ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled).trajectory()
 
 
 @dataclass
 class _Run(Run):
-    """One integration in compiled code, or in the same code as plain Python; the balls are in order."""
+    """One integration in compiled code, or in the same code as plain Python.
 
-    compiled: bool = True
+    The balls are in order, and handed on in the order `given`.
+    """
+
+    given: Places = field(kw_only=True)
+    compiled: bool = field(kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -73,10 +77,10 @@ class _Run(Run):
         self.constants = constants(equations, self.modes, self.tolerance)
         self.parameters = np.empty(program.parameters)
         self.room = np.zeros(self._room(program.values))
-        self.rows = np.zeros((len(self.samples), len(equations.states)))
         self.clock = np.array([0.0, self.constants[arrays.LONGEST] / 100, 0.0])
         self.counts = np.zeros(arrays.COUNTS, dtype=np.int64)
-        self.counts[arrays.MOST], self.counts[arrays.SAMPLES] = self.most_evaluations, len(self.samples)
+        self.counts[arrays.MOST] = self.most_evaluations
+        self.per_step, self.longest = STAGES, float(self.constants[arrays.LONGEST])
 
     @property
     def name(self) -> str:
@@ -120,13 +124,9 @@ class _Run(Run):
         self.constants[arrays.END] = bound
         how = arrays.PAUSED
         while how == arrays.PAUSED:
-            self.counts[arrays.PAUSE] = self.counts[arrays.EVALUATIONS] + AT_ONCE
-            how = self.code.go(
-                self.state, self.numbers, self.parameters, self.layout, self.constants, self.clock, self.counts,
-                self.samples, self.rows, self.room,
-            )  # fmt: skip
-        self.steps, self.evaluations, self.events, self.done = (
-            int(self.counts[one]) for one in (arrays.STEPS, arrays.EVALUATIONS, arrays.EVENTS, arrays.DONE)
+            how = self._go_on()
+        self.steps, self.evaluations, self.events = (
+            int(self.counts[one]) for one in (arrays.STEPS, arrays.EVALUATIONS, arrays.EVENTS)
         )
         now = float(self.clock[arrays.TIME])
         if how == arrays.TOO_MUCH:
@@ -134,6 +134,20 @@ class _Run(Run):
         if how in REASONS:
             raise lost(now, REASONS[how])
         return now, self.state, how == arrays.UNDECIDED
+
+    def _go_on(self) -> int:
+        """Up to the next return from compiled code, with the samples that come until then."""
+        far = float(self.clock[arrays.TIME]) + (AT_ONCE / STAGES + 2) * self.longest
+        times = self.samples[self.done : np.searchsorted(self.samples, far, side="right")]
+        rows = np.empty((len(times), len(self.state)))
+        self.counts[arrays.DONE], self.counts[arrays.SAMPLES] = 0, len(times)
+        self.counts[arrays.PAUSE] = self.counts[arrays.EVALUATIONS] + AT_ONCE
+        how = self.code.go(
+            self.state, self.numbers, self.parameters, self.layout, self.constants, self.clock, self.counts, times,
+            rows, self.room,
+        )  # fmt: skip
+        self.fill(rows[: self.counts[arrays.DONE]].T[self.given])
+        return int(how)
 
     def _go(self) -> None:
         equations, end = self.equations, float(self.samples[-1])
@@ -155,7 +169,6 @@ class _Run(Run):
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)
-        self.states = self.rows.T
 
 
 def prepared(equations: Equations) -> tuple[Code, Array]:
