@@ -1,13 +1,15 @@
-"""What scenes that switch cost, by each integrator there is, beside how far off it is.
+"""What scenes that switch cost, by each integrator there is, beside an older version, at equal error.
 
-    python -m tests.benchmarks.switching [folder of references to write or read]
+    python -m tests.benchmarks.switching [PYTHON OF AN ENVIRONMENT WITH THE OLDER VERSION]
 
-Times are CPU times of the integration alone, the best of a few; errors are `difference` from heyoka (where there is
-none, DOP853) at its tightest.
+Both versions run in turn, each in processes of its own, with all effects. Times are CPU times of the integration alone,
+the best of a few; errors are `difference` from heyoka (where there is none, compiled code) at its tightest.
 """
 
+import json
+import subprocess
 import sys
-import time
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -15,82 +17,84 @@ import numpy as np
 
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.response import evaluate, needed_times
-from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
-from abu_calc.dynamics.integrators.compiled import waiting
-from abu_calc.dynamics.scene import with_parted_balls
-from abu_calc.scenes.from_design import scene_of_design
-from abu_calc.sizing import size
-from abu_calc.spec.read import read_machine
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.trajectory import Trajectory
+from tests.benchmarks.measuring import keep, machine
+from tests.benchmarks.switching_run import MOST, equations_of
 
 CASES = (
     ("avtovaz-707-222", "idle"),
     ("avtovaz-707-222", "grinding"),
-    ("swing-arm-grinder", "swing-arm-idle"),
+    ("swing-arm-grinder", "idle"),
     ("msh-230", "idle"),
     ("avtovaz-707-370", "idle"),
 )
-TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
-MOST = 12_000_000
-LONG = 3.0
-"""Seconds beyond which a run is not repeated."""
-
-
-def equations_of(preset: str, which: str) -> Equations:
-    """A machine's scene with all its effects."""
-    design: Any = size(read_machine(preset).whole("simulate"))
-    return assemble(with_parted_balls(scene_of_design(design, which))[0])
-
-
-def ways(equations: Equations) -> tuple[str, ...]:
-    """Integrators there are."""
-    found = [] if waiting.unfit(equations) else ["compiled-rk45"]
-    return (*found, *(() if choice.unfit(equations) else ("heyoka",)), "scipy-dop853")
-
-
-def timed(way: str, equations: Equations, tolerance: float, moments: np.ndarray) -> tuple[Any, float]:
-    """A run and its time, the best of three unless it is long."""
-    best = np.inf
-    for _ in range(4):
-        begun = time.process_time()
-        found = choice.integrate_with(way, equations, tolerance, moments, MOST)
-        best = min(best, time.process_time() - begun)
-        if best > LONG:
-            break
-    return found, best
+TOLERANCES = ("1e-3", "1e-4", "1e-5", "1e-6", "1e-8")
+ERROR = 1e-3
+RUN = Path(__file__).with_name("switching_run.py")
 
 
 def main() -> None:
-    """Print the table."""
+    """Print the table, and keep the record."""
+    older, cases = sys.argv[1:2], {}
     for preset, which in CASES:
         equations = equations_of(preset, which)
         scene, moments = equations.scene, needed_times(equations.scene)
-        kept = Path(sys.argv[1]) / f"{preset}-{which}.npz" if len(sys.argv) > 1 else None
-        if kept and kept.exists():
-            true = evaluate(scene, _Kept(moments, np.load(kept)["y"]))  # type: ignore[arg-type]
-        else:
-            run = choice.integrate_with(ways(equations)[-2], equations, 1e-12, moments, MOST)
-            true = evaluate(scene, run)
-            if kept:
-                np.savez(kept, y=run.y)
-        print(f"{preset} {which}")
-        for way in ways(equations):
-            for tolerance in TOLERANCES:
-                run, spent = timed(way, equations, tolerance, moments)
-                error = difference(scene, evaluate(scene, run), true)
-                counts = f"{run.events} events, {run.steps} steps, {run.evaluations} evaluations"
-                print(f"  {way:13} {tolerance:6g} {1e3 * spent:9.2f} ms  error {error:8.1e}  {counts}", flush=True)
+        ways = [name for name in choice.available(equations) if name in (choice.COMPILED, choice.PLAIN, "heyoka")]
+        run = choice.integrate_with(ways[-1], equations, 1e-12 if ways[-1] == "heyoka" else 1e-11, moments, MOST)
+        true, rows = evaluate(scene, run), {}
+        for python, way in [*((one, way) for one in older for way in ("heyoka", "scipy-dop853")),
+                            *((sys.executable, way) for way in (*ways, "scipy-dop853"))]:  # fmt: skip
+            name = way if python == sys.executable else f"older {way}"
+            few = TOLERANCES if way in (choice.COMPILED, choice.PLAIN) else TOLERANCES[:2]
+            rows[name] = measured(python, preset, which, way, few, scene, moments, true)
+            report(preset, which, name, rows[name])
+        cases[f"{preset} {which}"] = {"runs": rows, "at_error": ERROR, "times_faster": compared(rows)}
+        print(f"  times faster at {ERROR:g}: {cases[f'{preset} {which}']['times_faster']}", flush=True)
+    command = "python -m tests.benchmarks.switching" + (" PYTHON" if older else "")
+    what = "CPU time of the integration alone, best of a few, with all effects; the older version is commit b440fd9"
+    print(keep("switching", what, command, machine("not bound"), 0, cases))
 
 
-class _Kept:
-    """A reference read back."""
+def measured(
+    python: str, preset: str, which: str, way: str, tolerances: tuple[str, ...], scene: Scene, moments: np.ndarray,
+    true: Any,
+) -> list[dict[str, Any]]:  # fmt: skip
+    """Runs at each tolerance by a process of their own, with their errors."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [python, str(RUN), preset, which, way, folder, *tolerances]
+        lines = subprocess.run(words, capture_output=True, text=True, check=True).stdout.splitlines()
+        rows = [json.loads(line) for line in lines]
+        for row in rows:
+            counted = row["evaluations"], row["steps"], row["events"]
+            found = Trajectory(moments, np.load(row.pop("states")), way, row["tolerance"], *counted)
+            row["error"] = difference(scene, evaluate(scene, found), true)
+    return rows
 
-    def __init__(self, t: np.ndarray, y: np.ndarray) -> None:
-        self.t, self.y = t, y
 
-    def at(self, times: np.ndarray) -> np.ndarray:
-        """At moments of its own."""
-        return np.asarray(self.y[:, np.searchsorted(self.t, times)])
+def at_error(rows: list[dict[str, Any]]) -> float | None:
+    """CPU time [s] of the quickest run that is as accurate as asked for."""
+    return min((row["cpu_s"] for row in rows if row["error"] <= ERROR), default=None)
+
+
+def compared(rows: dict[str, list[dict[str, Any]]]) -> dict[str, float]:
+    """How many times faster than the older version: with the extra than with it, without than without."""
+    pairs = ((choice.COMPILED, "older heyoka"), (choice.PLAIN, "older scipy-dop853"))
+    found = {}
+    for new, old in pairs:
+        ours, theirs = (at_error(rows.get(name, [])) for name in (new, old))
+        if ours and theirs:
+            found[f"{new} / {old}"] = round(theirs / ours, 1)
+    return found
+
+
+def report(preset: str, which: str, name: str, rows: list[dict[str, Any]]) -> None:
+    """A line for each run."""
+    for row in rows:
+        counts = f"{row['events']} events, {row['steps']} steps, {row['evaluations']} evaluations"
+        print(f"{preset} {which}  {name:18} {row['tolerance']:6g} {1e3 * row['cpu_s']:9.2f} ms  "
+              f"error {row['error']:8.1e}  {counts}", flush=True)  # fmt: skip
 
 
 if __name__ == "__main__":

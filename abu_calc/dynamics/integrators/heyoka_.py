@@ -11,6 +11,8 @@ below 1, and one compiled order serves many tolerances.
 """
 
 import importlib
+import os
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.integrators.compiled.cache import FOLDER
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, exceeded, lost
 from abu_calc.dynamics.parameters import Acting, Modes
 from abu_calc.dynamics.switching.modes import watches
@@ -47,9 +50,12 @@ AT_ONCE = 10_000
 """Revolutions between two returns from heyoka, within which no interrupt is heard: some tenths of a second."""
 
 
-ON_DISK = 200_000_000
-"""Bytes of compiled code that are kept on disk, a hundred structures or so: what heyoka finds there it counts through
+ON_DISK = 50_000_000
+"""Bytes of compiled code that are kept on disk, some dozens of structures: what heyoka finds there it counts through
 each time, which takes it a third of a second for a gigabyte."""
+
+DAMAGED = "corrupt", "malformed", "not a database"
+"""What heyoka says of a folder that holds something else than it wrote."""
 
 
 def load() -> None:
@@ -192,8 +198,25 @@ def _compile(equations: Equations, acting: Acting, tolerance: float) -> _Compile
 
 
 def _keep_apart(state: Any) -> None:
-    """Beside heyoka's own folder, which it lets grow to twenty gigabytes; another one that somebody chose stays."""
+    """Beside heyoka's own folder, which it lets grow to twenty gigabytes; another one that somebody chose stays.
+
+    A folder that is damaged is emptied, one that cannot be used is done without, which a warning tells once.
+    """
     path = Path(state.get_diskcache_path())
-    if path.name == "heyoka":
-        state.set_diskcache_path(str(path.with_name("abu-calc")))
-        state.set_diskcache_limit(ON_DISK)
+    if path.name != "heyoka":
+        return
+    folder = Path(os.environ.get(FOLDER) or path.with_name("abu-calc"))
+    state.set_diskcache_path(str(folder))
+    try:
+        try:
+            state.set_diskcache_limit(ON_DISK)
+        except RuntimeError as error:
+            if not any(word in str(error) for word in DAMAGED):
+                raise
+            for file in folder.glob("cache.db*"):
+                file.unlink(missing_ok=True)
+            state.set_diskcache_limit(ON_DISK)
+    except (RuntimeError, OSError) as error:
+        state.set_diskcache_enabled(False)
+        reason = str(error).splitlines()[0]
+        warnings.warn(f"heyoka's compiled code is not kept: {folder}: {reason}", RuntimeWarning, stacklevel=2)
