@@ -3,10 +3,9 @@
 import hashlib
 import importlib.util
 import math
-import sys
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -103,13 +102,9 @@ def known(structure: object) -> bool:
     return structure in _codes
 
 
-TRIED: Final = ("linux",)
-"""Systems on which compiled code has run."""
-
-
 def installed() -> bool:
-    """Whether there is a compiler, on a system on which what it makes was tried: a crash in it ends the process."""
-    return sys.platform in TRIED and importlib.util.find_spec("llvmlite") is not None
+    """Whether there is a compiler."""
+    return importlib.util.find_spec("llvmlite") is not None
 
 
 def on_disk(functions: Program) -> bool:

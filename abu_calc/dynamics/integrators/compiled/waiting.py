@@ -3,7 +3,7 @@
 import warnings
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.integrators.compiled import code
+from abu_calc.dynamics.integrators.compiled import code, trial
 from abu_calc.dynamics.integrators.compiled.machine import CompilerError
 from abu_calc.dynamics.integrators.compiled.order import in_order
 from abu_calc.dynamics.integrators.compiled.run import described, prepared
@@ -51,6 +51,7 @@ def load(equations: Equations) -> bool:
     """Make the code of a scene. False, with a warning once, where compiled code does not run on this machine."""
     if not _broken:
         try:
+            trial.passed()
             prepared(in_order(equations)[0])
         except CompilerError as error:
             _give_up(error)
