@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, Rule, SwitchPoint, Weight
@@ -28,6 +29,9 @@ from abu_calc.validity import Range
 
 LEAVES = 1e-4
 """A ball pulled inward by more of m R_p Ω² than this is worth a warning: near standstill less means nothing."""
+
+ASKED = 200
+"""Samples of a run that are asked whether balls leave their race, twice: evenly spread, and where balls are slow."""
 
 
 @dataclass(frozen=True)
@@ -119,12 +123,17 @@ class DryRollingFriction(Effect):
         return -self.coefficient * (p.masses * mode.side * solved.normal).dot(speed)
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """The first sample at which a ball is off the outer side of its race, counting all balls as rolling."""
+        """The first sample at which a ball is off the outer side of its race, counting all balls as rolling.
+
+        Of many samples some are asked, each of which takes as long as ten steps: every so many, and where balls turn
+        slowest, which is where they leave the race first.
+        """
         p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
         index, first_modes = p.effects.index(self), equations.first_modes
         if first_modes[index] is None:
             return ()
-        for t, y in zip(samples.t, samples.y.T, strict=True):
+        asked = self._asked(equations, samples)
+        for t, y in zip(samples.t[asked], samples.y.T[asked], strict=True):
             sigma = np.sign(y[first : first + p.balls])
             direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
             mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
@@ -138,6 +147,16 @@ class DryRollingFriction(Effect):
                     "outward",
                 )
         return ()
+
+    def _asked(self, equations: Laws, samples: Samples) -> NDArray[np.intp]:
+        """Which samples, in their order."""
+        p, count = equations.parameters, len(samples.t)
+        if count <= 2 * ASKED:
+            return np.arange(count)
+        first = 2 * p.size + p.balls
+        _, speed = equations.scene.rotor.turning(samples.t, samples.y, p.speed)
+        slowest = np.abs(samples.y[first : first + p.balls] + speed).min(axis=0)
+        return np.union1d(np.argpartition(slowest, ASKED)[:ASKED], np.linspace(0, count - 1, ASKED).astype(np.intp))
 
     def holding(self, scene: Circumstances) -> Holding | None:
         """By f of their normal force; without friction by none of it."""
