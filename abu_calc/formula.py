@@ -17,7 +17,7 @@ _Computes = TypeVar("_Computes", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Formula:
-    """What a formula says of itself. Indented lines of `where` are equations, kept as they are.
+    """What is shown of a formula. Indented lines of `where` are equations, not wrapped.
 
     `checked` is the range that the code refuses to leave, `assumed` the part of it that nothing checks.
     """

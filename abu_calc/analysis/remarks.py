@@ -17,7 +17,7 @@ class Remarks:
         self.found: list[tuple[str, ...]] = [() for _ in equations.scene.effects]
 
     def __call__(self, samples: Samples) -> None:
-        """Ask those effects that have said nothing yet."""
+        """Ask the effects that have had no remark yet."""
         first = np.searchsorted(self.needed, samples.t[0])
         here = self.needed[first : np.searchsorted(self.needed, samples.t[-1], side="right")]
         if len(here) < len(samples.t):

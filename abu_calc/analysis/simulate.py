@@ -143,8 +143,8 @@ def _integrated(
             cost = _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why)
             if times.held is None:
                 remarks(trajectory)
-            told = (*warnings, *remarks.texts)
-            return Simulation(scene, runs[1], trajectory, cost, error, told, "equations", offered)
+            texts = (*warnings, *remarks.texts)
+            return Simulation(scene, runs[1], trajectory, cost, error, texts, "equations", offered)
         del trajectory
     if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
         other = _integrated(scene, accuracy, times, most, "heyoka", warnings, offered, progress)

@@ -4,8 +4,7 @@ from collections.abc import Sequence
 
 from abu_calc.fits.joint import CENTRIFUGAL
 from abu_calc.studies.seat_model import BearingModel, SeatModel
-from abu_calc.studies.seat_records import Clearance, SeatResult, um
-from abu_calc.units import from_si
+from abu_calc.studies.seat_records import Clearance, SeatResult
 
 
 def seat_numbers(models: Sequence[BearingModel], seats: Sequence[SeatResult]) -> tuple[str, ...]:
@@ -31,9 +30,9 @@ def _seat(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[st
 
 
 def _fit(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
-    (ei, es), (EI, ES) = map(_um_pair, (model.male_limits_m, model.female_limits_m))
-    mean, sigma = _g(um(model.mean_interference_m)), _g(um(model.sigma_m))
-    spread = "√({}² + {}²)".format(*_um_pair(model.half_tolerances_m))
+    (ei, es), (EI, ES) = map(_both, (model.male_limits_um, model.female_limits_um))
+    mean, sigma = _g(model.mean_interference_um), _g(model.sigma_um)
+    spread = "√({}² + {}²)".format(*_both(model.half_tolerances_um))
     return (
         f"ei − ES … es − EI = {ei} − ({ES}) … {es} − ({EI}) = {_span(seat.interference_um)} µm",
         f"probable: {mean} ∓ {spread} = {_span(seat.probable_interference_um)} µm, outward",
@@ -44,25 +43,25 @@ def _fit(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
 
 def _load(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
     intensity = seat.load_intensity_kN_per_m
-    if model.radial_load_N is None or model.length_m is None or intensity is None:
+    load, length = model.load_in_kilonewtons, model.length_mm
+    if model.radial_load_N is None or load is None or length is None or model.length_m is None or intensity is None:
         return ()
-    kilonewtons = _g(from_si(model.radial_load_N, "kN"))
     source, catalogue = (_g(loss.amount_um) for loss in seat.losses if loss.name == "load")
-    under = f"{_mm(model.diameter_m)}·{_g(model.radial_load_N)}/{_mm(model.width_m)}"
+    under = f"{_g(model.diameter_mm)}·{_g(model.radial_load_N)}/{_g(model.width_mm)}"
     return (
-        f"13·R·k/b = 13·{kilonewtons}·{_g(model.load_factor)}/{_mm(model.length_m)} = {source} µm",
+        f"13·R·k/b = 13·{_g(load)}·{_g(model.load_factor)}/{_g(length)} = {source} µm",
         f"0.08·√(d·F_r/B) = 0.08·√({under}) = {catalogue} µm",
-        f"P_R = k₁·R/b = {model.shock_factor:g}·{kilonewtons}/{_g(model.length_m)} = {_g(intensity)} kN/m",
+        f"P_R = k₁·R/b = {model.shock_factor:g}·{_g(load)}/{_g(model.length_m)} = {_g(intensity)} kN/m",
     )
 
 
 def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
-    bore = _mm(bearing.bore_m)
+    bore = _g(bearing.bore_mm)
     numbers = {
-        "smoothing": f"0.4·{_g(um(model.roughness_m or 0.0))} µm",
+        "smoothing": f"0.4·{_g(model.roughness_um)} µm",
         "temperature": f"{_g(bearing.expansion_per_K)}·{bore} mm·{_g(bearing.ring_temperature_difference_K or 0.0)} K",
         CENTRIFUGAL: f"Ω = {_g(bearing.speed_rad_per_s or 0.0)} rad/s, d = {bore}, d₁ = "
-        f"{_mm(bearing.inner_ring_diameter_m)}, d₀ = {_mm(bearing.shaft_bore_m)} mm",
+        f"{_g(bearing.inner_ring_diameter_mm)}, d₀ = {_g(bearing.shaft_bore_mm)} mm",
     }
     lines = tuple(
         f"{loss.name}: {loss.formula}: {numbers[loss.name]} = {_g(loss.amount_um)} µm"
@@ -76,7 +75,7 @@ def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[
 
 def _stress(model: SeatModel, seat: SeatResult) -> str:
     return (
-        f"Lamé at {_g(max(seat.interference_um[1], 0.0))} µm: p = {_g(from_si(model.tightest_pressure_Pa, 'MPa'))} "
+        f"Lamé at {_g(seat.tightest_um)} µm: p = {_g(model.tightest_pressure_in_megapascals)} "
         f"MPa, hoop stress of the ring {_g(seat.hoop_stress_MPa)} MPa; permitted "
         f"{_g(seat.permitted_interference_um)} µm by {seat.permitted_by}"
     )
@@ -106,12 +105,8 @@ def _span(interval: tuple[float, float]) -> str:
     return " … ".join(map(_g, interval))
 
 
-def _um_pair(pair: tuple[float, float]) -> tuple[str, str]:
-    return _g(um(pair[0])), _g(um(pair[1]))
-
-
-def _mm(length: float) -> str:
-    return _g(from_si(length, "mm"))
+def _both(pair: tuple[float, float]) -> tuple[str, str]:
+    return _g(pair[0]), _g(pair[1])
 
 
 def _g(value: float) -> str:

@@ -117,7 +117,7 @@ def flattened(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def hints(kind: type[Record]) -> Mapping[str, Any]:
-    """The type of each field, with what is said beside it."""
+    """The type of each field, with its quantity."""
     return get_type_hints(kind, include_extras=True)
 
 

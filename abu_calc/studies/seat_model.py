@@ -9,7 +9,8 @@ from abu_calc.fits.stress import inner_ring_diameter
 from abu_calc.standards.balls import seat_material
 from abu_calc.studies.check_fit import judged_seats
 from abu_calc.studies.quantity import Record, record
-from abu_calc.studies.seat_records import Pair
+from abu_calc.studies.seat_records import Pair, um, um_pair
+from abu_calc.units import from_si
 
 if TYPE_CHECKING:
     from abu_calc.spec.read import Machine
@@ -61,6 +62,63 @@ class SeatModel(Record):
             raceway_rate=joint.raceway_rate,
         )
 
+    # The same as reports write them.
+
+    @property
+    def male_limits_um(self) -> Pair:
+        """Lower and upper deviation."""
+        return um_pair(self.male_limits_m)
+
+    @property
+    def female_limits_um(self) -> Pair:
+        """Lower and upper deviation."""
+        return um_pair(self.female_limits_m)
+
+    @property
+    def mean_interference_um(self) -> float:
+        """Of the middles of both tolerances."""
+        return um(self.mean_interference_m)
+
+    @property
+    def half_tolerances_um(self) -> Pair:
+        """Of the male and the female part."""
+        return um_pair(self.half_tolerances_m)
+
+    @property
+    def sigma_um(self) -> float:
+        """Standard deviation of the interference."""
+        return um(self.sigma_m)
+
+    @property
+    def diameter_mm(self) -> float:
+        """Of the seat."""
+        return from_si(self.diameter_m, "mm")
+
+    @property
+    def width_mm(self) -> float:
+        """Of the ring."""
+        return from_si(self.width_m, "mm")
+
+    @property
+    def length_mm(self) -> float | None:
+        """Of the seat, chamfers taken off."""
+        return None if self.length_m is None else from_si(self.length_m, "mm")
+
+    @property
+    def load_in_kilonewtons(self) -> float | None:
+        """Of the bearing."""
+        return None if self.radial_load_N is None else from_si(self.radial_load_N, "kN")
+
+    @property
+    def roughness_um(self) -> float:
+        """Rz of the part; 0 where it is not given."""
+        return um(self.roughness_m or 0.0)
+
+    @property
+    def tightest_pressure_in_megapascals(self) -> float:
+        """At the largest interference."""
+        return from_si(self.tightest_pressure_Pa, "MPa")
+
 
 @record
 class BearingModel(Record):
@@ -92,6 +150,21 @@ class BearingModel(Record):
             shaft=SeatModel.of(found.shaft, bearing.shaft.roughness),
             housing=SeatModel.of(found.housing, bearing.housing.roughness),
         )
+
+    @property
+    def bore_mm(self) -> float:
+        """Of the bearing."""
+        return from_si(self.bore_m, "mm")
+
+    @property
+    def inner_ring_diameter_mm(self) -> float:
+        """Of the inner ring as a plain tube."""
+        return from_si(self.inner_ring_diameter_m, "mm")
+
+    @property
+    def shaft_bore_mm(self) -> float:
+        """Of a hollow shaft; 0 where it is solid."""
+        return from_si(self.shaft_bore_m, "mm")
 
 
 def bearing_models(machine: "Machine") -> tuple[BearingModel, ...]:

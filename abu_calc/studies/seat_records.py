@@ -182,6 +182,11 @@ class SeatResult(Record):
     notes: Annotated[tuple[str, ...], Quantity("notes")]
     internal_clearance: Clearance | None
 
+    @property
+    def tightest_um(self) -> float:
+        """The largest interference; 0 where even that is clearance."""
+        return max(self.interference_um[1], 0.0)
+
     @classmethod
     def of(cls, seat: "SeatFit", clearance: Clearance | None) -> Self:
         """In user units; `clearance`: what is left in the seat's bearing."""

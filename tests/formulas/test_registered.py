@@ -15,7 +15,9 @@ import pytest
 
 import abu_calc
 from abu_calc.check_codes import CHECK_CODES
+from abu_calc.fits.stress import PERMITTED_RING_STRESS
 from abu_calc.formula import REGISTERED, Formula, formula_of
+from abu_calc.formulas.motion import SETTLED
 from abu_calc.report.steps import STEPS
 from abu_calc.validity import Range
 from tests.cli.runner import abu
@@ -113,3 +115,9 @@ def test_codes_are_listed_and_given_as_data() -> None:
     told = abu("explain", "ABU203", "--json").document["result"]
     assert (told["check"], told["step"]) == ("ABU203", "balls")
     assert "did you mean" in abu("explain", "ABU2O3").err.lower()
+
+
+def test_limits_in_the_words_of_check_codes_are_those_of_the_code() -> None:
+    """Codes stand below everything, so their sentences cannot ask for the constants."""
+    assert all(f"{PERMITTED_RING_STRESS / 1e6:g} MPa" in CHECK_CODES[code].fails for code in ("ABU602", "ABU612"))
+    assert SETTLED == 0.1 and "a tenth of the imbalance" in CHECK_CODES["ABU701"].fails

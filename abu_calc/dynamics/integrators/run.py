@@ -73,7 +73,7 @@ class Run(ABC):
         least = float(self.samples[-1]) / self.longest * self.per_step
         if least > self.most_evaluations:
             raise too_much(f"at least {least:.3g}", self.most_evaluations)
-        # Overflow and invalid numbers are looked for as the run goes on, where the time can be told.
+        # Overflow and invalid numbers are looked for as the run goes on, where its time is known.
         with np.errstate(all="ignore"):
             self._go()
         samples = self.recorder.samples()

@@ -1,8 +1,8 @@
 """Compiled code on disk: one file for each module, written whole and read whole, or done without.
 
 A file is a checksum and what it is of: one that is cut off or holds other bytes is not used, and is written anew. Files
-appear under their names by a rename, so that several processes may write at once. A folder that cannot be used is told
-of once, and everything goes on without it.
+appear under their names by a rename, so that several processes may write at once. A folder that cannot be used gives
+one warning, and everything goes on without it.
 """
 
 import contextlib
@@ -97,7 +97,7 @@ class Cache:
 
 
 def _base() -> Path:
-    """Of this system; where there is no home, a folder that cannot be there, so that this is told."""
+    """Of this system; where there is no home, a folder that cannot be there, so that a warning says so."""
     places = {"win32": ("LOCALAPPDATA", "~/AppData/Local"), "darwin": ("", "~/Library/Caches")}
     variable, usual = places.get(sys.platform, ("XDG_CACHE_HOME", "~/.cache"))
     chosen = os.environ.get(variable, "") if variable else ""

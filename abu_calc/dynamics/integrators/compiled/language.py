@@ -1,4 +1,4 @@
-"""Plain Python on numbers told in LLVM's language: the few words that a compiled loop needs, each function on its own.
+"""Plain Python on numbers translated to LLVM's language: the few words that a compiled loop needs, each function alone.
 
 Types are those of the annotations: float, int, bool, `Reals` and `Integers` (arrays; `a[i:]` is the same array from i
 on). Words: assignments, `a: float = b`, `a, b = c, d`, if, while, for … in range(…), break, continue, return, calls of
@@ -26,7 +26,7 @@ def numbers(names: Mapping[str, Any]) -> dict[str, float]:
 def translated(parts: Sequence[Part], exported: Collection[str], given: str = "") -> str:
     """The module of all functions in some texts, each with its constants; those exported can be called from outside.
 
-    `given`: functions, as their text declares them, that another module exports; their addresses are told to
+    `given`: functions, as their text declares them, that another module exports; their addresses are given to
     `connect`, in order. Raises LanguageError where a text is more than the language.
     """
     outside = {one.name: signature(one) for one in ast.parse(given).body if isinstance(one, ast.FunctionDef)}

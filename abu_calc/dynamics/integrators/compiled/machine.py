@@ -30,7 +30,7 @@ def guarded(doing: str) -> Iterator[None]:
 
 @cache
 def _library() -> Any:
-    """llvmlite's binding, ready for this machine; the functions of C that the code calls are told to it."""
+    """llvmlite's binding, ready for this machine; it knows the functions of C that the code calls."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
