@@ -5,13 +5,17 @@ from dataclasses import replace
 
 import pytest
 
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import heyoka_, scipy_
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.estimates import BALL, EVALUATION, RUNS, seconds
+from abu_calc.dynamics.integrators.run import TooMuchWorkError, work
 from abu_calc.errors import InputError
 from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
+
+FRICTION = DryRollingFriction(8e-6, 0.008)
 
 
 def test_short_scenes_stay_with_scipy():
@@ -83,3 +87,43 @@ def test_the_estimate_of_work_is_near_the_truth():
         counted = scipy_.integrate(equations, tolerance, [scene.duration]).evaluations
         estimated = seconds(equations, tolerance).scipy / RUNS / (EVALUATION + BALL * len(scene.ball_masses))
         assert 0.5 < estimated / counted < 2
+
+
+def switching(duration: float) -> Equations:
+    return assemble(with_effects(replace(straight_grinder(), duration=duration), Gravity(), FRICTION))
+
+
+@pytest.mark.parametrize("duration", [0.02, 20.0])
+def test_without_extras_scenes_that_switch_take_plain_code(monkeypatch, duration):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    chosen = choose(switching(duration), "auto", 1e-4)
+    assert chosen.name == "plain-rk45"
+    assert ("llvmlite is not installed" in chosen.why) is (duration > 1)
+
+
+def test_long_scenes_that_switch_are_compiled():
+    """Whatever is on disk."""
+    pytest.importorskip("llvmlite")
+    waits = []
+    chosen = choose(switching(20.0), "auto", 1e-4, waits.append)
+    assert chosen.name == "compiled-rk45" and "switches" in chosen.why
+    assert all("compiling" in each for each in waits)
+
+
+def test_the_same_work_is_allowed_to_all():
+    """Compiled evaluations are twenty times as quick."""
+    pytest.importorskip("llvmlite")
+    equations, times = switching(0.5), [0.5]
+    for name in ("scipy", "plain", "compiled"):
+        chosen = choose(equations, name, 1e-4)
+        run = chosen.integrate(equations, 1e-4, times, chosen.evaluations(100_000))
+        assert chosen.evaluations(chosen.work(run)) >= work(run)
+        with pytest.raises(TooMuchWorkError):
+            chosen.integrate(equations, 1e-4, times, chosen.evaluations(chosen.work(run) // 4))
+
+
+def test_what_cannot_be_traced_has_no_plain_code(monkeypatch):
+    monkeypatch.setattr(Gravity, "traceable", False)
+    assert choose(switching(2.0), "auto", 1e-4).name.startswith("scipy")
+    with pytest.raises(InputError, match="gravity"):
+        choose(switching(2.0), "plain", 1e-4)

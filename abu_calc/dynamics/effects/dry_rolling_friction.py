@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, Rule, SwitchPoint, Weight
-from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
@@ -128,28 +128,34 @@ class DryRollingFriction(Effect):
         Of many samples some are asked, each of which takes as long as ten steps: every so many, and where balls turn
         slowest, which is where they leave the race first.
         """
-        p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
-        index, first_modes = p.effects.index(self), equations.first_modes
-        if first_modes[index] is None:
+        p = equations.parameters
+        if equations.first_modes[p.effects.index(self)] is None:
             return ()
         asked = self._asked(equations, samples)
-        for t, y in zip(samples.t[asked], samples.y.T[asked], strict=True):
-            sigma = np.sign(y[first : first + p.balls])
-            direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
-            mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
-            modes = (*first_modes[:index], mode, *first_modes[index + 1 :])
-            _, _, solved = equations.accelerations(np, t, y, equations.in_mode(modes))
-            outward = solved.normal / (p.radii * p.speed**2)
-            if outward.min() < -LEAVES:
-                return (
-                    f"dry rolling friction: ball {1 + int(outward.argmin())} is pulled off the outer side of its race "
-                    f"at t = {t:.4g} s and rubs on the inner one; a higher speed or a damped support presses it "
-                    "outward",
-                )
-        return ()
+        found = next((k for k in asked if self._outward(equations, samples, k).min() < -LEAVES), None)
+        if found is None:
+            return ()
+        first = next(k for k in range(found + 1) if self._outward(equations, samples, k).min() < -LEAVES)
+        ball = 1 + int(self._outward(equations, samples, first).argmin())
+        return (
+            f"dry rolling friction: ball {ball} is pulled off the outer side of its race at t = {samples.t[first]:.4g} "
+            "s and rubs on the inner one; a higher speed or a damped support presses it outward",
+        )
+
+    def _outward(self, equations: Laws, samples: Samples, k: int) -> Array:
+        """Normal force on each ball at a sample, of m R_p Ω²."""
+        p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
+        index, modes = p.effects.index(self), equations.first_modes
+        sigma = np.sign(samples.y[first : first + p.balls, k])
+        direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
+        mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
+        acting = equations.in_mode((*modes[:index], mode, *modes[index + 1 :]))
+        _, _, solved = equations.accelerations(np, samples.t[k], samples.y[:, k], acting)
+        outward: Array = solved.normal / (p.radii * p.speed**2)
+        return outward
 
     def _asked(self, equations: Laws, samples: Samples) -> NDArray[np.intp]:
-        """Which samples, in their order."""
+        """Which samples are asked at first, in their order."""
         p, count = equations.parameters, len(samples.t)
         if count <= 2 * ASKED:
             return np.arange(count)

@@ -9,7 +9,7 @@ from typing import Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.estimates import Seconds, seconds
+from abu_calc.dynamics.integrators.estimates import START, Seconds, seconds
 from abu_calc.dynamics.integrators.run import Array, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
@@ -73,29 +73,37 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
 
 
 def _quickest(equations: Equations, about: Seconds, progress: Progress) -> Choice:
-    """What is done first, with what is installed."""
+    """What is done first, with what is installed. Numbers must not hang on what is on disk: the loop's never do."""
+    if about.switches and not untraceable(equations):
+        return _loop(equations, about, progress)
     from abu_calc.dynamics.integrators.compiled import waiting
 
-    kind = "a scene that switches" if about.switches else "a long run"
-    work = f"about {about.scipy:.2g} s of work for SciPy"
-    plain = about.plain if about.switches and not untraceable(equations) else math.inf
-    least, missing, lacks = min(about.scipy, plain), unfit(equations), waiting.unfit(equations)
-    if least <= waiting.LEAST:
-        short = "a short run, about {:.2g} s of work: anything else would take longer to start"
-        return _scipy("scipy-dop853", short.format(least)) if least == about.scipy else _plain(short.format(least))
-    heyoka = math.inf if missing else about.heyoka
-    wait = math.inf if lacks or waiting.LEAST + about.compiled > min(least, heyoka) else waiting.waiting(equations)
-    if wait + about.compiled <= min(least, heyoka):
-        if wait > waiting.LEAST:
-            progress(f"{equations.scene.name}: compiling, about {wait:.1g} s")
-        if waiting.load(equations):
-            return _compiled(f"{kind}, {work}")
-    if heyoka < least:
-        return _heyoka(f"{kind}, {work}")
-    faster = f"; heyoka would be faster, but {missing[0]}" if missing and about.heyoka < least else ""
-    faster = f"; compiled code would be faster, but {lacks[0]}" if lacks and about.switches else faster
-    why = f"{kind}, {work}{faster or '; compiling would take longer'}"
-    return _plain(why) if plain < about.scipy else _scipy("scipy-dop853", why)
+    work = f"about {about.scipy:.2g} s of work"
+    missing, lacks = unfit(equations), waiting.unfit(equations)
+    if about.scipy <= START:
+        return _scipy("scipy-dop853", f"a short run, {work}: anything else would take longer to start")
+    if not missing:
+        return _heyoka(f"a long run, {work} for SciPy")
+    if not lacks and about.compiled + waiting.compiling(equations) < about.scipy and waiting.load(equations):
+        return _compiled(f"a long run, {work} for SciPy")
+    return _scipy("scipy-dop853", f"a long run, {work}; heyoka would be faster, but {missing[0]}")
+
+
+def _loop(equations: Equations, about: Seconds, progress: Progress) -> Choice:
+    """Through a scene that switches: compiled where that is done sooner, with the same numbers."""
+    from abu_calc.dynamics.integrators.compiled import waiting
+
+    work, lacks = f"a scene that switches, about {about.scipy:.2g} s of work for SciPy", waiting.unfit(equations)
+    if about.plain <= waiting.LEAST:
+        return _plain(f"a short run, about {about.plain:.2g} s of work: anything else would take longer to start")
+    if lacks:
+        return _plain(f"{work}; compiled code would be faster, but {lacks[0]}")
+    wait = waiting.waiting(equations)
+    if wait + about.compiled > about.plain:
+        return _plain(f"{work}; compiling would take longer")
+    if wait > waiting.LEAST:
+        progress(f"{equations.scene.name}: compiling, about {wait:.1g} s")
+    return _compiled(work) if waiting.load(equations) else _plain(f"{work}; compiled code does not run here")
 
 
 def untraceable(equations: Equations) -> tuple[str, str] | None:

@@ -36,19 +36,15 @@ START = 0.25
 """Time [s] heyoka takes to be imported (0.05 to 0.13) and to load compiled code from disk (0.02 to 0.1), and some more:
 what it gains has to be worth the compilation of the very first run (0.3 to 1)."""
 
-HEYOKA = 1 / 30
-"""Time of heyoka's evaluations, of SciPy's."""
-
 RUNS = 2
 """A result is trusted when two tolerances agree."""
 
 
 @dataclass(frozen=True)
 class Seconds:
-    """Two runs of a scene by each integrator, what it takes to start left out but for heyoka's."""
+    """Two runs of a scene by SciPy and by the loop, what that takes to start left out."""
 
     scipy: float
-    heyoka: float
     plain: float
     compiled: float
     switches: bool
@@ -68,7 +64,6 @@ def seconds(equations: Equations, tolerance: float) -> Seconds:
     asked = EVENT * events
     return Seconds(
         scipy=smooth + asked,
-        heyoka=START + HEYOKA * smooth + asked,
         plain=plain + general * asked,
         compiled=COMPILED * plain + general * asked,
         switches=switches,

@@ -40,11 +40,17 @@ def waiting(equations: Equations) -> float:
     if code.known(structure):
         return 0.0
     try:
-        text = code.text(structure, ordered, wide)
-        return LEAST if code.on_disk(text) else LEAST + COMPILING * len(text.text)
+        return LEAST if code.on_disk(code.text(structure, ordered, wide)) else compiling(equations)
     except CompilerError as error:
         _give_up(error)
         return float("inf")
+
+
+def compiling(equations: Equations) -> float:
+    """About how long until compiled code runs for the very first time [s], by counting."""
+    ordered, _ = in_order(equations)
+    wide, structure, _ = described(ordered)
+    return LEAST + COMPILING * len(code.text(structure, ordered, wide).text)
 
 
 def load(equations: Equations) -> bool:
