@@ -32,7 +32,7 @@ def equations_of(preset: str, which: str):  # type: ignore[no-untyped-def]
         from abu_calc.dynamics.assemble import assemble  # type: ignore[no-redef]
         from abu_calc.dynamics.from_design import scene_of_design  # type: ignore[no-redef]
     read = read_machine(preset)
-    tables = read.whole("simulate") if hasattr(read, "whole") else read.tables if hasattr(read, "tables") else read
+    tables = read.whole("simulate") if hasattr(read, "whole") else read.machine
     return assemble(with_parted_balls(scene_of_design(size(tables), which))[0])
 
 

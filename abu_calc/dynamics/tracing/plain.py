@@ -23,6 +23,10 @@ LONGEST = 200
 """Characters of an expression before it gets a name: nested too deep, no parser would take it."""
 
 
+ONE = ("1.0", ())
+"""A factor that changes nothing."""
+
+
 class Node:
     """An expression; arithmetic on it writes on."""
 
@@ -91,7 +95,12 @@ class Source:
 
     def enter(self, sign: str, *operands: Any) -> Node:
         """What comes of an operation on expressions and numbers."""
-        places = tuple((one if isinstance(one, Node) else self.expression(one)).place for one in operands)
+        nodes = [one if isinstance(one, Node) else self.expression(one) for one in operands]
+        if sign == "*" and self.entries[nodes[0].place] == ONE:
+            return nodes[1]
+        if sign in "*/" and len(nodes) == 2 and self.entries[nodes[1].place] == ONE:
+            return nodes[0]
+        places = tuple(node.place for node in nodes)
         return self._once((sign, tuple(sorted(places)) if sign == "*" else places))
 
     def sum(self, terms: Sequence[Node]) -> Node:
