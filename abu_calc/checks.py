@@ -4,8 +4,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from abu_calc.check_codes import CHECK_CODES
-
 Status = Literal["pass", "fail", "not-done"]
 
 
@@ -36,6 +34,8 @@ def coded(
     >>> coded("ABU621", "pass", "…", of="6203").name
     'clearance left in the bearing, 6203'
     """
+    from abu_calc.check_codes import CHECK_CODES  # help texts need none
+
     name = CHECK_CODES[code].name
     return Check(code, f"{name}, {of}" if of else name, status, message, value, limit, unit, remedy, bound)
 

@@ -3,12 +3,14 @@
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from abu_calc.checks import Check, Status
 from abu_calc.errors import AbuError, InputError
 from abu_calc.report.blocks import Block
-from abu_calc.studies.result import Provenance, Result
+
+if TYPE_CHECKING:
+    from abu_calc.studies.result import Provenance, Result
 
 SCHEMA = 1
 EXIT_STATUS: dict[Status, int] = {"pass": 0, "fail": 1, "not-done": 1}
@@ -22,7 +24,7 @@ class Outcome:
     result: Any
     view: tuple[Block, ...] | Callable[[], tuple[Block, ...]]
     """Blocks, or what makes them where text is wanted."""
-    provenance: Provenance = field(default_factory=Provenance.today)
+    provenance: "Provenance" = field(default_factory=lambda: _today())
     checks: tuple[Check, ...] = ()
     model: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
@@ -31,7 +33,7 @@ class Outcome:
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
 
     @classmethod
-    def of(cls, result: Result, view: Callable[[], tuple[Block, ...]]) -> "Outcome":
+    def of(cls, result: "Result", view: Callable[[], tuple[Block, ...]]) -> "Outcome":
         """That of a study, and what makes its blocks."""
         return cls(
             result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
@@ -75,11 +77,17 @@ def error_document(command: str, error: BaseException) -> dict[str, Any]:
             "allowed": error.allowed,
             "remedy": error.remedy,
         }
-    return {"abu": _head(command, Provenance.today()), "input": None, "status": "not-done", "checks": [],
+    return {"abu": _head(command, _today()), "input": None, "status": "not-done", "checks": [],
             "result": None, "model": {}, "warnings": [], "error": facts}  # fmt: skip
 
 
-def _head(command: str, provenance: Provenance) -> dict[str, Any]:
+def _today() -> "Provenance":
+    from abu_calc.studies.result import Provenance  # help texts need no results
+
+    return Provenance.today()
+
+
+def _head(command: str, provenance: "Provenance") -> dict[str, Any]:
     return {"version": provenance.version, "command": command, "schema": SCHEMA, "date": provenance.date}
 
 
