@@ -18,7 +18,7 @@ from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.simulated_scene import SimulatedScene
 from abu_calc.studies.subject import Source, subject_of
 
-INTEGRATORS: Final = ("auto", "scipy", "compiled", "heyoka")
+INTEGRATORS: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
 
 
 @record

@@ -396,3 +396,12 @@ def test_init_validate_and_schema_know_scenes(tmp_path: Path) -> None:
     assert "SceneFile" in abu("schema", "scene").out
     seen = abu("size", str(file))
     assert seen.status == 2 and "abu simulate" in seen.err
+
+
+def test_every_integrator_is_taken_by_name(tmp_path: Path) -> None:
+    """As the help names them; those of the extra where they are installed."""
+    file = written(tmp_path, SCENE.replace("700.0", "20.0"))
+    for name in ("auto", "scipy", "plain"):
+        assert abu("simulate", file, "--integrator", name, "--quiet").status == 0
+    seen = abu("simulate", file, "--integrator", "odeint")
+    assert seen.status == 2 and "auto, scipy, plain, compiled, heyoka" in seen.err

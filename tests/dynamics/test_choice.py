@@ -111,7 +111,7 @@ def test_long_scenes_that_switch_are_compiled():
 
 
 def test_the_same_work_is_allowed_to_all():
-    """Compiled evaluations are twenty times as quick."""
+    """Whoever does it."""
     pytest.importorskip("llvmlite")
     equations, times = switching(0.5), [0.5]
     for name in ("scipy", "plain", "compiled"):

@@ -140,6 +140,13 @@ def test_two_processes_write_at_once(tmp_path: Path) -> None:
     assert [one.name for one in tmp_path.iterdir()] == [f"{KEY}.o"]
 
 
+def test_a_file_under_the_name_of_another_is_not_used(tmp_path: Path) -> None:
+    folder = Cache(tmp_path)
+    folder.write(KEY, b"code")
+    folder.place(KEY).replace(folder.place(OTHER))
+    assert folder.read(OTHER) is None
+
+
 # Systems on which nobody has tried it.
 
 

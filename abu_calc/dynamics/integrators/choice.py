@@ -21,8 +21,9 @@ COMPILED, PLAIN = "compiled-rk45", "plain-rk45"
 
 WANTED: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
 
-COMPILED_WORK = 1 / 20
-"""Work of an evaluation in compiled code, that of SciPy's being one: work is bounded alike whoever does it."""
+LOOP_WORK = 1 / 5
+"""Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
+on it either: compiled it takes a twentieth of SciPy's time, in plain Python some times as long."""
 
 
 @dataclass(frozen=True)
@@ -135,13 +136,13 @@ def _compiled_or_refused(equations: Equations) -> Choice:
 def _compiled(why: str) -> Choice:
     from abu_calc.dynamics.integrators.compiled import run  # some twenty modules, which not every command needs
 
-    return Choice(COMPILED, why, run.integrate, COMPILED_WORK)
+    return Choice(COMPILED, why, run.integrate, LOOP_WORK)
 
 
 def _plain(why: str) -> Choice:
     from abu_calc.dynamics.integrators.compiled import run
 
-    return Choice(PLAIN, why, partial(run.integrate, compiled=False))
+    return Choice(PLAIN, why, partial(run.integrate, compiled=False), LOOP_WORK)
 
 
 def _heyoka(why: str) -> Choice:

@@ -205,7 +205,7 @@ def _keep_apart(state: Any) -> None:
     path = Path(state.get_diskcache_path())
     if path.name != "heyoka":
         return
-    folder = Path(os.environ.get(FOLDER) or path.with_name("abu-calc"))
+    folder = Path(os.environ.get(FOLDER) or path.with_name("abu-calc")).expanduser()
     state.set_diskcache_path(str(folder))
     try:
         try:

@@ -37,7 +37,7 @@ class Cache:
     def own(cls) -> "Cache":
         """Where programs of this system keep what they can make again."""
         chosen = os.environ.get(FOLDER)
-        return cls(Path(chosen) if chosen else _base() / "abu-calc" / "compiled")
+        return cls(Path(chosen).expanduser() if chosen else _base() / "abu-calc" / "compiled")
 
     def read(self, key: str) -> bytes | None:
         """What was written under a key, None where that is not there or not whole."""
@@ -49,7 +49,7 @@ class Cache:
             self._unusable(error)
             return None
         digest, content = data[:32], data[32:]
-        if hashlib.sha256(content).digest() != digest:
+        if _digest(key, content) != digest:
             return None
         with contextlib.suppress(OSError):
             os.utime(self.place(key))
@@ -62,7 +62,7 @@ class Cache:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             try:
-                passing.write_bytes(hashlib.sha256(content).digest() + content)
+                passing.write_bytes(_digest(key, content) + content)
                 passing.replace(place)
             finally:
                 passing.unlink(missing_ok=True)
@@ -96,12 +96,19 @@ class Cache:
             warnings.warn(f"compiled code is not kept: {self.folder}: {reason}", RuntimeWarning, stacklevel=2)
 
 
+def _digest(key: str, content: bytes) -> bytes:
+    """Of the content under this key: a file under another's name is not its own."""
+    return hashlib.sha256(key.encode() + content).digest()
+
+
 def _base() -> Path:
     """Of this system; where there is no home, a folder that cannot be there, so that a warning says so."""
     places = {"win32": ("LOCALAPPDATA", "~/AppData/Local"), "darwin": ("", "~/Library/Caches")}
     variable, usual = places.get(sys.platform, ("XDG_CACHE_HOME", "~/.cache"))
     chosen = os.environ.get(variable, "") if variable else ""
     try:
+        if not chosen and os.environ.get("HOME") == "":
+            raise RuntimeError
         return Path(chosen or usual).expanduser()
     except RuntimeError:
         return Path(os.devnull) / "no-home"

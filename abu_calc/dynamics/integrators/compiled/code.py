@@ -1,5 +1,6 @@
 """Machine code for all scenes of one structure: compiled once, kept in this process and on disk."""
 
+import contextlib
 import hashlib
 import importlib.util
 import math
@@ -128,7 +129,9 @@ def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = 
     """Machine code for some texts: from disk where it is there and whole."""
     folder, key = Cache.own(), _key(parts)
     found = folder.read(key)
-    if found is None:
-        found = machine.compiled(language.translated(parts, exported, given))
-        folder.write(key, found)
+    if found is not None:
+        with contextlib.suppress(CompilerError):  # what cannot be loaded is made anew
+            return Loaded(found)
+    found = machine.compiled(language.translated(parts, exported, given))
+    folder.write(key, found)
     return Loaded(found)
