@@ -29,8 +29,8 @@ def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
     return seen.status, {check["code"]: check for check in document["checks"]}, document["result"]
 
 
-SOFT = [(0.25, 15), (0.9, 15), (0.0, 92), (0.25, 92), (0.9, 92)]
-MORE_SOFT = [(0.0, 15), (0.1, 15), (0.1, 92), (0.0, 45), (0.1, 45), (0.25, 45), (0.9, 45)]
+SOFT = [(0.25, 15), (0.9, 15), (0.9, 92)]
+MORE_SOFT = [(0.0, 92), (0.25, 92), (0.0, 15), (0.1, 15), (0.1, 92), (0.0, 45), (0.1, 45), (0.25, 45), (0.9, 45)]
 """Damping and drag, quick ones and others: the less damping, the longer the machine sways."""
 
 
@@ -112,7 +112,9 @@ def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
         ("suspension.natural_frequencies_hz=[96.6666666667, 96.6666666667]",),
         ("suspension.natural_frequencies_hz=[96.0, 97.0]", "suspension.damping_ratios=0"),
         ("autobalancer.ball_diameter_mm=0.5",),
-        ("autobalancer.max_outer_diameter_mm=3000", "autobalancer.max_width_mm=500"),
+        pytest.param(
+            ("autobalancer.max_outer_diameter_mm=3000", "autobalancer.max_width_mm=500"), marks=pytest.mark.slow
+        ),
         ("wheel.imbalance_g_mm=1e9",),
         ("machine.mass_kg=0.01", "wheel.mass_kg=0.1", "wheel.imbalance_g_mm=1"),
         ("machine.mass_kg=10000", "wheel.mass_kg=100"),
