@@ -5,7 +5,6 @@
 It is run as a file, so that the tests' own package is not needed; older versions have other names for the same things.
 """
 
-import inspect
 import json
 import sys
 import time
@@ -48,7 +47,7 @@ def main() -> None:
             begun = time.process_time()
             found = choice.integrate_with(way, equations, tolerance, moments, MOST)
             spent.append(time.process_time() - begun)
-        file = Path(folder) / f"{preset}-{which}-{way}-{tolerance:g}-{abs(hash(inspect.getfile(choice)))}.npy"
+        file = Path(folder) / f"{preset}-{which}-{way}-{tolerance:g}.npy"
         np.save(file, found.y)
         line = {
             "tolerance": tolerance, "cpu_s": min(spent), "first_s": spent[0], "repeats": len(spent),

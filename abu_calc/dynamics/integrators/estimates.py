@@ -8,6 +8,7 @@ from typing import Final
 
 from abu_calc.dynamics.effect import ACROSS_RATE
 from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.switching.modes import watches
 
 EVALUATIONS, ORDER = 35.0, 8
 """Of DOP853 per revolution at a tolerance of 1e-6, and the order by which they grow: four balls on a soft planar
@@ -54,7 +55,7 @@ def seconds(equations: Equations, tolerance: float) -> Seconds:
     """About how long each takes."""
     scene = equations.scene
     turns, balls = RUNS * scene.duration / scene.revolution, len(scene.ball_masses)
-    switches = any(effect.switches for effect in scene.effects)
+    switches = watches(equations)
     shaken = any(effect.kind == "conservative" for effect in scene.effects)
     events = turns * balls * (SHAKEN if shaken else LOOSE) if switches else 0.0
     smooth = turns * EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER) * (EVALUATION + BALL * balls)
