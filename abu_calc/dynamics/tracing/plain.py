@@ -133,6 +133,10 @@ class Source:
             texts[place] = text
         return lines, [texts[node.place] for node in results]
 
+    def operations(self, results: Sequence[Node]) -> int:
+        """How many make the results, equal ones counted once."""
+        return len(self._needed([node.place for node in results]))
+
     def _needed(self, results: Sequence[int]) -> dict[int, int]:
         """How often each expression is used to make the results."""
         needed: dict[int, int] = {}

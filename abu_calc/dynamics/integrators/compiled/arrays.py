@@ -15,8 +15,9 @@ GAPS, PAIRS, TURNS, TOUCHING, LEAST, JOINED = 12, 13, 14, 15, 16, 17
 """Ball contact: its watched numbers (−1 without), how many gaps, and its mode among the numbers."""
 ONE_SIDED, TOUCHES = 18, 19
 """One-sided contact: its watched number (−1 without) and its mode."""
-BEHIND = 20
-"""The ball behind each gap, then the ball ahead of each."""
+APPARENT, BEHIND = 20, 21
+"""From where on 1 stands for each watched number that `apparent` gives; the ball behind each gap, then the ball ahead
+of each."""
 
 # Constants of a run.
 LONGEST, END, REST, SLOW, RESTITUTION, KICK, STALLED, UNIT = 0, 1, 2, 3, 4, 5, 6, 7
@@ -52,4 +53,9 @@ def rates(t: float, y: Reals, par: Reals, dy: Reals) -> None:
 
 def watched(t: float, y: Reals, par: Reals, dy: Reals, w: Reals) -> None:
     """y', what is watched and the criteria of rules."""
+    raise NotImplementedError
+
+
+def apparent(t: float, y: Reals, par: Reals, w: Reals) -> None:
+    """Of what is watched, the numbers that the state gives nearly by itself; the others stay."""
     raise NotImplementedError

@@ -29,7 +29,7 @@ from abu_calc.dynamics.integrators.compiled import (
 )  # fmt: skip
 from abu_calc.dynamics.integrators.compiled.cache import Cache
 from abu_calc.dynamics.integrators.compiled.machine import CompilerError, Loaded
-from abu_calc.dynamics.integrators.compiled.program import Program, program
+from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program, program
 from abu_calc.dynamics.parameters import Acting
 from abu_calc.dynamics.tracing.traced import cached
 from abu_calc.version import __version__
@@ -38,9 +38,6 @@ KERNELS: tuple[ModuleType, ...] = (method, locate, friction, contact, impact, de
 """What every structure's code has, beside its equations."""
 
 TRANSLATOR: tuple[ModuleType, ...] = (language, calls, expressions, writer, machine, arrays)
-
-EQUATIONS = ("setup", "rates", "watched")
-"""Functions of a structure, in the order in which `arrays` declares them."""
 
 NAMES = {"inf": math.inf}
 """What their text knows beside its own."""

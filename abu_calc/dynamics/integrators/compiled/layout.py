@@ -40,7 +40,10 @@ def layout(
 ) -> NDArray[np.int64]:
     """Where something is, by the places that `arrays` names."""
     p, watched, criteria = equations.parameters, 0, sum(program.watched)
-    found = np.full(arrays.BEHIND + 2 * p.balls + 2, -1, dtype=np.int64)
+    flags = arrays.BEHIND + 2 * p.balls + 2
+    found = np.full(flags + criteria, -1, dtype=np.int64)
+    found[arrays.APPARENT] = flags
+    found[[flags + one for one in program.apparent]] = 1
     first = min(min(row.values(), default=program.numbers) for row in mode_places)
     found[: arrays.NUMBERS + 1] = (
         len(equations.states), p.balls, 2 * p.size + p.balls, criteria, program.values, first, mode_places[-1][""],

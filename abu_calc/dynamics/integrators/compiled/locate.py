@@ -6,6 +6,7 @@ found by a parabola through three of its values.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
+    APPARENT,
     EVALUATIONS,
     FOUND,
     STATES,
@@ -13,6 +14,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     WATCHED,
     Integers,
     Reals,
+    apparent,
     watched,
 )
 from abu_calc.dynamics.integrators.compiled.method import dense
@@ -34,6 +36,19 @@ def look(
     watched(t + x * h, at, par, dy, w)
 
 
+def peek(
+    index: int, x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
+    at: Reals, dy: Reals, w: Reals,
+) -> float:  # fmt: skip
+    """One watched number at a share x of the step; of the others, no more than comes with it."""
+    if lay[lay[APPARENT] + index] > 0:
+        dense(x, lay[STATES], y, between, at)
+        apparent(t + x * h, at, par, w)
+    else:
+        look(x, t, h, y, par, lay, count, between, at, dy, w)
+    return w[index]
+
+
 def resolved(t: float, h: float) -> float:
     """Share of a step below which moments are one."""
     return FINE * (1.0 + 8.0 * abs(t) / h)
@@ -52,8 +67,7 @@ def crossing(
     least = resolved(t, h)
     for _ in range(100):
         x = a + share * (b - a)
-        look(x, t, h, y, par, lay, count, between, at, dy, w)
-        fx = w[index]
+        fx = peek(index, x, t, h, y, par, lay, count, between, at, dy, w)
         if (fx < 0.0) == (fa < 0.0):
             c, fc = a, fa
         else:
@@ -85,8 +99,7 @@ def dips(
             lowest = 0.5 - slope / (2.0 * bend)
             if lowest > 0.0 and lowest < 2.0 and first[i] + lowest * (slope + bend * (lowest - 1.0)) < 0.0:
                 x = (check - 2 + lowest) / CHECKS
-                look(x, t, h, y, par, lay, count, between, at, dy, w)
-                if w[i] < 0.0:
+                if peek(i, x, t, h, y, par, lay, count, between, at, dy, w) < 0.0:
                     above = (check - 2) / CHECKS if lowest < 1.0 else (check - 1) / CHECKS
                     high = first[i] if lowest < 1.0 else second[i]
                     x = crossing(i, above, high, x, w[i], t, h, y, par, lay, count, between, at, dy, w)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.integrators.compiled import arrays, contact, decide, friction, impact, locate, loop, method
-from abu_calc.dynamics.integrators.compiled.program import Program
+from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program
 
 MODULES: Sequence[ModuleType] = (method, locate, friction, contact, impact, decide, loop)
 """In the order in which they import each other."""
@@ -37,21 +37,22 @@ class Plain:
 
 def _equations(text: str) -> dict[str, Callable[..., None]]:
     """The functions of a structure by their names."""
-    known: dict[str, Any] = {"inf": math.inf, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
-    exec(compile(f"from __future__ import annotations\n{text}", "<equations>", "exec"), known)
-    return {"setup": known["setup"], "rates": _guarded(known["rates"]), "watched": _guarded(known["watched"])}
+    known: dict[str, Any] = {"nan": math.nan, "inf": math.inf, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
+    exec(compile(_guarded(text), "<equations>", "exec"), known)
+    return {name: known[name] for name in EQUATIONS}
 
 
-def _guarded(function: Callable[..., None]) -> Callable[..., None]:
-    """Rates that are no numbers, as compiled code gives them, where Python would raise: the step is then shortened."""
+def _guarded(text: str) -> str:
+    """The same text, whose rates are no numbers, as compiled code gives them, where Python would raise.
 
-    def guarded(t: float, y: Any, par: Any, dy: Any, *watched: Any) -> None:
-        try:
-            function(t, y, par, dy, *watched)
-        except (ArithmeticError, ValueError):
-            dy[0] = math.nan
-
-    return guarded
+    The step is then shortened.
+    """
+    first, *others = text.split("\ndef ")
+    parts = ["from __future__ import annotations", first]
+    for head, _, body in (other.partition("\n") for other in others):
+        parts += [f"def {head}", " try:", *(f" {line}" for line in body.splitlines())]
+        parts += [" except (ArithmeticError, ValueError):", "  dy[0] = nan"]
+    return "\n".join([*parts, ""])
 
 
 def _bound(equations: dict[str, Callable[..., None]]) -> Callable[..., Any]:

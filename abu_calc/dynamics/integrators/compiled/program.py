@@ -3,6 +3,7 @@
     setup(numbers, par)           what the equations use of a scene's numbers and modes, once for each mode
     rates(t, y, par, dy)          y'
     watched(t, y, par, dy, w)     y', the watched numbers, and the criteria of the effects' rules
+    apparent(t, y, par, w)        those watched numbers that cost next to nothing, such as a ball's speed
 
 The one right-hand side is traced here as it is for heyoka and for plain Python. All modes have one code: balls are
 always tied in chains, whose gaps are open (0) or joined (1), and a push on each ball, 0 but in an impact, is among the
@@ -10,7 +11,7 @@ numbers.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar
 
@@ -25,6 +26,12 @@ from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.tracing.plain import Node, Source
 from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
 from abu_calc.dynamics.tracing.traced import mapped
+
+EQUATIONS = ("setup", "rates", "watched", "apparent")
+"""Functions of a structure, in the order in which `arrays` declares them."""
+
+CHEAP = 1 / 20
+"""Of the operations of all watched numbers: one that takes fewer is worth a function without the others."""
 
 STATE = re.compile(r"\by(\d+)\b")
 """A state in an expression."""
@@ -60,6 +67,8 @@ class Program:
     """How many numbers each effect watches, in order."""
     criteria: tuple[int, ...]
     """How many numbers its rule chooses by."""
+    apparent: tuple[int, ...]
+    """Which of the watched numbers cost next to nothing."""
 
     @property
     def values(self) -> int:
@@ -95,15 +104,20 @@ def program(equations: Equations, acting: Acting) -> Program:
     watched = [effect.watch(motion, mode, own, loads, solved, p) for effect, mode, own in parts]
     criteria = [effect.criteria(motion, mode, own, loads, solved, p) for effect, mode, own in parts]
     zero = Symbol(tape, [])
-    dy, w = ([(zero + one).expression() for row in rows for one in row] for rows in ([rates], [*watched, *criteria]))
-    given = "t: float, y: Reals, par: Reals, dy: Reals"
+    dy, seen, chosen = (
+        [(zero + one).expression() for row in rows for one in row] for rows in ([rates], watched, criteria)
+    )
+    whole = source.operations(seen)
+    cheap = {k: one for k, one in enumerate(seen) if source.operations([one]) < CHEAP * whole}
+    given, rows = "t: float, y: Reals, par: Reals", {"dy": dict(enumerate(dy))}
     lines = [
-        *_function("rates", given, source, {"dy": dy}),
-        *_function("watched", f"{given}, w: Reals", source, {"dy": dy, "w": w}),
+        *_function("rates", f"{given}, dy: Reals", source, rows),
+        *_function("watched", f"{given}, dy: Reals, w: Reals", source, rows | {"w": dict(enumerate([*seen, *chosen]))}),
+        *_function("apparent", f"{given}, w: Reals", source, {"w": cheap}),
     ]
     setup, numbers, parameters = _setup(tape)
-    counts = (tuple(len(row) for row in rows) for rows in (watched, criteria))
-    return Program("\n".join([*setup, *lines, ""]), numbers, parameters, *counts)
+    counts = [tuple(len(row) for row in rows) for rows in (watched, criteria)]
+    return Program("\n".join([*setup, *lines, ""]), numbers, parameters, counts[0], counts[1], tuple(cheap))
 
 
 def _setup(tape: Tape) -> tuple[list[str], int, int]:
@@ -115,14 +129,14 @@ def _setup(tape: Tape) -> tuple[list[str], int, int]:
     return text, len(names), len(results)
 
 
-def _function(name: str, arguments: str, source: Source, results: Mapping[str, Sequence[Any]]) -> list[str]:
-    """One function that stores its results."""
-    lines, texts = source.lines([one for row in results.values() for one in row])
+def _function(name: str, arguments: str, source: Source, results: Mapping[str, Mapping[int, Any]]) -> list[str]:
+    """One function that stores its results at their places in arrays."""
+    lines, texts = source.lines([one for row in results.values() for one in row.values()])
     states = sorted({int(one) for text in (*lines, *texts) for one in STATE.findall(text)})
     lines = [*(f"y{k} = y[{k}]" for k in states), *lines]  # each is read once
     text = [f"def {name}({arguments}) -> None:", *(f" {line}" for line in lines)]
-    places = [f"{array}[{k}]" for array, row in results.items() for k in range(len(row))]
-    return [*text, *(f" {place} = {one}" for place, one in zip(places, texts, strict=True))]
+    places = [f"{array}[{k}]" for array, row in results.items() for k in row]
+    return [*text, *(f" {place} = {one}" for place, one in zip(places, texts, strict=True)), " return"]
 
 
 def places(modes: Modes) -> list[dict[str, int]]:
