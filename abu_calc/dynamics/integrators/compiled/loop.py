@@ -48,6 +48,8 @@ from abu_calc.dynamics.integrators.run import EVENT, MOST_STALLED
 
 SMALLEST = 4e-15
 """Steps below this share of the time are lost in rounding."""
+CLOSER = 1e-4
+"""Of the longest step: in shorter ones, a number that does not rise from the start has not been switched rightly."""
 ROWS = 16
 """Of states in the room to work in, before the watched numbers."""
 
@@ -115,6 +117,9 @@ def go(
                 rows[i] = last[i]
             h = max(further, h) if step < h else further
             run[TIME], run[STEP] = t, h
+            continue
+        if x == 0.0 and t == run[BEGUN] and step > CLOSER * con[LONGEST]:
+            h = step / 10  # it may have risen and fallen again before the first look
             continue
         count[EVENTS] += 1
         count[STALLS] = count[STALLS] + 1 if came - run[BEGUN] < con[STALLED] else 0

@@ -1,0 +1,96 @@
+"""What each digit costs in a scene that switches, how much of it evaluations explain, and what compiling costs.
+
+    python -m tests.benchmarks.price
+
+The first part is CPU time of the integration alone, in compiled code, the best of 25; evaluations explain their number
+times what one costs by itself. The second runs whole processes with an empty folder for compiled code, then again.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from typing import Any
+
+import numpy as np
+
+from abu_calc.analysis.response import needed_times
+from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.integrators.compiled.run import STAGES, _Run
+from tests.benchmarks.bare import evaluation_times
+from tests.benchmarks.measuring import keep, machine
+from tests.benchmarks.switching_run import MOST, equations_of
+
+PRESET, SCENE = "avtovaz-707-222", "idle"
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
+REPEATS, ROUNDS = 25, 5
+
+FIRST = """
+import json, sys, time
+from tests.benchmarks.events import scene
+from abu_calc.dynamics.equations.assemble import assemble
+begun = time.perf_counter()
+import llvmlite.binding
+imported = time.perf_counter()
+from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.integrators.compiled.run import prepared
+equations, _ = in_order(assemble(scene(4)))
+ready = time.perf_counter()
+prepared(equations)
+print(json.dumps([imported - begun, time.perf_counter() - ready]))
+"""
+"""Seconds that the library's import takes, then those until code for four balls with friction and contact is ready."""
+
+
+def prices() -> list[dict[str, Any]]:
+    """A line for each tolerance."""
+    equations = equations_of(PRESET, SCENE)
+    moments, (ordered, places) = needed_times(equations.scene), in_order(equations)
+    rates, watched = evaluation_times(equations)
+    rows = []
+    for tolerance in TOLERANCES:
+        spent = []
+        for _ in range(REPEATS):
+            begun = time.process_time()
+            run = _Run(ordered, tolerance, moments, MOST, given=np.argsort(places), compiled=True)
+            found = run.trajectory()
+            spent.append(time.process_time() - begun)
+        own = (STAGES - 1) * found.steps
+        explained = own * rates + (found.evaluations - own) * watched
+        rows.append({
+            "tolerance": tolerance, "cpu_s": min(spent), "evaluations": found.evaluations, "steps": found.steps,
+            "events": found.events, "explained": explained / min(spent),
+        })  # fmt: skip
+        print(f"{tolerance:7g} {1e3 * min(spent):7.2f} ms  {found.evaluations} evaluations, {found.events} events; "
+              f"evaluations alone {100 * explained / min(spent):.0f} %", flush=True)  # fmt: skip
+    return rows
+
+
+def compiling() -> list[dict[str, float]]:
+    """Of several first runs and what follows each."""
+    rows = []
+    for _ in range(ROUNDS):
+        with tempfile.TemporaryDirectory() as folder:
+            own = {**os.environ, "ABU_CALC_CACHE": folder}
+            (library, first), (_, later) = (
+                json.loads(
+                    subprocess.run([sys.executable, "-c", FIRST], env=own, capture_output=True, check=True).stdout
+                )
+                for _ in range(2)
+            )
+        rows.append({"import_s": library, "compile_s": first, "load_s": later})
+        print(f"import {library:.3f} s, compile {first:.2f} s, load {later:.3f} s", flush=True)
+    return rows
+
+
+def main() -> None:
+    """Print both, and keep the record."""
+    cases = {f"{PRESET} {SCENE}": prices(), "compiling for four balls with friction and contact": compiling()}
+    what = "what each digit costs in a scene that switches, and what compiling costs"
+    print(keep("price", what, "python -m tests.benchmarks.price", machine("not bound"), 0, cases))
+
+
+if __name__ == "__main__":
+    main()
