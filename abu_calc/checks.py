@@ -5,6 +5,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 Status = Literal["pass", "fail", "not-done"]
+"""Of a whole result."""
+Grade = Literal["pass", "warn", "fail", "not-done"]
+"""Of one check; warn: the usual rule holds, a stricter one or the worst case does not."""
 
 
 @dataclass(frozen=True)
@@ -16,7 +19,7 @@ class Check:
 
     code: str
     name: str
-    status: Status
+    status: Grade
     message: str
     value: float | None = None
     limit: float | None = None
@@ -26,7 +29,7 @@ class Check:
 
 
 def coded(
-    code: str, status: Status, message: str, value: float | None = None, limit: float | None = None,
+    code: str, status: Grade, message: str, value: float | None = None, limit: float | None = None,
     unit: str | None = None, remedy: str | None = None, bound: Literal["most", "least"] = "most", *, of: str = "",
 ) -> Check:  # fmt: skip
     """A check by its code, whose name stands in the table of codes; `of` names the one of several that it is of.
@@ -41,7 +44,7 @@ def coded(
 
 
 def overall(checks: Iterable[Check]) -> Status:
-    """The worst of several: fail before not-done before pass; no checks at all are not-done.
+    """The worst of several: fail before not-done before pass; a warning passes; no checks at all are not-done.
 
     >>> overall([])
     'not-done'
@@ -49,9 +52,15 @@ def overall(checks: Iterable[Check]) -> Status:
     statuses = {check.status for check in checks}
     if "fail" in statuses:
         return "fail"
-    return "pass" if statuses == {"pass"} else "not-done"
+    return "pass" if statuses and statuses <= {"pass", "warn"} else "not-done"
 
 
-def verdict(passed: bool) -> Status:
-    """The status of a check that was done."""
-    return "pass" if passed else "fail"
+def verdict(passed: bool, safe: bool = True) -> Grade:
+    """The status of a check that was done; `safe`: whether the stricter rule or the worst case passes, too.
+
+    >>> verdict(True), verdict(True, False), verdict(False)
+    ('pass', 'warn', 'fail')
+    """
+    if not passed:
+        return "fail"
+    return "pass" if safe else "warn"

@@ -10,7 +10,7 @@ class Heading(NamedTuple):
 
 
 class Paragraph(NamedTuple):
-    """Running text, wrapped to the width there is; `mark` sets it off (pass, fail, not-done, warning)."""
+    """Running text, wrapped to the width there is; `mark` sets it off (pass, warn, fail, not-done, warning)."""
 
     text: str
     mark: str | None = None
