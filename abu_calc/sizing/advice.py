@@ -27,8 +27,10 @@ def _capacity(case: Case, one: Candidate) -> Check:
 
 def _budget(one: Candidate) -> Check:
     budget = one.budget
-    return coded("ABU202", verdict(budget.within), "race eccentricity and dry friction, expected, against "
-        "what the limit permits", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
+    speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
+    return coded("ABU202", verdict(budget.within), "race eccentricity, dry friction and an oval race, expected, "
+        f"against what the limit permits at {speed}", from_si(budget.residual, "um"), from_si(budget.permitted, "um"),
+        "µm",
         None if budget.within else "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
     )  # fmt: skip
 

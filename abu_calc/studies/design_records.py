@@ -10,7 +10,7 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import Place
+from abu_calc.sizing.vibration import LevelAtSpeed, Place, SpeedLevels
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -128,11 +128,14 @@ class AccuracyBudget(Record):
     optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
 
     race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
-    rolling_friction_um: Annotated[float | None, Quantity("dry friction band", "k_r·R_p/r", 3)]
+    speed_rpm: Annotated[float, Quantity("speed where it is worst", "Ω", 6)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fanned balls)", "k_r·R_p/r", 3)]
+    rolling_friction_worst_um: Annotated[float | None, Quantity("dry friction, worst arrangement", "", 3)]
+    race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a", 3)]
     plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
     capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
-    worst_um: Annotated[float | None, Quantity("worst residual (plain sum)", "", 3)]
+    worst_um: Annotated[float | None, Quantity("worst residual (worst arrangement, plain sum)", "", 3)]
     permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
     rolling_friction_reached_um: Annotated[float | None, Quantity("friction band where balls came to rest", "", 3)] = (
         None
@@ -142,16 +145,20 @@ class AccuracyBudget(Record):
     def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:
         """Of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
         one, budget = design.autobalancer, design.autobalancer.budget
+        worst = next(each for each in design.worst if each.speed == budget.speed)
         band = None
         if reached is not None:
             band = friction_band(design.case.friction_arm, one.pitch_radius, one.ball_diameter / 2, reached)
         return cls(
             race_eccentricity_um=_um(budget.race_eccentricity),
+            speed_rpm=from_si(budget.speed, "rpm"),
             rolling_friction_um=_um(budget.rolling_friction),
+            rolling_friction_worst_um=_um(worst.rolling_friction),
+            race_ovality_um=_um(budget.race_ovality),
             plane_offset_um=_um(budget.plane_offset),
             capacity_shortfall_um=_um(budget.shortfall),
             residual_um=_um(budget.residual),
-            worst_um=_um(budget.worst),
+            worst_um=_um(worst.residual),
             permitted_um=_um(budget.permitted),
             rolling_friction_reached_um=None if band is None else _um(band),
         )
@@ -185,16 +192,37 @@ class HandleLevels(Record):
 
 
 @record
+class SpeedLevel(Record):
+    """Level with the autobalancer at one speed, at the loudest place."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    level_after_db: Annotated[float, Quantity("level after", "L")]
+
+    @classmethod
+    def of(cls, level: LevelAtSpeed) -> Self:
+        """In user units."""
+        return cls(speed_rpm=from_si(level.speed, "rpm"), level_after_db=level.after)
+
+
+@record
 class Vibration(Record):
-    """Levels at the loudest place, and at each; None after: balls cannot balance."""
+    """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
+
+    `by_speed`: over the speed range; `worst_arrangement`: the highest of the range where friction holds the balls at
+    their worst; none under load.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset({"by_speed", "worst_arrangement"})
 
     level_before_db: Annotated[float, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
+    by_speed: tuple[SpeedLevel, ...] | None = None
+    worst_arrangement: SpeedLevel | None = None
 
     @classmethod
-    def of(cls, vibration: Levelled) -> Self:
+    def of(cls, vibration: Levelled, levels: SpeedLevels | None = None) -> Self:
         """In the words of the interface."""
         worst = vibration.worst
         return cls(
@@ -202,6 +230,8 @@ class Vibration(Record):
             level_after_db=worst.after,
             reduction_db=worst.reduction,
             handles=tuple(map(HandleLevels.of, vibration.places)),
+            by_speed=None if levels is None else tuple(map(SpeedLevel.of, levels.by_speed)),
+            worst_arrangement=None if levels is None else SpeedLevel.of(levels.arranged),
         )
 
 

@@ -90,7 +90,7 @@ def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) 
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
-        vibration=Vibration.of(design.idle),
+        vibration=Vibration.of(design.idle, design.speed_levels),
         vibration_loaded=None if loaded is None else Vibration.of(loaded),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
