@@ -141,14 +141,12 @@ def _nearest(split: _Split, rho: "Reals") -> "Reals":
     def sums(angles: "Reals") -> "Complexes":
         return np.asarray(np.exp(1j * angles).sum(axis=-1))
 
-    beginnings = np.concatenate([
-        np.stack([np.concatenate([one, other], axis=-1) for one in near for other in far]),
-        np.concatenate([near, opposed(-(pull + sums(near)), split.far)], axis=-1),
-        np.concatenate([opposed(pull - sums(far), split.near), far], axis=-1),
-    ])
-    beginnings += middles
+    cornered = np.stack([np.concatenate([one, other], axis=-1) for one in near for other in far])
+    far_along = np.concatenate([near, opposed(-(pull + sums(near)), split.far)], axis=-1)
+    near_along = np.concatenate([opposed(pull - sums(far), split.near), far], axis=-1)
+    beginnings = middles + np.concatenate([cornered, far_along, near_along])
     best = np.abs(_carried(split, rho, beginnings)).argmin(axis=0)
-    angles = beginnings[best, np.arange(len(rho))]
+    angles: Reals = beginnings[best, np.arange(len(rho))]
     total = _carried(split, rho, angles)
     for _ in range(SWEEPS):
         before = total

@@ -118,8 +118,12 @@ def _vibration(result: SizeResult) -> list[Block]:
     )  # fmt: skip
     header = ("", "place", "before, dB", "after, dB", "reduction, dB", "felt mass, kg")
     blocks: list[Block] = [Heading("Vibration level"), Grid(header, rows, frozenset({2, 3, 4, 5}))]
-    if result.vibration_loaded:
+    loaded = result.vibration_loaded
+    if loaded:
         blocks.append(Paragraph("Under load is information, not a check: it rests on the contact's stiffness."))
+    if loaded and loaded.parts:
+        steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
+        blocks.append(Paragraph(f"Wheel and work part: the level after is that of the simulated grinding; {steady}."))
     return blocks
 
 

@@ -4,7 +4,7 @@ from abu_calc.checks import Check, coded, verdict
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.vibration import Vibration
+from abu_calc.sizing.vibration import Loaded
 from abu_calc.standards.balls import stock_diameter
 from abu_calc.units import from_si
 
@@ -80,7 +80,7 @@ def power_checks(case: Case) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def design_warnings(case: Case, one: Candidate, loaded: Vibration | None) -> tuple[str, ...]:
+def design_warnings(case: Case, one: Candidate, loaded: Loaded | None) -> tuple[str, ...]:
     """What a reader must know that no check says."""
     return (
         *_body_warnings(case),
@@ -90,8 +90,8 @@ def design_warnings(case: Case, one: Candidate, loaded: Vibration | None) -> tup
     )
 
 
-def _loaded_warnings(loaded: Vibration | None) -> list[str]:
-    if loaded is None or loaded.worst.after is not None:
+def _loaded_warnings(loaded: Loaded | None) -> list[str]:
+    if loaded is None or loaded.steady.after is not None:
         return []
     return [
         "No level under load is given with the autobalancer: the balls cannot balance at these speeds, or this contact "

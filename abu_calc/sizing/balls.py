@@ -77,9 +77,9 @@ class Choice:
 @formula(
     "The best of every stock diameter × count up to n* × race radius in the envelope",
     where=(
-        "Enough capacity comes first, then strength, a race that stays round, the accuracy budget, the mass fraction, and the least mass (ties: "
-        "the smaller ball). Of each diameter and count the smallest sufficient race stands for the rest: a larger one "
-        "is heavier."
+        "Enough capacity comes first, then strength, a race that stays round, the accuracy budget, the mass fraction, "
+        "and the least mass (ties: the smaller ball). Of each diameter and count the smallest sufficient race stands "
+        "for the rest: a larger one is heavier."
     ),
 )
 def choose(case: Case, imbalance: float) -> Choice:

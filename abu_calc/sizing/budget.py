@@ -1,6 +1,4 @@
-"""Step 4: what keeps a real autobalancer from 40 dB: race eccentricity, dry friction, an oval race, race off the wheel's
-plane.
-"""
+"""Step 4: what keeps a real autobalancer from 40 dB: race eccentricity, friction, an oval race, one off the wheel."""
 
 import math
 from bisect import bisect_left

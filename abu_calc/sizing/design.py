@@ -10,7 +10,7 @@ from abu_calc.sizing.drawing import Advice
 from abu_calc.sizing.frequency import FrequencyRegion
 from abu_calc.sizing.imbalance import Imbalance
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import SpeedLevels, Vibration
+from abu_calc.sizing.vibration import Loaded, SpeedLevels, Vibration
 from abu_calc.sizing.worst import WorstResidual
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Design:
     idle: Vibration
     worst: tuple[WorstResidual, ...]
     speed_levels: SpeedLevels | None
-    loaded: Vibration | None
+    loaded: Loaded | None
     seats: "tuple[BearingSeats, ...]"
     swing_arm: "SwingArmBounds | None"
     drawing: tuple[Advice, ...]

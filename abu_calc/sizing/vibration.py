@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from abu_calc.checks import Check, coded, verdict
@@ -21,15 +21,17 @@ CURVE_STEPS = 6
 
 @dataclass(frozen=True)
 class Levels:
-    """Levels [dB] without and with the autobalancer; `after` is null where balls cannot balance."""
+    """Levels [dB] without and with the autobalancer; `after` is null where balls cannot balance, each under load where
+    it is not known.
+    """
 
-    before: float
+    before: float | None
     after: float | None
 
     @property
     def reduction(self) -> float | None:
         """before − after [dB]."""
-        return None if self.after is None else self.before - self.after
+        return None if self.before is None or self.after is None else self.before - self.after
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ class SpeedLevels:
 def idle_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
-    return _vibration(case, before, _residual(case, imbalance, one, case.speed) if possible else None, one.mass)
+    return handle_levels(case, before, _residual(case, imbalance, one, case.speed) if possible else None, one.mass)
 
 
 def speed_levels(
@@ -104,9 +106,7 @@ def speed_levels(
 
     low, high = case.speed_range
     steps = {low + (high - low) * step / CURVE_STEPS for step in range(CURVE_STEPS)}
-    curve = tuple(
-        at(speed, _residual(case, imbalance, one, speed)) for speed in sorted({*steps, *judged_speeds(case)})
-    )
+    curve = tuple(at(speed, _residual(case, imbalance, one, speed)) for speed in sorted({*steps, *judged_speeds(case)}))
     highest, arranged = max(curve, key=_after), max((at(each.speed, each.residual) for each in worst), key=_after)
     return SpeedLevels(curve, highest, arranged)
 
@@ -119,6 +119,22 @@ def _residual(case: Case, imbalance: float, one: Candidate, speed: float) -> flo
     return accuracy_budget(case, imbalance, one.requirement, one.balls, one.budget.resting_angles, speed).residual
 
 
+@dataclass(frozen=True)
+class Loaded:
+    """Levels under load; `before`: displacement without autobalancer [m], None where it is not known.
+
+    `steady`: the loudest levels by steady contact, which hold unless wheel and work part, without or with the
+    autobalancer. `simulated`: whether the level after is that of a simulation.
+    """
+
+    levels: Vibration
+    steady: Levels
+    before: float | None
+    parts_before: bool
+    parts_after: bool
+    simulated: bool = False
+
+
 @formula(
     "Levels under load by steady contact without separation: information, the contact's stiffness is uncertain",
     "",
@@ -126,38 +142,50 @@ def _residual(case: Case, imbalance: float, one: Candidate, speed: float) -> flo
     where=(
         "Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the "
         "forward whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, "
-        "or where the contact asks for more than they carry. A face contact does not press radially: idle."
+        "or where the contact asks for more than they carry. A face contact does not press radially: idle. Where the "
+        "force between wheel and work would pull, they part, and neither holds: the simulation of grinding gives the "
+        "level after."
     ),
-    assumed="no separation of wheel and work",
+    assumed="no separation of wheel and work (checked)",
     source="derived",
 )
-def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration | None:
+def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Loaded | None:
     if case.contact is None:
         return None
     bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, one.mass, damped=True)
     if bare is None or loaded is None:
-        return idle_vibration(case, imbalance, one, possible)
-    runout = cmath.rect(case.runout, math.radians(case.table.wheel.runout_angle_deg))
-    before = max(map(abs, bare.axis(imbalance, runout)))
+        idle = idle_vibration(case, imbalance, one, possible)
+        return Loaded(idle, idle.worst, None, parts_before=False, parts_after=False)
+    runout, press = cmath.rect(case.runout, math.radians(case.table.wheel.runout_angle_deg)), case.contact.press_force
+    before, after = max(map(abs, bare.axis(imbalance, runout))), None
     balancing = loaded.balancing_imbalance(runout)
     carried = abs(balancing - imbalance) * abs(one.requirement.plane_ratio) <= one.capacity
-    if not (possible and carried) or loaded.balls_increase_imbalance:
-        return _vibration(case, before, None, one.mass)
-    after = math.hypot(max(map(abs, loaded.axis(balancing, runout))), _residual(case, imbalance, one, case.speed))
-    return _vibration(case, before, after, one.mass)
+    balanced = possible and carried and not loaded.balls_increase_imbalance
+    if balanced:
+        rest = _residual(case, imbalance, one, case.speed)
+        after = math.hypot(max(map(abs, loaded.axis(balancing, runout))), rest)
+    levels = handle_levels(case, before, after, one.mass)
+    parts_before = abs(bare.normal_force(imbalance, runout)) > press
+    parts_after = balanced and abs(loaded.normal_force(balancing, runout)) > press
+    valid = handle_levels(case, None if parts_before else before, None if parts_after else after, one.mass)
+    return Loaded(valid, levels.worst, None if parts_before else before, parts_before, parts_after)
 
 
-def _vibration(case: Case, before: float, after: float | None, added_mass: float) -> Vibration:
+def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> Vibration:
+    """Levels at every handle of displacements at the wheel [m] at the rated speed, None: not known."""
     handles = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
     places = []
     for name, place in handles:
-        bare = _level(case, before * case.body.transmission(place))
+        bare = None if before is None else _level(case, before * case.body.transmission(place))
         fitted = None if after is None else _level(case, after * case.body.transmission(place, added_mass))
         inertance = abs(case.body.inertance(place, case.body.wheel, added_mass))
         places.append(Place(name, 1 / inertance if inertance else None, Levels(bare, fitted)))
-    loudest = [place.levels.after for place in places if place.levels.after is not None]
-    worst = Levels(max(place.levels.before for place in places), max(loudest, default=None))
-    return Vibration(tuple(places), worst, after is not None and after < before)
+    worst = Levels(_loudest(each.levels.before for each in places), _loudest(each.levels.after for each in places))
+    return Vibration(tuple(places), worst, before is not None and after is not None and after < before)
+
+
+def _loudest(levels: Iterable[float | None]) -> float | None:
+    return max((level for level in levels if level is not None), default=None)
 
 
 def _level(case: Case, displacement: float) -> float:
@@ -173,19 +201,21 @@ def vibration_checks(case: Case, idle: Vibration, levels: SpeedLevels | None) ->
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
     lower = idle.lowered
     return (
-        _level_check(limit, levels),
+        _level_check(case, levels),
         coded("ABU402", verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
               None if lower else "The wheel is balanced better than balls can do: no autobalancer is needed."),
     )  # fmt: skip
 
 
-def _level_check(limit: float, levels: SpeedLevels) -> Check:
+def _level_check(case: Case, levels: SpeedLevels) -> Check:
     """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
-    highest, arranged = levels.highest, levels.arranged
+    limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
     kept, safe = highest.after <= limit, arranged.after <= limit
-    message = f"expected with the autobalancer at the worst handle, at {_rpm(highest)}, the worst of the range"
+    of_range = "" if len(levels.by_speed) == 1 else ", the worst of the range"
+    message = f"expected with the autobalancer at the worst handle, at {_rpm(highest)}{of_range}"
     if kept and not safe:
-        message += f"; where friction holds the balls at their worst {arranged.after:.1f} dB, at {_rpm(arranged)}"
+        there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
+        message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
     remedy = "Smaller race eccentricity, a harder and cleaner race, larger balls."
     return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", None if kept and safe else remedy)
 

@@ -1,6 +1,7 @@
 """The parts of a sized design, as results hold them: SI in, user units out."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.analysis.region import TrueRegion
@@ -10,7 +11,7 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelAtSpeed, Place, SpeedLevels
+from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, Place, SpeedLevels
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -128,14 +129,16 @@ class AccuracyBudget(Record):
     optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
 
     race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
-    speed_rpm: Annotated[float, Quantity("speed where it is worst", "Ω", 6)]
-    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fanned balls)", "k_r·R_p/r", 3)]
-    rolling_friction_worst_um: Annotated[float | None, Quantity("dry friction, worst arrangement", "", 3)]
+    speed_rpm: Annotated[float, Quantity("at its worst speed", "Ω", 6)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fan)", "k_r·R_p/r", 3)]
+    rolling_friction_worst_um: Annotated[
+        float | None, Quantity("dry friction, worst", "", 3, "at the worst arrangement of the balls")
+    ]
     race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a", 3)]
     plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
     capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
-    worst_um: Annotated[float | None, Quantity("worst residual (worst arrangement, plain sum)", "", 3)]
+    worst_um: Annotated[float | None, Quantity("worst residual (plain sum)", "", 3)]
     permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
     rolling_friction_reached_um: Annotated[float | None, Quantity("friction band where balls came to rest", "", 3)] = (
         None
@@ -173,7 +176,7 @@ class HandleLevels(Record):
     """Levels at one place where the machine is held."""
 
     name: Annotated[str, Quantity("place")]
-    level_before_db: Annotated[float, Quantity("level before", "L")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
@@ -209,17 +212,20 @@ class Vibration(Record):
     """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
 
     `by_speed`: over the speed range; `worst_arrangement`: the highest of the range where friction holds the balls at
-    their worst; none under load.
+    their worst; none under load. `parts`: under load, whether wheel and work part: then the level after is that of the
+    simulation of grinding, and that of steady contact is not valid.
     """
 
-    optional: ClassVar[frozenset[str]] = frozenset({"by_speed", "worst_arrangement"})
+    optional: ClassVar[frozenset[str]] = frozenset({"by_speed", "worst_arrangement", "parts", "steady_level_after_db"})
 
-    level_before_db: Annotated[float, Quantity("level before", "L")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
     by_speed: tuple[SpeedLevel, ...] | None = None
     worst_arrangement: SpeedLevel | None = None
+    parts: bool | None = None
+    steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
 
     @classmethod
     def of(cls, vibration: Levelled, levels: SpeedLevels | None = None) -> Self:
@@ -233,6 +239,13 @@ class Vibration(Record):
             by_speed=None if levels is None else tuple(map(SpeedLevel.of, levels.by_speed)),
             worst_arrangement=None if levels is None else SpeedLevel.of(levels.arranged),
         )
+
+    @classmethod
+    def of_loaded(cls, loaded: Loaded) -> Self:
+        """Under load."""
+        found = cls.of(loaded.levels)
+        steady = loaded.steady.after if loaded.parts_after else None
+        return replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
 
 
 @record

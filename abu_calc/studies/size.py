@@ -3,6 +3,7 @@
 from typing import Annotated, ClassVar
 
 from abu_calc.analysis.idle import idle_checks, not_simulated
+from abu_calc.analysis.loaded import loaded_levels
 from abu_calc.analysis.machine import Run, simulated
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
@@ -69,7 +70,7 @@ def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) 
         if run.ledger.scene.name == "idle":
             checks += idle_checks(design, run.simulation.response)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
-    need, loaded = design.autobalancer.requirement, design.loaded
+    need, loaded = design.autobalancer.requirement, loaded_levels(design, runs)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
@@ -91,7 +92,7 @@ def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) 
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=Vibration.of(design.idle, design.speed_levels),
-        vibration_loaded=None if loaded is None else Vibration.of(loaded),
+        vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
         swing_arm=None if design.swing_arm is None else SwingArm.of(design.swing_arm),
