@@ -121,8 +121,9 @@ def simulate_members(
     design: Design, doubtful: float = 0.0, accuracy: float = 0.01, progress: Progress = silent,
     workers: Workers | None = None, shares: tuple[float, ...] = DRAGS,
 ) -> Ensemble:  # fmt: skip
-    """Every start once, at these shares of the drag given; those that decide a check again by a tighter run, of which the worse counts.
+    """Every start once, at these shares of the drag given.
 
+    Those that decide a check run again at a tighter tolerance, and the worse of both counts.
     `doubtful` [1/s]: the drag below which balls might hang, so that a slow run-up is tried, too. The outcome does not
     depend on how many run side by side.
     """
@@ -143,7 +144,7 @@ def start_once(design: Design, member: Member, accuracy: float, tolerance: float
         equations = assemble(scene)
         choice = choose(equations, "auto", tolerance)
         run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(WORK))
-        return _outcome(design, member, scene, evaluate(scene, run))
+        return outcome_of(design, member, scene, evaluate(scene, run))
     except NotTrustworthyError as error:
         return Lost(member, str(error).splitlines()[0])
 
@@ -160,7 +161,7 @@ def _all(
     return side_by_side(start_once, tasks, workers, told)
 
 
-def _outcome(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
+def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
     speed = abs(response.final.speed) or scene.speed
     settling = response.settling_time
     return Outcome(

@@ -40,8 +40,9 @@ def level_check(closed: Check, ensemble: Ensemble | None) -> Check:
     if given is None or worst is None:
         return closed
     if given.level > closed.limit and given.level > closed.value:
-        return coded("ABU401", "fail", f"simulated, the loudest start is {_named(given)}", given.level, closed.limit,
-                     "dB", "What lets it balance, see ABU701; else smaller friction and eccentricity of the race.")  # fmt: skip
+        remedy = "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
+        message = f"simulated, the loudest start is {_named(given)}"
+        return coded("ABU401", "fail", message, given.level, closed.limit, "dB", remedy)
     if closed.status == "pass" and worst.level > closed.limit:
         return coded("ABU401", "warn", f"kept at the drag given, but not {_named(worst)}: {worst.level:.1f} dB",
                      max(given.level, closed.value), closed.limit, "dB")  # fmt: skip
