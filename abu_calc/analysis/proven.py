@@ -12,8 +12,10 @@ from abu_calc.sizing.design import Design
 MOST_OTHERS = 3
 """Candidates that are tried when the best one does not pass."""
 
-TIMES = (1.5, 2.0, 3.0, 5.0)
-"""Of the drag given: remedies that are tried, the smallest change first."""
+DRAGS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
+"""Drags [1/s] of oils and greases, of which those nearest to the drag given are tried as a remedy."""
+MOST_DRAGS, NEAR = 5, 1.2
+"""How many are tried, and the factor within which another drag is none."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ def proven(
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
             return Proven(other, found, warnings=(text,))
-    return Proven(design, first, _remedy(design, doubtful, accuracy, progress, workers))
+    return Proven(design, first, _remedy(design, first, doubtful, accuracy, progress, workers))
 
 
 def passes(design: Design, ensemble: Ensemble) -> bool:
@@ -62,18 +64,24 @@ def _carries(design: Design) -> bool:
 
 
 def _remedy(
-    design: Design, doubtful: float, accuracy: float, progress: Progress, workers: Workers | None
+    design: Design, first: Ensemble, doubtful: float, accuracy: float, progress: Progress, workers: Workers | None
 ) -> str:  # fmt: skip
     """A drag with which every start passes, or that none was found."""
-    drags = [share * design.case.drag for share in TIMES]
-    for drag in drags:
+    tried = _other_drags(design.case.drag, only_more=bool(first.hanging))
+    for drag in tried:
         progress(f"idle: a drag of {drag:.3g} 1/s instead")
         other = replace(design, case=replace(design.case, drag=drag))
         found = simulate_members(other, doubtful, accuracy, silent, workers, (1.0,))
         if passes(other, found):
             return f"Tried: with autobalancer.rolling_drag_per_s = {drag:.3g} all {found.members} starts pass."
-    tried = ", ".join(f"{drag:.3g}" for drag in drags)
-    return f"Tried without success: drags of {tried} 1/s. Another machine, suspension or speed is needed."
+    names = ", ".join(f"{drag:.3g}" for drag in sorted(tried))
+    return f"Tried without success: drags of {names} 1/s. Not tried: another suspension, speed or run-up."
+
+
+def _other_drags(given: float, *, only_more: bool) -> list[float]:
+    """The nearest first; more drag alone where balls hang."""
+    others = [drag for drag in DRAGS if drag > NEAR * given or (drag < given / NEAR and not only_more)]
+    return sorted(others, key=lambda drag: max(drag / given, given / drag) if given else drag)[:MOST_DRAGS]
 
 
 def _words(one: Candidate) -> str:

@@ -41,8 +41,7 @@ def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = D
     """
     given = design.case.table.run_up
     usual = given.time_s if given else RUN_UP
-    for share in shares:
-        drag = share * design.case.drag
+    for drag in dict.fromkeys(share * design.case.drag for share in shares):
         yield from (Member(start, drag) for start in STARTS)
         yield Member("bunched", drag, usual)
         if drag < doubtful and usual < SLOW:
@@ -56,8 +55,11 @@ def scene_of_member(design: Design, member: Member) -> Scene:
     """
     own = _with(design, member)
     scene = scene_of_design(own, "run-up" if member.run_up else "idle", member.start)
-    lag = LAGS * own.case.inertia_factor / member.drag if member.run_up or member.start == "standstill" else 0.0
-    return replace(scene, duration=scene.duration + min(lag, own.case.table.limits.settling_time_s))
+    if not member.run_up and member.start != "standstill":
+        return scene
+    longest = own.case.table.limits.settling_time_s
+    lag = LAGS * own.case.inertia_factor / member.drag if member.drag else longest
+    return replace(scene, duration=scene.duration + min(lag, longest))
 
 
 def _with(design: Design, member: Member) -> Design:

@@ -8,7 +8,7 @@ import pytest
 
 from abu_calc.analysis.ensemble import Ensemble, Lost, Outcome, simulate_members
 from abu_calc.analysis.idle import ensemble_checks, level_check
-from abu_calc.analysis.proven import passes, proven
+from abu_calc.analysis.proven import _other_drags, passes, proven
 from abu_calc.checks import Check, coded
 from abu_calc.parallel import Workers
 from abu_calc.scenes.members import Member, members, scene_of_member
@@ -102,7 +102,28 @@ def test_a_member_is_its_scene() -> None:
     assert cold.duration < behind.duration, "what dies out sooner need not be followed as long"
     slow = scene_of_member(found, Member("bunched", 15.0, 4.0))
     assert slow.duration > 4.0 + behind.duration
-    assert [one.name for one in slow.effects][0] == "run_up"
+    assert slow.effects[0].name == "run_up"
+
+
+def test_a_race_without_drag() -> None:
+    """Has no hot and cold oil; balls at rest never take up the speed of the race."""
+    found = design("msh-230", rolling_drag_per_s=0)
+    assert len(list(members(found))) == 5
+    assert statuses(found, simulate_members(found))["ABU701"] == "fail"
+
+
+@pytest.mark.parametrize(
+    ("given", "only_more", "expected"),
+    [
+        (15.0, False, [12.0, 27.0, 8.0, 40.0, 5.0]),
+        (15.0, True, [27.0, 40.0, 60.0]),
+        (500.0, False, [60.0, 40.0, 27.0, 18.0, 12.0]),
+        (0.0, False, [3.0, 5.0, 8.0, 12.0, 18.0]),
+    ],
+)
+def test_drags_that_are_tried(given: float, only_more: bool, expected: list[float]) -> None:
+    """The nearest first; where balls hang, more alone."""
+    assert _other_drags(given, only_more=only_more) == expected
 
 
 def test_settling_counts_from_full_speed() -> None:
@@ -188,4 +209,4 @@ def test_another_candidate_where_the_best_does_not_pass() -> None:
     found = proven(pinned)
     assert found.design is pinned
     assert found.remedy is not None
-    assert "rolling_drag_per_s = 6 all 5 starts pass" in found.remedy
+    assert "rolling_drag_per_s = 5 all 5 starts pass" in found.remedy

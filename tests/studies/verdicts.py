@@ -59,12 +59,15 @@ def machine_text(seed: int) -> str:
         return float(np.exp(rng.uniform(math.log(low), math.log(high))))
 
     mass, speed = log(1, 10), log(3000, 20000)
-    suspensions = (
-        'model = "hands"',
-        f"model = \"springs\"\nnatural_frequencies_hz = [{rng.uniform(2, 4):.3g}]\ndamping_ratios = [0.5]",
-        f"model = \"springs\"\nnatural_frequencies_hz = [{log(5, 12):.3g}, {log(8, 20):.3g}]\ndamping_ratios = [0.2, 0.2]",
-        f"model = \"springs\"\nnatural_frequencies_hz = [{log(10, 30):.3g}]\ndamping_ratios = [{log(0.02, 0.2):.2g}]",
-    )
+    springs = [
+        ([rng.uniform(2, 4)], 0.5),
+        ([log(5, 12), log(8, 20)], 0.2),
+        ([log(10, 30)], log(0.02, 0.2)),
+    ]
+    hertz, damping = springs[rng.integers(3)]
+    frequencies = ", ".join(f"{one:.3g}" for one in hertz)
+    held = f'model = "springs"\nnatural_frequencies_hz = [{frequencies}]\ndamping_ratios = [{damping:.2g}]'
+    suspension = 'model = "hands"' if rng.random() < 0.25 else held
     wheel = 0.3 * log(100, 230) / 100
     return f"""
 [machine]
@@ -74,7 +77,7 @@ mass_kg = {mass:.4g}
 speed_rpm = {speed:.5g}
 spindle_axis = "{rng.choice(["horizontal", "vertical"])}"
 [suspension]
-{rng.choice(suspensions)}
+{suspension}
 [wheel]
 mass_kg = {min(wheel, mass / 4):.3g}
 diameter_mm = {min(230, 1.5e6 / speed):.4g}
