@@ -8,7 +8,8 @@ import pytest
 
 from abu_calc.analysis.ensemble import Ensemble, Lost, Outcome, simulate_members
 from abu_calc.analysis.idle import ensemble_checks, level_check
-from abu_calc.analysis.proven import _other_drags, passes, proven
+from abu_calc.analysis.proven import proven
+from abu_calc.analysis.remedies import changes, other_drags, passes
 from abu_calc.checks import Check, coded
 from abu_calc.parallel import Workers
 from abu_calc.scenes.members import Member, members, scene_of_member
@@ -123,7 +124,7 @@ def test_a_race_without_drag() -> None:
 )
 def test_drags_that_are_tried(given: float, only_more: bool, expected: list[float]) -> None:
     """The nearest first; where balls hang, more alone."""
-    assert _other_drags(given, only_more=only_more) == expected
+    assert other_drags(given, only_more=only_more) == expected
 
 
 def test_settling_counts_from_full_speed() -> None:
@@ -210,3 +211,17 @@ def test_another_candidate_where_the_best_does_not_pass() -> None:
     assert found.design is pinned
     assert found.remedy is not None
     assert "rolling_drag_per_s = 5 all 5 starts pass" in found.remedy
+
+
+def test_each_change_is_a_change() -> None:
+    """Drags, more damping; a faster run-up only where nothing but run-ups fails; of hands nothing can be changed."""
+    found = design("hanging-balls")
+    standstill = Ensemble(6.0, (outcome(6.0, "standstill", slip=0.5),), ())
+    names = [name for name, _ in changes(found, standstill)]
+    assert names[-1] == "suspension.damping_ratios twice as large"
+    assert not any("run_up" in name for name in names)
+    hung = replace(outcome(6.0, slip=0.5), member=Member("bunched", 6.0, 1.0))
+    both = list(changes(found, Ensemble(6.0, (hung,), ())))
+    assert any("run_up.time_s = 0.5" in name for name, _ in both)
+    assert all(other.case != found.case for _, other in both)
+    assert all("damping" not in name for name, _ in changes(design("hands-called-chaotic"), standstill))
