@@ -187,18 +187,21 @@ _ALL: Final = (
         "The group that the check names, or looser fits.", "seats", ("fits.clearance:clearance_left",),
     ),
     CheckCode(
-        "ABU701", "simulated balancing",
-        "Whether balls bunched on the heavy side go where they balance, simulated idle.",
-        "More is left than a tenth of the imbalance and what eccentricity and friction keep. Not done where the balls "
-        "cannot carry the imbalance, or where no simulation reached the accuracy.",
-        "Leave the forbidden speeds, or bring the drag nearer to the optimum.",
+        "ABU701", "balances from every start",
+        "Whether balls go where they balance however the idle machine is switched on: bunched before and behind the "
+        "imbalance, spread, from standstill, by the run-up; simulated with every effect that counts.",
+        "From some start at the drag given more is left than a tenth of the imbalance and what eccentricity and "
+        "friction keep. Starts at a third and three times the drag, oil hot and cold, warn. Not done where the balls "
+        "cannot carry the imbalance, or where a start gave no answer.",
+        "Leave the forbidden speeds, or change the drag; what was tried on this machine stands in the report.",
         "simulation", ("formulas.motion:simulate", "formulas.slow_motion:optimum_drag"),
     ),
     CheckCode(
         "ABU702", "settling time",
-        "Whether they get there soon enough.",
-        "It takes longer than limits.settling_time_s, or they settle where they do not balance.",
-        "Drag nearer to the optimum, or more capacity.",
+        "Whether they get there soon enough, from the slowest of these starts; in a run-up from full speed on.",
+        "It takes longer than limits.settling_time_s, or they settle where they do not balance. At a third and three "
+        "times the drag it warns.",
+        "Another drag, or more capacity; what was tried stands in the report.",
         "simulation", ("formulas.motion:settling_time", "formulas.slow_motion:optimum_drag"),
     ),
     CheckCode(
@@ -206,6 +209,16 @@ _ALL: Final = (
         "Whether a further scene that the file calls for (grinding, swing arm) could be simulated.",
         "Never failed: not done where no simulation reached the accuracy.",
         "A drag nearer to the optimum, or less accuracy (--accuracy).", "simulation", ("formulas.motion:simulate",),
+    ),
+    CheckCode(
+        "ABU704", "no balls left hanging",
+        "Whether any of these starts leaves balls going round behind the rotor: caught at a resonance of the "
+        "suspension, driven round by it, or held back by their weight.",
+        "At the end of a start at the drag given, balls keep a mean speed against the race above 5 % of the rotor's. "
+        "At a third and three times the drag it warns.",
+        "More drag, a faster run-up, more damping of the suspension, fewer or smaller balls, or a pause at a lower "
+        "speed after the run-up.",
+        "simulation", ("formulas.motion:simulate",),
     ),
     CheckCode(
         "ABU801", "accuracy reached",

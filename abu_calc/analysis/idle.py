@@ -1,8 +1,11 @@
-"""What the simulation of an idle machine must show for its design to pass, in `abu size`."""
+"""What the many starts of an idle machine must show for its design to pass, in `abu size`."""
 
+import math
+from collections.abc import Callable, Iterable
+
+from abu_calc.analysis.ensemble import Ensemble, Outcome, allowed_imbalance
 from abu_calc.analysis.response import Response
-from abu_calc.checks import Check, verdict
-from abu_calc.formulas.motion import SETTLED
+from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
 
@@ -10,47 +13,137 @@ WORK = 300_000
 """Evaluations that the simulation of one scene within `abu size` may take, some seconds. A wheel that bounces before it
 stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
 
+JUDGED = "ABU701", "ABU702", "ABU704"
 
-def idle_checks(design: Design, response: Response) -> tuple[Check, ...]:
-    """Balls that balance (a tenth of the imbalance is left, beside what the budget grants), and soon enough.
 
-    Not done where the balls, side by side, cannot carry the imbalance.
+def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | None = None) -> tuple[Check, ...]:
+    """Balls that balance from every start, soon enough, and never hang.
+
+    Starts at the drag given fail a check, those at a third and at three times it warn. `remedy`: what was tried. Not
+    done without an ensemble: the balls, side by side, cannot carry the imbalance.
     """
+    if ensemble is None:
+        reason = "the balls cannot carry the imbalance side by side"
+        return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in JUDGED)
+    return (
+        _balances(ensemble, remedy),
+        _settles(design, ensemble, remedy),
+        _none_hangs(ensemble, remedy),
+    )
+
+
+def level_check(closed: Check, ensemble: Ensemble | None) -> Check:
+    """The check of the idle level with what the starts show beside the closed form; the worse of both stands."""
+    if ensemble is None or closed.status == "not-done" or closed.limit is None or closed.value is None:
+        return closed
+    given, worst = _loudest(ensemble.given), _loudest(ensemble.outcomes)
+    if given is None or worst is None:
+        return closed
+    if given.level > closed.limit and given.level > closed.value:
+        remedy = "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
+        message = f"simulated, the loudest start is {_named(given)}"
+        return coded("ABU401", "fail", message, given.level, closed.limit, "dB", remedy)
+    if closed.status == "pass" and worst.level > closed.limit:
+        return coded("ABU401", "warn", f"kept at the drag given, but not {_named(worst)}: {worst.level:.1f} dB",
+                     max(given.level, closed.value), closed.limit, "dB")  # fmt: skip
+    if given.level <= closed.value:
+        return closed
+    return coded("ABU401", closed.status, f"simulated, the loudest start is {_named(given)}; {closed.message}",
+                 given.level, closed.limit, "dB", closed.remedy)  # fmt: skip
+
+
+def _balances(ensemble: Ensemble, remedy: str | None) -> Check:
+    given = ensemble.given
+    failing = [one for one in given if not one.balanced]
+    worst = max(given, key=lambda one: one.imbalance, default=None)
+    status = _grade(ensemble, lambda one: one.balanced)
+    left = f"{ensemble.balanced} of {ensemble.members} starts balance"
+    if failing:
+        left += f"; not {_listed(failing)}"
+    elif status == "warn":
+        left += f"; not {_listed(one for one in ensemble.outcomes if not one.balanced)}"
+    for one in ensemble.lost[:1]:
+        left += f"; without an answer {_words(one.member.name, one.member.drag)}: {one.reason}"
+    value, limit = (worst.imbalance, worst.allowed) if worst else (None, None)
+    return coded("ABU701", status, f"{left}; imbalance left by the worst", _g_mm(value), _g_mm(limit), "g·mm",
+                 None if status == "pass" else remedy)  # fmt: skip
+
+
+def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
+    limit = design.case.table.limits.settling_time_s
+    status = _grade(ensemble, lambda one: one.time <= limit)
+    late = max(ensemble.given, key=lambda one: one.time, default=None)
+    latest = max(ensemble.outcomes, key=lambda one: one.time, default=None)
+    message = "no start gave an answer" if late is None else f"the slowest start is {_named(late)}"
+    if status == "warn" and latest and latest.time > limit:
+        when = "never" if math.isinf(latest.time) else f"{latest.time:.2g} s"
+        message += f"; {_named(latest)}: {when}"
+    if any(one.member.run_up for one in ensemble.given):
+        message += "; in a run-up counted from full speed on"
+    value = None if late is None or math.isinf(late.time) else late.time
+    return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)
+
+
+def _none_hangs(ensemble: Ensemble, remedy: str | None) -> Check:
+    status = _grade(ensemble, lambda one: not one.hanging)
+    message = "no start leaves balls going round behind the rotor"
+    if ensemble.hanging:
+        message = f"balls hang {_listed(ensemble.hanging)}"
+    return coded("ABU704", status, message, float(len(ensemble.hanging)), 0.0, "starts",
+                 None if status == "pass" else remedy)  # fmt: skip
+
+
+def _grade(ensemble: Ensemble, good: Callable[[Outcome], bool]) -> Grade:
+    """fail by a start at the drag given, not-done where one of these has no answer, warn by any other."""
+    given = ensemble.given
+    if not all(map(good, given)):
+        return "fail"
+    if not given or any(one.member.drag == ensemble.drag for one in ensemble.lost):
+        return "not-done"
+    return verdict(True, all(map(good, ensemble.outcomes)) and not ensemble.lost)
+
+
+def _loudest(outcomes: Iterable[Outcome]) -> Outcome | None:
+    return max(outcomes, key=lambda one: one.level, default=None)
+
+
+def _named(one: Outcome) -> str:
+    return _words(one.member.name, one.member.drag)
+
+
+def _words(name: str, drag: float) -> str:
+    return f"{name} at a drag of {drag:.3g} 1/s"
+
+
+def _listed(outcomes: Iterable[Outcome]) -> str:
+    """The first few in words."""
+    names = [_named(one) for one in outcomes]
+    more = f" and {len(names) - 2} more" if len(names) > 2 else ""
+    return "from " + ", ".join(names[:2]) + more
+
+
+def _g_mm(value: float | None) -> float | None:
+    return None if value is None else from_si(value, "g_mm")
+
+
+def one_run_checks(design: Design, response: Response) -> tuple[Check, ...]:
+    """The same of one start alone, as `abu simulate` judges it."""
     one, limit = design.autobalancer, design.case.table.limits.settling_time_s
     moved = design.imbalance.value * abs(one.requirement.plane_ratio)
-    names = ("ABU701", "simulated balancing"), ("ABU702", "settling time")
-    if one.capacity < moved:
-        reason = "the balls cannot carry the imbalance side by side"
-        return tuple(Check(*name, "not-done", reason, remedy="More or larger balls.") for name in names)
-    left, allowed = response.residual_imbalance, _allowed(design, moved)
-    balanced, settled = left <= allowed, response.settling_time is not None and response.settling_time <= limit
-    if balanced:
-        message = "imbalance left: the balls end opposite the imbalance"
-    elif left > moved:
-        message = "imbalance left: the balls make it worse, they gather on the heavy side"
-    else:
-        message = "imbalance left: the balls help, but do not balance"
-    start = "from the hard start, balls bunched on the heavy side"
-    drag = design.track.optimum_drag
-    sooner = "" if drag is None else f" {drag:.0f} 1/s"
+    left, allowed = response.residual_imbalance, allowed_imbalance(design, moved)
+    balanced, time = left <= allowed, response.settling_time
+    soon = balanced and time is not None and time <= limit
+    word = "this start ends" if balanced else "this start does not end"
+    message = f"{word} where the balls balance; others may differ: abu size tries many"
     return (
-        Check(*names[0], verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm",
-              None if balanced else "Leave the forbidden speeds, or bring the drag nearer to the optimum."),
-        Check(*names[1], verdict(settled and balanced), start if balanced else "settled where it does not balance",
-              response.settling_time, limit, "s",
-              None if settled and balanced else f"Drag nearer to the optimum{sooner}, or more capacity."),
-    )  # fmt: skip
-
-
-def _allowed(design: Design, moved: float) -> float:
-    """What may be left: a tenth of the imbalance, and what race eccentricity and dry friction leave in any case."""
-    one = design.autobalancer
-    remaining = one.requirement.effective_mass * (one.budget.race_eccentricity + one.budget.rolling_friction)
-    return SETTLED * max(moved, 0.01 * one.static_moment) + remaining
+        coded("ABU701", verdict(balanced), message, _g_mm(left), _g_mm(allowed), "g·mm"),
+        coded("ABU702", verdict(soon), "by this start alone", time, limit, "s"),
+    )
 
 
 def not_simulated(scene: str, reason: str) -> Check:
     """The check of a simulation that gave no number to be trusted."""
-    name = "simulated balancing" if scene == "idle" else f"simulated scene {scene}"
-    return Check("ABU701" if scene == "idle" else "ABU703", name, "not-done", f"no trustworthy simulation: {reason}",
+    of = "ABU701" if scene == "idle" else "ABU703"
+    name = "" if scene == "idle" else scene
+    return coded(of, "not-done", f"no trustworthy simulation: {reason}", of=name,
                  remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip

@@ -18,6 +18,9 @@ from abu_calc.dynamics.trajectory import Samples
 
 Kind = Literal["conservative", "dissipative", "driven"]
 
+ACROSS = "across"
+"""Name of the state of each ball that is its place across the race [m], of whichever effect lets it move there."""
+
 ACROSS_RATE = "across'"
 """Name of the state of each ball that is its speed across the race, of whichever effect lets it move there."""
 
@@ -127,6 +130,8 @@ class Effect:
     """Whether heyoka can trace it: no function but sin and cos, no decision by values that are not its own numbers."""
     averaged: ClassVar[bool] = False
     """Whether the averaged slow motion accounts for it: by `offset`, by `falling`, or since it averages out."""
+    whole_run: ClassVar[bool] = False
+    """Whether its remarks look at samples of the whole run at once, of a long one at some of them."""
     balls_meet: ClassVar[bool] = False
     """Whether it gives balls a size, so that they cannot pass each other."""
 
@@ -241,7 +246,7 @@ class Effect:
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """What a user should know of a run: that it left the range in which the effect holds, for instance.
 
-        A long run is shown block by block, until there is something to say.
+        A long run is shown block by block, until there is something to say, unless `whole_run`.
         """
         return ()
 

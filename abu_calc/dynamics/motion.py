@@ -108,11 +108,12 @@ class Across:
 
 @dataclass(slots=True)
 class Bound:
-    """A constraint row · A = value; its reaction acts on the frame along `force`."""
+    """A constraint row · A = value; its reaction acts on the frame along `force`. `holds`: 1, or 0 while it does not."""
 
     row: Array
     value: Any
     force: Array
+    holds: Any = 1.0
 
 
 @dataclass(slots=True)

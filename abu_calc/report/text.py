@@ -13,7 +13,13 @@ from rich.text import Text
 
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 
-STYLES = {"pass": "bold green", "warn": "bold yellow", "fail": "bold red", "not-done": "bold yellow", "warning": "yellow"}
+STYLES = {
+    "pass": "bold green",
+    "warn": "bold yellow",
+    "fail": "bold red",
+    "not-done": "bold yellow",
+    "warning": "yellow",
+}
 WIDEST = 100
 MARGIN = 2
 """Blanks before each column of a table, and before running text."""

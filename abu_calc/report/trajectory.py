@@ -1,4 +1,4 @@
-"""A motion as CSV: the axis in mm, ball angles in degrees, unwrapped."""
+"""A motion as CSV: the axis in mm, ball angles in degrees, unwrapped, and what else of the scene moves."""
 
 from collections.abc import Iterator
 
@@ -13,9 +13,10 @@ BLOCK = 10_000
 
 
 def trajectory_csv(motion: Motion) -> Iterator[str]:
-    """Columns t_s, x_mm, y_mm, ball1_deg, …; a row for each time; in pieces of some rows each."""
-    yield ",".join(("t_s", "x_mm", "y_mm", *(f"ball{k + 1}_deg" for k in range(len(motion.ball_angles_deg))))) + "\n"
+    """Columns t_s, x_mm, y_mm, ball1_deg, … and those of `further`; a row for each time; in pieces of some rows."""
+    columns = motion.columns
+    yield ",".join(columns) + "\n"
     for first in range(0, len(motion.t_s), BLOCK):
         part = slice(first, first + BLOCK)
-        rows = np.vstack([motion.t_s[part], motion.x_mm[part], motion.y_mm[part], motion.ball_angles_deg[:, part]]).T
+        rows = np.vstack([column[part] for column in columns.values()]).T
         yield "".join(",".join([f"{value:.{DIGITS}g}" for value in row]) + "\n" for row in rows.tolist())

@@ -34,10 +34,11 @@ from abu_calc.validity import Range
 AHEAD = math.radians(20)
 """The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
 
-Start = Literal["bunched", "spread", "standstill"]
+Start = Literal["bunched", "behind", "spread", "standstill"]
 
 STARTS: Final[dict[Start, str]] = {
     "bunched": "balls at rest in the race, neighbours touching, their middle 20° ahead of the imbalance",
+    "behind": "balls at rest in the race, neighbours touching, their middle 20° behind the imbalance",
     "spread": "balls at rest in the race, evenly round it, the first 20° ahead of the imbalance",
     "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
 }
@@ -181,7 +182,8 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
     if start == "spread":
         return tuple(AHEAD + k * 2 * math.pi / count for k in range(count))
     beta = contact_half_angle(design)
-    return tuple(AHEAD + (2 * k - count + 1) * beta for k in range(count))
+    middle = -AHEAD if start == "behind" else AHEAD
+    return tuple(middle + (2 * k - count + 1) * beta for k in range(count))
 
 
 def _effects(design: Design, which: str) -> Iterator[Effect]:

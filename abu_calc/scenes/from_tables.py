@@ -51,7 +51,7 @@ def _grinding_contact(table: scene_effects.GrindingContact) -> Numbers:
 
 
 def _run_up(table: scene_effects.SceneRunUp) -> Numbers:
-    return {"up": table.time_s or 0.0, "down": table.run_down_s or 0.0}
+    return {"up": table.time_s or 0.0, "down": table.run_down_s or 0.0, "inertia": table.rotor_inertia_kg_m2 or 0.0}
 
 
 def motor_numbers(table: duty.Motor) -> Numbers:

@@ -3,15 +3,16 @@
 Steps that few files ask for (bearing seats, swing arm) are imported when they are.
 """
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
-from abu_calc.sizing.balls import choose
+from abu_calc.sizing.balls import Candidate, Choice, choose
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing import drawing
 from abu_calc.sizing.frequency import frequency_region
-from abu_calc.sizing.imbalance import find_imbalance
+from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks
 from abu_calc.sizing.worst import worst_residuals
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from abu_calc.fits.seats import BearingSeats
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
-__all__ = ["Design", "size"]
+__all__ = ["Design", "instead", "size"]
 
 
 def size(machine: MachineFile) -> Design:
@@ -32,8 +33,18 @@ def size(machine: MachineFile) -> Design:
     """
     case = read_case(machine)
     imbalance = find_imbalance(case)
-    choice = choose(case, imbalance.value)
-    best = choice.best
+    return _designed(case, imbalance, choose(case, imbalance.value))
+
+
+def instead(design: Design, one: Candidate, why: str) -> Design:
+    """The same machine with another candidate; `why` the first choice was not taken."""
+    others = tuple(pair for pair in design.choice.runners_up if pair[0] is not one)
+    choice = replace(design.choice, best=one, runners_up=((design.autobalancer, why), *others))
+    return _designed(design.case, design.imbalance, choice)
+
+
+def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
+    machine, best = case.table, choice.best
     frequency = frequency_region(case, best.ball_mass, best.mass)
     race = track(case, best, frequency.natural_frequencies)
     others = tuple(track(case, one, frequency.natural_frequencies) for one, _ in choice.runners_up)

@@ -24,6 +24,8 @@ from abu_calc.units import from_si, to_si
 
 RUNNERS_UP = 4
 LARGER_RACES = 12
+DOZEN = 12
+"""More balls than this are proposed where nothing else fits only: they touch often, cost much, and settle late."""
 
 
 @dataclass(frozen=True)
@@ -78,8 +80,8 @@ class Choice:
     "The best of every stock diameter × count up to n* × race radius in the envelope",
     where=(
         "Enough capacity comes first, then strength, a race that stays round, the accuracy budget, the mass fraction, "
-        "and the least mass (ties: the smaller ball). Of each diameter and count the smallest sufficient race stands "
-        "for the rest: a larger one is heavier."
+        "no more than a dozen balls, and the least mass (ties: the smaller ball). Of each diameter and count the "
+        "smallest sufficient race stands for the rest: a larger one is heavier."
     ),
 )
 def choose(case: Case, imbalance: float) -> Choice:
@@ -87,7 +89,7 @@ def choose(case: Case, imbalance: float) -> Choice:
     if not found:
         raise impossible("ball_count", case.autobalancer.ball_count or 2, "so many do not fit round any race")
     best, others = found[0], found[1:]
-    first = {id(one) for one in _front([one for one in found if _sound(case, one)])}
+    first = {id(one) for one in _front([one for one in found if sound(case, one)])}
     picked = sorted(others, key=lambda one: id(one) not in first)[:RUNNERS_UP]
     picked.sort(key=lambda one: _rank(case, one))
     return Choice(best, tuple((one, _why_not(case, one, best)) for one in picked), len(found))
@@ -174,7 +176,8 @@ def _light(case: Case, one: Candidate) -> bool:
     return one.mass_fraction <= case.autobalancer.max_mass_fraction
 
 
-def _sound(case: Case, one: Candidate) -> bool:
+def sound(case: Case, one: Candidate) -> bool:
+    """Whether it falls short of nothing."""
     return _enough(case, one) and one.strength.enough and one.stays_round and one.budget.within and _light(case, one)
 
 
@@ -182,8 +185,8 @@ def _rank(case: Case, one: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
     shortage = max(0.0, case.autobalancer.capacity_margin - one.capacity_ratio)
     excess = 0.0 if one.budget.within else one.budget.residual
-    unsound = (not one.strength.enough, not one.stays_round, excess, not _light(case, one))
-    return (shortage, *unsound, round(one.mass, 9), one.ball_diameter)
+    bad = shortage, not one.strength.enough, not one.stays_round, excess, not _light(case, one)
+    return (*bad, one.ball_count > DOZEN, round(one.mass, 9), one.ball_diameter)
 
 
 def _front(sound: list[Candidate]) -> list[Candidate]:

@@ -188,6 +188,16 @@ def _loudest(levels: Iterable[float | None]) -> float | None:
     return max((level for level in levels if level is not None), default=None)
 
 
+def level_at_loudest(case: Case, one: Candidate, displacement: float) -> float:
+    """The level [dB] at the loudest handle of a displacement 0–peak [m] of the race, idle.
+
+    What rests at a wheel off the race's plane is added as squares.
+    """
+    places = [handle.place for handle in case.handles] or [case.body.wheel]
+    at_wheel = math.hypot(displacement, one.budget.plane_offset)
+    return max(_level(case, at_wheel * case.body.transmission(place, one.mass)) for place in places)
+
+
 def _level(case: Case, displacement: float) -> float:
     return displacement_level(displacement, case.speed, case.background_level)
 

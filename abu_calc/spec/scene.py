@@ -161,14 +161,15 @@ class SceneTable(Table):
         for key in type(self.initial).model_fields:
             if getattr(self.initial, key) != 0:
                 raise problem("a swing arm starts at rest where it stands", "initial", key, remedy=f"leave {key} out")
-        motor, arm = self.effects.motor, self.swing_arm
-        if motor and arm and motor.rotor_inertia_kg_m2 >= arm.moment_of_inertia_kg_m2:
-            raise problem(
-                "the rotor has more inertia than the arm that carries it",
-                *("effects", "motor", "rotor_inertia_kg_m2"),
-                found=f"{motor.rotor_inertia_kg_m2:g} kg·m²",
-                allowed=f"below swing_arm.moment_of_inertia_kg_m2, {arm.moment_of_inertia_kg_m2:g} kg·m²",
-            )
+        arm = self.swing_arm
+        for name, inertia in self.effects.rotor_inertias.items():
+            if arm and inertia >= arm.moment_of_inertia_kg_m2:
+                raise problem(
+                    "the rotor has more inertia than the arm that carries it",
+                    *("effects", name, "rotor_inertia_kg_m2"),
+                    found=f"{inertia:g} kg·m²",
+                    allowed=f"below swing_arm.moment_of_inertia_kg_m2, {arm.moment_of_inertia_kg_m2:g} kg·m²",
+                )
         if self.effects.grinding_contact:
             raise problem(
                 "a swing arm has its own contact with the work",

@@ -104,6 +104,14 @@ class SceneRunUp(Table):
         gt=0,
         le=3600,
     )
+    rotor_inertia_kg_m2: float | None = Field(
+        default=None,
+        description="Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. With it a swing arm "
+        "feels what the change of speed takes; a motor has its own.",
+        examples=[2e-3],
+        gt=0,
+        le=1e6,
+    )
 
     @model_validator(mode="after")
     def _up_or_down(self) -> Self:
@@ -166,6 +174,25 @@ class Effects(Table):
         """The ball's radius [mm] as each effect that needs it gives it."""
         tables = {name: getattr(self, name) for name in self.names}
         return {name: table.ball_radius_mm for name, table in tables.items() if hasattr(table, "ball_radius_mm")}
+
+    @property
+    def rotor_inertias(self) -> dict[str, float]:
+        """The rotor's moment of inertia [kg·m²] as each effect that knows it gives it."""
+        tables = {"run_up": self.run_up, "motor": self.motor}
+        given = {name: table.rotor_inertia_kg_m2 for name, table in tables.items() if table}
+        return {name: inertia for name, inertia in given.items() if inertia is not None}
+
+    @model_validator(mode="after")
+    def _one_rotor(self) -> Self:
+        inertias = self.rotor_inertias
+        if len(set(inertias.values())) > 1:
+            raise problem(
+                "a rotor has one moment of inertia",
+                *("run_up", "rotor_inertia_kg_m2"),
+                found=f"{inertias['run_up']:g} kg·m², and {inertias['motor']:g} kg·m² in motor",
+                remedy="leave it out here: the motor's counts",
+            )
+        return self
 
     @model_validator(mode="after")
     def _one_ball_radius(self) -> Self:

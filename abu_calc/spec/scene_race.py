@@ -38,9 +38,9 @@ class SceneRace(Table):
     )
     ball_radius_mm: float | None = Field(
         default=None,
-        description="Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. Only "
-        "a rolling ball that is run up needs it; without it that of the effects, and if they have none, balls are "
-        "taken as small.",
+        description="Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. "
+        "Rolling balls of a rotor that changes its speed need it; without it that of the effects, and if they have "
+        "none, balls are taken as small, with a warning.",
         examples=[8.0],
         gt=0,
         le=1000,

@@ -2,11 +2,13 @@
 
 from typing import Annotated, ClassVar
 
-from abu_calc.analysis.idle import idle_checks, not_simulated
+from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels
 from abu_calc.analysis.machine import Run, simulated
+from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.parallel import Workers, threads
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
@@ -20,6 +22,7 @@ from abu_calc.studies.design_records import (
     SwingArm,
     Vibration,
 )
+from abu_calc.studies.ensemble_records import EnsembleResult
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
@@ -47,6 +50,7 @@ class SizeResult(Result):
     accuracy_budget: AccuracyBudget
     vibration: Vibration
     vibration_loaded: Vibration | None
+    ensemble: EnsembleResult | None
     simulation: tuple[SimulatedScene, ...]
     fits: tuple[SeatResult, ...]
     swing_arm: SwingArm | None
@@ -54,28 +58,32 @@ class SizeResult(Result):
 
 
 @checked
-def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) -> SizeResult:
-    """Size the autobalancer of a machine, and simulate the scenes its file calls for to `accuracy`.
+def size(
+    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None
+) -> SizeResult:
+    """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
+    `workers`: how many starts run side by side; threads, one for each processor, unless told otherwise.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
     tables = machine.whole("size")
     with machine.located():
-        design = size_design(tables)
+        sized = size_design(tables)
+        tried = proven(sized, accuracy=accuracy, progress=progress, workers=workers or threads())
+        design = tried.design
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
-    checks = (*design.checks, *(not_simulated(failure.scene, failure.reason) for failure in failures))
-    for run in runs:
-        if run.ledger.scene.name == "idle":
-            checks += idle_checks(design, run.simulation.response)
+    checks = tuple(level_check(one, tried.ensemble) if one.code == "ABU401" else one for one in design.checks)
+    checks += ensemble_checks(design, tried.ensemble, tried.remedy)
+    checks += tuple(not_simulated(failure.scene, failure.reason) for failure in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, runs)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
         checks=checks,
-        warnings=(*machine.warnings, *design.warnings, *region.warnings, *remarks),
+        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *region.warnings, *remarks),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
@@ -93,6 +101,7 @@ def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) 
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=Vibration.of(design.idle, design.speed_levels),
         vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded),
+        ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
         swing_arm=None if design.swing_arm is None else SwingArm.of(design.swing_arm),

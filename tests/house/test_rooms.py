@@ -7,7 +7,7 @@ import pytest
 
 from tests.house.structure import PACKAGE, circles, files, imports, lines
 
-GROUND = ("version", "errors", "units", "checks", "check_codes", "validity", "formula", "progress")
+GROUND = ("version", "errors", "units", "checks", "check_codes", "validity", "formula", "progress", "parallel")
 ROOMS = (
     *("standards", "spec", "formulas", "fits", "sizing", "dynamics", "scenes", "analysis", "studies", "report", "cli"),
 )

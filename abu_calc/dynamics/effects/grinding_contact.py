@@ -12,6 +12,8 @@ on the centre of the wheel's surface, ε e^{i(turn + φ₀)} off the axis, R_w a
 
     ε (N cos − T sin)(turn + φ₀) + T R_w,    face: s f N₀ R_w
 
+Where T brakes a driven rotor it turns round with the sliding, and at rest holds by up to f N, see `switching.stopping`.
+
 Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and a remark
 tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power
 with its cube, so that it is infinite after a finite time. Compliance, one-sided contact and torque are derived.
@@ -29,6 +31,7 @@ from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weig
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance, weighing_amplitude
+from abu_calc.dynamics.switching.stopping import Cutting, Slip, decided, goes_on
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.validity import Range
@@ -44,6 +47,11 @@ NEAR = 1e-9
 
 RUNAWAY = 1e3
 """Balls this many times as fast as the rotor run away: they go on to infinite speed, in a moment."""
+
+REMEDY = ": press harder, or run the wheel truer"
+
+STOPPED = 1e-6
+"""Of the scene's speed: a rotor slower than this stands."""
 
 LEAST_DEPTH = 1e-9
 """A depth [m] that counts as something where there is neither press nor runout."""
@@ -70,6 +78,7 @@ class GrindingContact(Effect):
     name: ClassVar[str] = "grinding_contact"
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = "Grinding contact: the wheel is pressed to the work on the −y side, where it cuts"
+    whole_run: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         Range("press force", 0, _LARGEST, "N").check(self.press_force)
@@ -83,17 +92,29 @@ class GrindingContact(Effect):
 
     @property
     def switches(self) -> bool:  # type: ignore[override]
-        """Wheel and work part where the contact is compliant; where it is rigid, balls may run away."""
-        return self.contact != "face"
+        """Wheel and work part where the contact is compliant; balls may run away where it is rigid; a rotor may stop."""
+        return self.contact != "face" or self._brakes
 
     @property
     def drag(self) -> float:
         """s f: T per N."""
         return self.rotation_sense * self.cutting_coefficient
 
+    @property
+    def _brakes(self) -> bool:
+        """Whether cutting brakes a driven rotor, so that it may stop it."""
+        return self.drag < 0 and self.wheel_radius > 0
+
+    @property
+    def stands(self) -> bool:
+        """Whether friction can hold the wheel on the work."""
+        return self.contact != "rigid"
+
     def first_mode(self, scene: Circumstances) -> Any:
-        """Touching; raises InputError on supports that have no such contact."""
+        """Touching, and sliding where that may change; raises InputError on supports that have no such contact."""
         self._row(scene)
+        if self._brakes and scene.rotor.rows:
+            return Cutting()
         return TOUCHING if self.contact == "compliant" else None
 
     def _row(self, scene: Circumstances) -> Array:
@@ -103,10 +124,12 @@ class GrindingContact(Effect):
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """N and T on the frame, or the constraint."""
         if self.contact == "rigid":
-            loads.own(bound=self._bound(m, p))
+            loads.own(bound=self._bound(m, mode, p))
             loads.add(frame=-self.press_force * self._held(p))
         elif self.contact == "compliant" or p.rotor.rows:
-            loads.add(frame=self._force(m, p, self.pressed(m, mode, p)))
+            loads.add(frame=self._force(m, mode, p, self.pressed(m, mode, p)))
+            if isinstance(mode, Cutting):
+                loads.own(bound=self._standing(m, mode, p))
 
     def _surface(self, m: Motion, p: Parameters) -> tuple[Any, Any, Any, Any]:
         """h, h' without the turning of the rotor, and ε (cos, sin)(turn + φ₀)."""
@@ -119,7 +142,12 @@ class GrindingContact(Effect):
         """N [N] of a contact that is not rigid."""
         if self.contact == "face":
             return self.press_force
-        return mode * (self.press_force - self.contact_stiffness * self._surface(m, p)[0])
+        touching = mode.touching if isinstance(mode, Cutting) else mode
+        return touching * (self.press_force - self.contact_stiffness * self._surface(m, p)[0])
+
+    def most(self, m: Motion, mode: Any, p: Parameters) -> Any:
+        """f N [N] of a contact that is not rigid."""
+        return self.cutting_coefficient * self.pressed(m, mode, p)
 
     def _rows(self, x: Any, y: Any, turning: Any, p: Parameters) -> Array:
         """A force (x, y) at the wheel and a torque on the rotor, as the frame feels them."""
@@ -129,19 +157,34 @@ class GrindingContact(Effect):
         """The press."""
         return self._rows(0.0, 1.0, 0.0, p)
 
-    def _direction(self, m: Motion, p: Parameters) -> Array:
+    def _direction(self, m: Motion, mode: Any, p: Parameters) -> Array:
         """What the frame feels per unit N."""
+        drag = mode.slides * self.drag if isinstance(mode, Cutting) else self.drag
         if self.contact == "face":
-            return self._rows(0.0, 0.0, self.drag * self.wheel_radius, p)
+            return self._rows(0.0, 0.0, drag * self.wheel_radius, p)
         _, _, x, y = self._surface(m, p)
-        return self._rows(self.drag, 1.0, x - self.drag * y + self.drag * self.wheel_radius, p)
+        return self._rows(drag, 1.0, x - drag * y + drag * self.wheel_radius, p)
 
-    def _force(self, m: Motion, p: Parameters, normal: Any) -> Array:
+    def _force(self, m: Motion, mode: Any, p: Parameters, normal: Any) -> Array:
         """All that acts on the frame."""
-        force: Array = normal * self._direction(m, p)
+        force: Array = normal * self._direction(m, mode, p)
         return force if self.contact == "face" else force - self.press_force * self._held(p)
 
-    def _bound(self, m: Motion, p: Parameters) -> Bound:
+    def slip(self, m: Motion, p: Parameters) -> Slip:
+        """How the wheel's surface moves over the work; on a face by the turning alone."""
+        if self.contact == "face":
+            return Slip(self.wheel_radius * m.speed, self._rows(0.0, 0.0, self.wheel_radius, p), 0.0, self.wheel_radius)
+        _, _, x, y = self._surface(m, p)
+        lever = self.wheel_radius - y
+        moved = p.geometry.plane(self.plane_offset)[0].dot(m.support[p.size :])
+        return Slip(moved + lever * m.speed, self._rows(1.0, 0.0, lever, p), x * m.speed * m.speed, lever)
+
+    def _standing(self, m: Motion, mode: Cutting, p: Parameters) -> Bound:
+        """v' = −Ω v, so that errors die as in `_bound`; T is the reaction."""
+        slip = self.slip(m, p)
+        return Bound(slip.row, slip.turned - p.speed * slip.speed, slip.row, mode.stands)
+
+    def _bound(self, m: Motion, mode: Any, p: Parameters) -> Bound:
         """h'' = −2 Ω h' − Ω² h.
 
         An integrator's errors of h'' = 0 would add up over time; so they die within a turn (Baumgarte 1972, Computer
@@ -150,51 +193,73 @@ class GrindingContact(Effect):
         h, moved, x, y = self._surface(m, p)
         strayed = p.speed * (2 * (moved + x * m.speed) + p.speed * h)
         value = y * m.speed * m.speed - x * m.acceleration - strayed
-        return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, p))
+        return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, mode, p))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """How deep the wheel is in the work while touching, the gap while apart, relative to what is usual.
 
-        Rigid: what the balls' squared speeds lack of a runaway.
+        Rigid: what the balls' squared speeds lack of a runaway. Where cutting may stop the rotor, how clearly it slides,
+        or stands.
         """
+        found = [] if not isinstance(mode, Cutting) else [self._goes_on(m, mode, solved, p)]
         if self.contact == "face":
-            return []
+            return found
         if self.contact == "rigid":
-            return [1 - m.rate.dot(m.rate) / (RUNAWAY * p.speed * RUNAWAY * p.speed)] if p.balls else []
+            return [1 - m.rate.dot(m.rate) / (RUNAWAY * p.speed * RUNAWAY * p.speed), *found] if p.balls else found
         unloaded = self.press_force / self.contact_stiffness
-        return [(2 * mode - 1) * (unloaded - self._surface(m, p)[0]) / (unloaded + self.runout + LEAST_DEPTH)]
+        touching = mode.touching if isinstance(mode, Cutting) else mode
+        return [(2 * touching - 1) * (unloaded - self._surface(m, p)[0]) / self._depth, *found]
+
+    @property
+    def _depth(self) -> float:
+        """What is usual of a compliant contact [m]."""
+        return self.press_force / self.contact_stiffness + self.runout + LEAST_DEPTH
+
+    def _goes_on(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> Any:
+        """Speed over the work relative to that of the surface, and what friction has left, (f N)² − T²."""
+        speed = self.slip(m, p).speed / (p.speed * self.wheel_radius)
+        if not self.stands:
+            return goes_on(mode, speed, 0.0)
+        usual = self.press_force if self.contact == "face" else self.contact_stiffness * self._depth
+        unit, most = self.cutting_coefficient * usual, self.most(m, mode, p)
+        return goes_on(mode, speed, (most * most - solved.reaction * solved.reaction) / (unit * unit))
 
     def rule(self, mode: Any) -> Rule | None:
-        """Wheel and work part and meet where the contact is compliant."""
-        return Rule("one-sided contact") if self.contact == "compliant" else None
+        """Wheel and work part and meet where the contact is compliant and cannot stop the rotor."""
+        return Rule("one-sided contact") if isinstance(mode, float) else None
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
-        """Touching where the wheel is in the work; at its very surface, where it is about to be.
+        """Touching where the wheel is in the work; at its very surface, where it is about to be. And how it slides.
 
-        Raises NotTrustworthyError when a rigid contact drives the balls to ever higher speeds.
+        Raises NotTrustworthyError when a rigid contact drives the balls to ever higher speeds, or stops the rotor.
         """
         if self.contact == "rigid":
             _check_speeds(at)
-        if self.contact != "compliant":
-            return at.y, at.mode
-        m, _, solved = at.solved(APART)
+        touching = self._touches(at) if self.contact == "compliant" else TOUCHING
+        if not isinstance(at.mode, Cutting):
+            return at.y, at.mode if at.mode in (None, touching) else touching
+        y, mode = decided(at, replace(at.mode, touching=touching), self)
+        return y, at.mode if mode == at.mode else mode
+
+    def _touches(self, at: SwitchPoint) -> float:
+        """Whether wheel and work go on touching."""
+        m, _, solved = at.solved(replace(at.mode, touching=APART) if isinstance(at.mode, Cutting) else APART)
         p = at.parameters
         h, moved, x, y = self._surface(m, p)
         unloaded = self.press_force / self.contact_stiffness
         rows = self._rows(0.0, 1.0, x, p)
         depth, deeper = unloaded - h, -(moved + x * m.speed)
         ever = -(float(rows.dot(solved.frame)) + x * m.acceleration - y * m.speed * m.speed)
-        mode = TOUCHING if _inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
-        return at.y, at.mode if mode == at.mode else mode
+        return TOUCHING if _inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
-        """Of N − N₀, T and, where it is driven, the torque, by the motion of frame and rotor [W].
+        """Of N − N₀, T and, where it is driven, the torque, by the motion of frame and rotor [W]; none by standing.
 
         The work of the compliant spring is in it. What a rotor of given speed needs to carry the runout past the work
         is the drive's, not of the coordinates.
         """
         normal = solved.reaction if self.contact == "rigid" else self.pressed(m, mode, p)
-        return self._force(m, p, normal).dot(p.rotor.on_frame(p.geometry.rates(m, p), m.speed))
+        return self._force(m, mode, p, normal).dot(p.rotor.on_frame(p.geometry.rates(m, p), m.speed))
 
     def normal_forces(self, equations: Laws, samples: Samples) -> Array:
         """N [N] at the samples of a run; 0 where wheel and work are apart, and negative where a rigid contact pulls.
@@ -208,16 +273,34 @@ class GrindingContact(Effect):
         return np.array([max(self.pressed(m, TOUCHING, p), 0.0) for m, _, _ in found], dtype=float)
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """Whether wheel and work part in the last twentieth of the run."""
-        late = samples.t >= 0.95 * equations.scene.duration
-        last = replace(samples, t=samples.t[late], y=samples.y[:, late])
-        if self.contact == "face" or not late.any() or self.normal_forces(equations, last).min() > 0:
-            return ()
-        text = "wheel and work {}: press harder, or run the wheel truer"
+        """How long a rigid contact pulls; whether a compliant one parts in the last twentieth of the run; a stop."""
+        stops = self._stops(equations, samples)
+        if self.contact == "face":
+            return stops
         if self.contact == "rigid":
-            return (text.format("would part if they could"),)
+            return (*_pulls(samples.t, self.normal_forces(equations, samples)), *stops)
+        late = samples.t >= 0.95 * equations.scene.duration
+        last = Samples(samples.t[late], samples.y[:, late])
+        if not late.any() or self.normal_forces(equations, last).min() > 0:
+            return stops
         doubt = "; nothing damps their contact, so how far they bounce may depend on the start"
-        return (text.format("part again and again") + doubt,)
+        return (f"wheel and work part again and again{REMEDY}{doubt}", *stops)
+
+    def _stops(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
+        """That cutting has stopped the rotor before anything switched its motor off."""
+        p, scene = equations.parameters, equations.scene
+        if not isinstance(equations.first_modes[p.effects.index(self)], Cutting) or scene.run_down:
+            return ()
+        _, speeds = scene.rotor.turning(samples.t, samples.y, scene.speed)
+        moves = np.flatnonzero(np.abs(speeds) > STOPPED * scene.speed)
+        if not len(samples.t) or (len(moves) and moves[-1] == len(speeds) - 1):
+            return ()
+        since = samples.t[moves[-1] + 1] if len(moves) else samples.t[0]
+        most = self.cutting_coefficient * self.press_force * self.wheel_radius
+        return (
+            f"the rotor stands on the work from t = {since:.4g} s on: cutting takes up to {most:.3g} N·m; "
+            "press less, or take a stronger motor",
+        )
 
     def weight(self, scene: Circumstances) -> Weight:
         """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
@@ -262,6 +345,18 @@ class GrindingContact(Effect):
             for now, target in zip(start, wanted, strict=True)
         )
         return position, velocity
+
+
+def _pulls(t: Array, normal: Array) -> tuple[str, ...]:
+    """For how much of the time a rigid contact would have to pull, and the least force; samples may stand unevenly."""
+    if not len(t) or normal.min() >= 0:
+        return ()
+    spans = np.diff(t, prepend=t[0], append=t[-1])
+    share = float(((spans[:-1] + spans[1:]) * (normal < 0)).sum() / spans.sum() / 2) if len(t) > 1 else 1.0
+    return (
+        f"wheel and work would part if they could: the rigid contact pulls for {100 * share:.2g} % of the time, its "
+        f"least force {normal.min():.3g} N{REMEDY}, or give it a stiffness",
+    )
 
 
 def _inside(depth: float, deeper: float, ever: float, near: float) -> bool:

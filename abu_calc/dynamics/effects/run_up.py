@@ -3,26 +3,35 @@
     Ω' = Ω/T_up for t < T_up,   0,   −Ω/T_down for t > duration − T_down
 
 A rolling ball is turned by the race that accelerates: (J − 1) r Ω'/R_p on θ''. Source: derived from the rolling energy
-½ (J − 1) m (r·turn' − R_p θ')². With a motor the rotor starts from rest, its torque sets the pace, and in the run-down
-it is switched off.
+½ (J − 1) m (r·turn' − R_p θ')². In a steady ramp a ball lags by θ' = −(1 − (J − 1) r/R_p) Ω'/h₀. What drives the
+rotor stands on what carries it: a swing arm feels −J_r Ω', J_r the rotor's inertia. With a motor the rotor starts from
+rest, its torque sets the pace, and in the run-down it is switched off.
 """
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Weight
-from abu_calc.dynamics.motion import Motion
+from abu_calc.dynamics.effect import Effect, Kind, Laws, Weight
+from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import GUIDED, Rotor
+from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
 
 
 @dataclass(frozen=True)
 class RunUp(Effect):
-    """`up`, `down` [s]: times from standstill to the scene's speed and back; 0 for none."""
+    """`up`, `down` [s]: times from standstill to the scene's speed and back; 0 for none.
+
+    `inertia` J_r of the rotor [kg m²], 0 where it is not known: then a swing arm lacks the torque that drives it.
+    """
 
     up: float
     down: float = 0.0
+    inertia: float = 0.0
 
     name: ClassVar[str] = "run_up"
     kind: ClassVar[Kind] = "driven"
@@ -54,6 +63,20 @@ class RunUp(Effect):
         """The rotor accelerates evenly."""
         m.acceleration = mode
 
+    def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
+        """What carries the rotor takes the reaction of what drives it, where it can turn; a motor's knows its own."""
+        if self._felt(p):
+            unit = np.zeros(len(p.frame.mass))
+            unit[list(p.frame.turning)] = 1.0
+            loads.add(frame=-self.inertia * mode * unit)
+
+    def _felt(self, p: Parameters) -> bool:
+        return bool(self.inertia and p.rotor.given and p.frame.turning)
+
+    def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
+        """−J_r Ω' φ' [W] on an arm that turns by φ."""
+        return -self.inertia * mode * (m.speed - m.own_speed) if self._felt(p) else 0.0
+
     def breaks(self, scene: Circumstances) -> tuple[float, ...]:
         """Ends of the run-up, begin of the run-down."""
         if self.up + self.down > scene.duration:
@@ -79,6 +102,17 @@ class RunUp(Effect):
     def first_mode(self, scene: Circumstances) -> Any:
         """Ω' at t = 0."""
         return self.mode_at(scene, 0.0, None)
+
+    def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
+        """That an arm lacks the reaction torque where the inertia is not known, and how much that is."""
+        scene = equations.scene
+        if self.inertia or not scene.rotor.given or not scene.support.turns:
+            return ()
+        fastest = max(abs(self.mode_at(scene, t, None)) for t in (0.0, *self.breaks(scene)))
+        return (
+            "run_up: the arm lacks the wheel's reaction torque −J·Ω', since run_up.rotor_inertia_kg_m2 is not given; "
+            f"Ω' = {fastest:.4g} rad/s² takes {fastest * 1e-3:.3g} N·m for each 0.001 kg·m²",
+        )
 
     def weight(self, scene: Circumstances) -> Weight:
         """It is the scene itself."""

@@ -30,7 +30,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, SwitchPoint, Weight
+from abu_calc.dynamics.effect import ACROSS, ACROSS_RATE, Effect, Kind, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Across, Array, Axial, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
@@ -65,7 +65,7 @@ class TransverseMotion(Effect):
     @property
     def ball_states(self) -> tuple[str, ...]:  # type: ignore[override]
         """w, w' and, where it is free, ν."""
-        return ("across", ACROSS_RATE, "spin") if self.free_spin else ("across", ACROSS_RATE)
+        return (ACROSS, ACROSS_RATE, "spin") if self.free_spin else (ACROSS, ACROSS_RATE)
 
     @property
     def bend(self) -> float:

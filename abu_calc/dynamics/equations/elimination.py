@@ -61,7 +61,7 @@ def by_pulls(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Ar
     A = -np.linalg.solve(r.mass, r.weights)
     if loads.bound is not None:
         row, pushed = loads.bound.row, np.linalg.solve(r.mass, loads.bound.force)
-        A = A - np.outer(pushed, row.dot(A) / row.dot(pushed))
+        A = A - loads.bound.holds * np.outer(pushed, row.dot(A) / row.dot(pushed))
     return r.give[:, None] * (np.eye(p.balls) - r.felt.T.dot(A)), -levers.outward.T.dot(A)
 
 
@@ -200,7 +200,7 @@ def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any]:
     row, value, direction = loads.bound.row, loads.bound.value, loads.bound.force
     free = np.array(solve(mass.tolist(), force.tolist()))
     pushed = np.array(solve(mass.tolist(), direction.tolist()))
-    reaction = (value - row.dot(free)) / row.dot(pushed)
+    reaction = loads.bound.holds * (value - row.dot(free)) / row.dot(pushed)
     return free + pushed * reaction, reaction
 
 

@@ -108,13 +108,17 @@ class _Run(Run):
         if "" in row:
             return float(self.numbers[row[""]])
         parts: dict[str, Any] = {
-            part.name: self.numbers[row[part.name] :][: getattr(mode, part.name).size].copy()
+            part.name: self._part(getattr(mode, part.name), row[part.name])
             for part in (fields(mode) if row else ())
             if part.name in row
         }
         if isinstance(mode, Neighbours):
             parts["tied"] = bool(parts["joined"].any())
         return replace(mode, **parts) if parts else mode
+
+    def _part(self, part: Any, place: int) -> Any:
+        """A number or an array of a mode, as it was given."""
+        return self.numbers[place : place + np.size(part)].copy() if np.ndim(part) else float(self.numbers[place])
 
     def segment(self, t: float, state: Array, modes: Modes, bound: float) -> tuple[float, Array, bool]:
         """Toward the bound, up to an event that needs the general decision."""

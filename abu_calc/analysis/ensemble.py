@@ -1,0 +1,203 @@
+"""One design switched on in many ways: which starts balance, how soon, how loud, and which leave balls hanging."""
+
+import math
+import statistics
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from operator import attrgetter
+from typing import Any
+
+from abu_calc.analysis.ledger import chosen
+from abu_calc.analysis.response import Response, evaluate, needed_times
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.errors import NotTrustworthyError
+from abu_calc.formulas.motion import SETTLED
+from abu_calc.parallel import Workers, side_by_side
+from abu_calc.progress import Progress, silent
+from abu_calc.scenes.members import DRAGS, Member, members, scene_of_member
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.vibration import level_at_loudest
+
+TOLERANCE, TIGHTER = 2e-4, 0.1
+"""Of the first run of a member, and by how much that of the run which confirms one that decides a check is tighter."""
+
+WORK = 300_000
+"""Evaluations of one run: some tenths of a second in compiled code. Machines that balance take a tenth of that."""
+
+ALWAYS = ("dry_rolling_friction", "ball_contact")
+"""Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
+
+SLIPPING = 0.05
+"""Of the rotor's speed: balls whose mean speed against the race stays above hang."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one start came to. Settling [s] from full speed on, None: never; `residual`: axis amplitude [m].
+
+    `level` [dB] at the loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
+    """
+
+    member: Member
+    settling: float | None
+    residual: float
+    level: float
+    slip: float
+    imbalance: float
+    allowed: float
+    confirmed: bool = False
+
+    @property
+    def hanging(self) -> bool:
+        """Whether balls keep going round behind the rotor."""
+        return self.slip > SLIPPING
+
+    @property
+    def balanced(self) -> bool:
+        """Whether the balls are at rest in their race, and what they leave is allowed [kg m]."""
+        return not self.hanging and self.imbalance <= self.allowed
+
+    @property
+    def time(self) -> float:
+        """Until it settled where it balances [s]; infinite if never."""
+        return self.settling if self.settling is not None and self.balanced else math.inf
+
+    @property
+    def badness(self) -> tuple[bool, bool, float]:
+        """Sorts the worst last."""
+        return self.hanging, not self.balanced, self.level
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A start that gave no number to be trusted, and why."""
+
+    member: Member
+    reason: str
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """All starts of one design; `drag` [1/s]: the one given, which decides what fails."""
+
+    drag: float
+    outcomes: tuple[Outcome, ...]
+    lost: tuple[Lost, ...]
+
+    @property
+    def members(self) -> int:
+        """How many starts there are."""
+        return len(self.outcomes) + len(self.lost)
+
+    @property
+    def given(self) -> tuple[Outcome, ...]:
+        """Those at the drag given."""
+        return tuple(one for one in self.outcomes if one.member.drag == self.drag)
+
+    @property
+    def balanced(self) -> int:
+        """How many balance."""
+        return sum(one.balanced for one in self.outcomes)
+
+    @property
+    def hanging(self) -> tuple[Outcome, ...]:
+        """Those whose balls hang."""
+        return tuple(one for one in self.outcomes if one.hanging)
+
+    @property
+    def worst(self) -> Outcome | None:
+        """Of all: hanging before not balanced before loud."""
+        return max(self.outcomes, key=lambda one: one.badness, default=None)
+
+    def typical(self, values: Iterable[float]) -> float | None:
+        """Their median; None where most are infinite."""
+        middle = statistics.median(list(values) or [math.inf])
+        return middle if math.isfinite(middle) else None
+
+
+def simulate_members(
+    design: Design, doubtful: float = 0.0, accuracy: float = 0.01, progress: Progress = silent,
+    workers: Workers | None = None, shares: tuple[float, ...] = DRAGS,
+) -> Ensemble:  # fmt: skip
+    """Every start once, at these shares of the drag given.
+
+    Those that decide a check run again at a tighter tolerance, and the worse of both counts.
+    `doubtful` [1/s]: the drag below which balls might hang, so that a slow run-up is tried, too. The outcome does not
+    depend on how many run side by side.
+    """
+    starts = list(members(design, doubtful, shares))
+    found = _all(design, starts, accuracy, TOLERANCE, progress, workers)
+    while undecided := [k for k in _deciding(found, design.case.drag) if not _confirmed(found[k])]:
+        again = _all(design, [found[k].member for k in undecided], accuracy, TIGHTER * TOLERANCE, silent, workers)
+        for k, one in zip(undecided, again, strict=True):
+            found[k] = _worse(found[k], one)
+    outcomes = tuple(one for one in found if isinstance(one, Outcome))
+    return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
+
+
+def start_once(design: Design, member: Member, accuracy: float, tolerance: float) -> Outcome | Lost:
+    """One start, by one run."""
+    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    try:
+        equations = assemble(scene)
+        choice = choose(equations, "auto", tolerance)
+        run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(WORK))
+        return outcome_of(design, member, scene, evaluate(scene, run))
+    except NotTrustworthyError as error:
+        return Lost(member, str(error).splitlines()[0])
+
+
+def _all(
+    design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress,
+    workers: Workers | None,
+) -> list[Outcome | Lost]:  # fmt: skip
+    tasks = [(design, one, accuracy, tolerance) for one in starts]
+
+    def told(done: int) -> None:
+        progress(f"idle: {done} of {len(tasks)} starts")
+
+    return side_by_side(start_once, tasks, workers, told)
+
+
+def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
+    speed = abs(response.final.speed) or scene.speed
+    settling = response.settling_time
+    return Outcome(
+        member=member,
+        settling=None if settling is None else max(settling - member.run_up, 0.0),
+        residual=response.axis_amplitude,
+        level=level_at_loudest(design.case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
+        slip=max(map(abs, response.final.ball_speeds), default=0.0) / speed,
+        imbalance=response.residual_imbalance,
+        allowed=allowed_imbalance(design, scene.imbalance),
+    )
+
+
+def allowed_imbalance(design: Design, moved: float) -> float:
+    """What may be left [kg m]: a tenth of the imbalance, and what eccentricity and dry friction leave in any case."""
+    one = design.autobalancer
+    remaining = one.requirement.effective_mass * (one.budget.race_eccentricity + one.budget.rolling_friction)
+    return SETTLED * max(moved, 0.01 * one.static_moment) + remaining
+
+
+def _deciding(found: Sequence[Outcome | Lost], drag: float) -> set[int]:
+    """Which are worst, among those at the drag given and among all: by all that is judged."""
+    done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
+    groups = done, [(k, one) for k, one in done if one.member.drag == drag]
+    orders: tuple[Callable[[Outcome], Any], ...] = attrgetter("badness"), attrgetter("level"), attrgetter("time")
+    return {max(group, key=lambda pair: order(pair[1]))[0] for group in groups if group for order in orders}
+
+
+def _confirmed(one: Outcome | Lost) -> bool:
+    return isinstance(one, Lost) or one.confirmed
+
+
+def _worse(loose: Outcome | Lost, tight: Outcome | Lost) -> Outcome | Lost:
+    """The worse of two runs of a start: where they differ, less than any error decides, and both may happen."""
+    if isinstance(loose, Lost) or isinstance(tight, Lost):
+        return tight if isinstance(tight, Lost) else loose
+    if (loose.hanging, loose.balanced) == (tight.hanging, tight.balanced):
+        return replace(tight, confirmed=True)
+    return replace(max(loose, tight, key=lambda one: one.badness), confirmed=True)

@@ -1,0 +1,56 @@
+"""The design whose starts all balance: the first of the candidates that does, and remedies that were tried."""
+
+from dataclasses import dataclass
+
+from abu_calc.analysis.ensemble import Ensemble, simulate_members
+from abu_calc.analysis.remedies import passes, remedy
+from abu_calc.parallel import Workers
+from abu_calc.progress import Progress, silent
+from abu_calc.sizing import instead
+from abu_calc.sizing.balls import Candidate, sound
+from abu_calc.sizing.design import Design
+
+MOST_OTHERS = 3
+"""Candidates that are tried when the best one does not pass."""
+
+
+@dataclass(frozen=True)
+class Proven:
+    """A design, what its starts show (None: its balls cannot carry the imbalance), and what was tried beside it."""
+
+    design: Design
+    ensemble: Ensemble | None
+    remedy: str | None = None
+    warnings: tuple[str, ...] = ()
+
+
+def proven(
+    design: Design, doubtful: float = 0.0, accuracy: float = 0.01, progress: Progress = silent,
+    workers: Workers | None = None,
+) -> Proven:  # fmt: skip
+    """The best candidate if it passes from every start at the drag given, else the next one that does.
+
+    If none does, the best one, with the first change that would make it pass. `doubtful`: see `members`.
+    """
+    if not _carries(design):
+        return Proven(design, None)
+    first = simulate_members(design, doubtful, accuracy, progress, workers)
+    if passes(design, first) or not design.frequency.balancing_possible:
+        return Proven(design, first)
+    for one in [each for each, _ in design.choice.runners_up if sound(design.case, each)][:MOST_OTHERS]:
+        other = instead(design, one, "does not balance from every start")
+        progress(f"idle: {_words(one)} instead")
+        found = simulate_members(other, doubtful, accuracy, silent, workers)
+        if passes(other, found):
+            text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
+            return Proven(other, found, warnings=(text,))
+    return Proven(design, first, remedy(design, first, doubtful, accuracy, progress, workers))
+
+
+def _carries(design: Design) -> bool:
+    one = design.autobalancer
+    return one.capacity >= design.imbalance.value * abs(one.requirement.plane_ratio)
+
+
+def _words(one: Candidate) -> str:
+    return f"{one.ball_count} × Ø{1e3 * one.ball_diameter:g} mm"

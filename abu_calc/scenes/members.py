@@ -1,0 +1,73 @@
+"""The many ways in which one machine is switched on: from where its balls start, how fast, with oil warm or cold."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.scenes.from_design import Start, scene_of_design
+from abu_calc.sizing.design import Design
+from abu_calc.spec.duty import RunUp
+
+STARTS: tuple[Start, ...] = ("bunched", "behind", "spread", "standstill")
+
+DRAGS = (1.0, 1 / 3, 3.0)
+"""Of the drag given: as oil is meant, hot, and cold."""
+
+RUN_UP, SLOW = 1.0, 4.0
+"""Run-up [s] of a file that names none, and one slow enough to catch balls at a resonance."""
+
+LAGS = 3.0
+"""Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
+
+
+@dataclass(frozen=True)
+class Member:
+    """One start: where from, the drag h₀ [1/s], and the time [s] from standstill to full speed, 0 at full speed."""
+
+    start: Start
+    drag: float
+    run_up: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
+
+
+def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = DRAGS) -> Iterator[Member]:
+    """All that are simulated, at these shares of the drag given.
+
+    Below the drag `doubtful` [1/s] balls might hang, so that a slow run-up is tried, too.
+    """
+    given = design.case.table.run_up
+    usual = given.time_s if given else RUN_UP
+    for drag in dict.fromkeys(share * design.case.drag for share in shares):
+        yield from (Member(start, drag) for start in STARTS)
+        yield Member("bunched", drag, usual)
+        if drag < doubtful and usual < SLOW:
+            yield Member("bunched", drag, SLOW)
+
+
+def scene_of_member(design: Design, member: Member) -> Scene:
+    """The idle scene of a machine started so, with every effect its file has data for.
+
+    Long enough for balls that stand still to take up the speed, beside what the scene lasts in any case.
+    """
+    own = _with(design, member)
+    scene = scene_of_design(own, "run-up" if member.run_up else "idle", member.start)
+    if not member.run_up and member.start != "standstill":
+        return scene
+    longest = own.case.table.limits.settling_time_s
+    lag = LAGS * own.case.inertia_factor / member.drag if member.drag else longest
+    return replace(scene, duration=scene.duration + min(lag, longest))
+
+
+def _with(design: Design, member: Member) -> Design:
+    """The design with the drag and the run-up of a member."""
+    table, given = design.case.table, design.case.table.run_up
+    if member.run_up and not (given and given.time_s == member.run_up):
+        # Another pace than the file's is a guided one: a motor would set its own.
+        table = table.model_copy(update={"run_up": RunUp(time_s=member.run_up), "motor": None})
+    rates = sorted(design.track.decay_rates, key=lambda one: abs(one[0] - member.drag))
+    track = replace(design.track, decay_rates=tuple(rates))
+    return replace(design, case=replace(design.case, drag=member.drag, table=table), track=track)

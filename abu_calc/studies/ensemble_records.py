@@ -1,0 +1,64 @@
+"""What many starts of one design showed, as results hold it."""
+
+from collections.abc import Iterable
+from typing import Annotated, Self
+
+from abu_calc.analysis.ensemble import Ensemble, Outcome
+from abu_calc.studies.quantity import Quantity, Record, record
+from abu_calc.studies.simulated_scene import finite
+from abu_calc.units import from_si
+
+
+@record
+class Spread(Record):
+    """The median over all starts, and the worst of them; None where a start never gets there."""
+
+    typical: Annotated[float | None, Quantity("typical")]
+    worst: Annotated[float | None, Quantity("worst")]
+
+    @classmethod
+    def of(cls, ensemble: Ensemble, values: Iterable[float]) -> Self:
+        """Of one number of each start."""
+        found = list(values)
+        return cls(typical=ensemble.typical(found), worst=finite(max(found, default=None)))
+
+
+@record
+class WorstMember(Record):
+    """The start that ended worst: with balls that hang, not balanced, or the loudest."""
+
+    start: Annotated[str, Quantity("start")]
+    drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
+    run_up_s: Annotated[float | None, Quantity("run-up", "", 3)]
+
+    @classmethod
+    def of(cls, one: Outcome) -> Self:
+        """A start at full speed has no run-up."""
+        return cls(start=one.member.name, drag_per_s=one.member.drag, run_up_s=one.member.run_up or None)
+
+
+@record
+class EnsembleResult(Record):
+    """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
+
+    members: Annotated[int, Quantity("starts simulated")]
+    balanced: Annotated[int, Quantity("that balance")]
+    hanging: Annotated[int, Quantity("that leave balls hanging")]
+    settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
+    level_db: Annotated[Spread, Quantity("level", "L")]
+    residual_um: Annotated[Spread, Quantity("residual", "w")]
+    worst_member: Annotated[WorstMember | None, Quantity("worst start")]
+
+    @classmethod
+    def of(cls, ensemble: Ensemble) -> Self:
+        """In user units."""
+        outcomes = ensemble.outcomes
+        return cls(
+            members=ensemble.members,
+            balanced=ensemble.balanced,
+            hanging=len(ensemble.hanging),
+            settling_time_s=Spread.of(ensemble, (one.time for one in outcomes)),
+            level_db=Spread.of(ensemble, (one.level for one in outcomes)),
+            residual_um=Spread.of(ensemble, (from_si(one.residual, "um") for one in outcomes)),
+            worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
+        )
