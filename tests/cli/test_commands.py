@@ -40,7 +40,7 @@ def designs() -> dict[str, dict]:
 @pytest.mark.parametrize("name", PRESETS)
 def test_every_preset_passes(designs: dict[str, dict], name: str) -> None:
     document = designs[name]
-    assert document["status"] == "pass" and all(check["status"] == "pass" for check in document["checks"])
+    assert document["status"] == "pass" and all(check["status"] in ("pass", "warn") for check in document["checks"])
     result, table = document["result"], tomllib.loads(abu("presets", name).out)
     assert result.keys() >= KEYS
     abu_ = result["autobalancer"]
