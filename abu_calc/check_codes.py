@@ -115,8 +115,8 @@ _ALL: Final = (
     CheckCode(
         "ABU304", "race stays round",
         "Whether two opposite balls at the highest speed leave the race round: an oval one has two lobes, which hold "
-        "the axis off by twice their amplitude. Held by one web alone, since a cover's hold is not known before it is "
-        "made; the accuracy budget takes web and cover as drawn, both carrying the wall.",
+        "the axis off by twice their amplitude. Held by one web alone, since a cover fitted with clearance lets the "
+        "wall move; the accuracy budget takes web and cover as drawn, both carrying the wall.",
         "The lobes alone leave more than limits.vibration_level_db permits at that speed.",
         "A thicker wall (autobalancer.min_wall_mm), a smaller race, or more and smaller balls.",
         "track", (

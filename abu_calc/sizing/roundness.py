@@ -16,7 +16,7 @@ class Roundness:
     """Amplitudes [m] of the race's two lobes under two opposite balls at the top of the speed range.
 
     `lobes`: as drawn, web and cover both carry the wall and the spindle holds the hub. `unaided`: only one web carries
-    it, like a hinge, and the hub is free; a cover's hold is not known before it is made. `free_ring`: what the diameter
+    it, like a hinge, and the hub is free, as a cover fitted with clearance leaves it. `free_ring`: what the diameter
     would gain with no web at all.
     """
 

@@ -224,7 +224,7 @@ class Vibration(Record):
     handles: tuple[HandleLevels, ...]
     by_speed: tuple[SpeedLevel, ...] | None = None
     worst_arrangement: SpeedLevel | None = None
-    parts: bool | None = None
+    parts: Annotated[bool | None, Quantity("wheel and work part")] = None
     steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
 
     @classmethod

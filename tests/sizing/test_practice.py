@@ -98,7 +98,7 @@ def test_housing_of_the_straight_grinder() -> None:
 def test_levels_of_the_budget() -> None:
     assert displacement_level(math.hypot(10e-6, 7e-6), OMEGA) == pytest.approx(100.4, abs=0.1)
     assert displacement_level(17e-6, OMEGA) == pytest.approx(103.3, abs=0.1)
-    assert 1e6 * permitted_displacement(read_case(machine()), 0.2) == pytest.approx(32.81, abs=0.01)
+    assert 1e6 * permitted_displacement(read_case(machine()), 0.2, OMEGA) == pytest.approx(32.81, abs=0.01)
 
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])
