@@ -23,7 +23,7 @@ class Handle(Table):
         examples=[100.0],
         ge=-2000,
         le=2000,
-        json_schema_extra=usual(1, 1000),
+        json_schema_extra=usual(5, 1000),
     )
 
 

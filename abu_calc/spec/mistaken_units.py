@@ -52,7 +52,7 @@ def guesses(key: str, values: Sequence[float], usual: Usual, speed_rpm: float | 
     """
     unit = unit_suffix(key)
     found = _levels(values, speed_rpm) if unit == "db" else _converted(unit, values)
-    landing = [guess for guess in found if all(map(usual.holds, guess.values))]
+    landing = [guess for guess in found if all(map(usual.holds, guess.values)) and guess.values[0] * values[0] > 0]
     if unit == "db":
         landing.sort(key=lambda guess: abs(guess.values[0] - (usual.low + usual.high) / 2))
     else:

@@ -8,7 +8,7 @@ from functools import cached_property, reduce
 from typing import TYPE_CHECKING, cast
 
 from abu_calc.spec.table import Table
-from abu_calc.spec.text import Part, is_number, key_path, unit_symbol
+from abu_calc.spec.text import Part, is_number, key_path, unit_suffix, unit_symbol
 from abu_calc.spec.usual import Usual, usual_of
 from abu_calc.validity import bounded
 
@@ -58,7 +58,8 @@ def unusual(table: Table) -> Iterator[tuple[str, Usual, list[float]]]:
     for key in type(table).model_fields:
         if key not in given or not (usual := usual_of(type(table).model_fields[key])):
             continue
-        odd = [value for value in _numbers(getattr(table, key)) if not usual.holds(value)]
+        silent = unit_suffix(key) == "db"  # a level of zero is not none
+        odd = [value for value in _numbers(getattr(table, key)) if not usual.holds(value) or (silent and value == 0)]
         if odd:
             yield key, usual, odd
 

@@ -1,7 +1,7 @@
 """The usual range of a key, as data beside its field: narrower than what is allowed, wide where practice is wide.
 
-A number outside is read and warned of: most such numbers are in the wrong unit. Zero never is, it says "none"; of a
-negative number the size counts.
+A number outside is read and warned of: most such numbers are in the wrong unit. Zero is not, it says "none" (of
+levels it does not); of a negative number the size counts.
 """
 
 from typing import Final, NamedTuple, cast
