@@ -4,6 +4,7 @@ from typing import Any
 
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
+from abu_calc.report.parts import warning_blocks
 from abu_calc.studies.expected import ComparedValue
 from abu_calc.studies.verify import VerifyResult
 
@@ -16,7 +17,7 @@ def verify_blocks(result: VerifyResult) -> tuple[Block, ...]:
         if file.failed:
             rows = tuple(map(_row, file.failed))
             blocks += [Heading(file.file), Grid(("path", "expected", "found", "deviation", "allowed"), rows)]
-    return tuple(blocks)
+    return (*blocks, *warning_blocks(result.warnings))
 
 
 def _row(one: ComparedValue) -> tuple[str, ...]:
