@@ -73,8 +73,8 @@ _ALL: Final = (
     ),
     CheckCode(
         "ABU202", "accuracy budget",
-        "Whether what balls cannot balance stays below the limit: race eccentricity, dry rolling friction, and a race "
-        "off the wheel's plane, as the root of the sum of squares.",
+        "Whether what balls cannot balance stays below the limit, at the worst speed of the range: race eccentricity, "
+        "dry rolling friction, an oval race, and a race off the wheel's plane, as the root of the sum of squares.",
         "The displacement that rests at the wheel is above the one that limits.vibration_level_db permits.",
         "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
         "budget", ("formulas.friction_band:friction_band", "sizing.budget:permitted_displacement"),
@@ -113,11 +113,25 @@ _ALL: Final = (
         "Reduce the outer diameter, or choose the one-piece steel design.", "track", ("sizing.stress:hoop_stress",),
     ),
     CheckCode(
+        "ABU304", "race stays round",
+        "Whether two opposite balls at the highest speed leave the race round: an oval one has two lobes, which hold "
+        "the axis off by twice their amplitude. Held by one web alone, since a cover's hold is not known before it is "
+        "made; the accuracy budget takes web and cover as drawn, both carrying the wall.",
+        "The lobes alone leave more than limits.vibration_level_db permits at that speed.",
+        "A thicker wall (autobalancer.min_wall_mm), a smaller race, or more and smaller balls.",
+        "track", (
+            "sizing.stress:web_lobes", "sizing.stress:wall_lobes", "sizing.stress:hinged_wall_lobes",
+            "sizing.stress:ring_flexure", "sizing.budget:oval_rest",
+        ),
+    ),
+    CheckCode(
         "ABU401", "idle vibration level",
-        "Whether the idle level with the autobalancer, at the worst handle, keeps the limit of the file.",
-        "It is above limits.vibration_level_db. Not done where balls cannot balance at these speeds.",
+        "Whether the idle level with the autobalancer, at the worst handle and the worst speed of the range, keeps the "
+        "limit of the file.",
+        "It is above limits.vibration_level_db. Warns where only the worst is: friction holds the balls where they "
+        "leave most, and all parts of the budget lie in line. Not done where balls cannot balance at these speeds.",
         "Smaller race eccentricity, a harder and cleaner race, larger balls.",
-        "vibration", ("sizing.vibration:idle_vibration",),
+        "vibration", ("sizing.vibration:idle_vibration", "formulas.worst_friction:worst_friction"),
     ),
     CheckCode(
         "ABU402", "level lowered",

@@ -44,7 +44,7 @@ def size_blocks(result: SizeResult) -> tuple[Block, ...]:
 
 def _verdict(result: SizeResult) -> list[Block]:
     one, levels = result.autobalancer, result.vibration
-    failed = [check for check in result.checks if check.status != "pass"]
+    failed = [check for check in result.checks if check.status in ("fail", "not-done")]
     if failed:
         return [_failure(result, failed)]
     settle = next((scene.settling_time_s for scene in result.simulation), None)
@@ -54,6 +54,8 @@ def _verdict(result: SizeResult) -> list[Block]:
         f"{levels.level_before_db:.1f} → {levels.level_after_db:.1f} dB{soon}, "
         f"{one.mass_g:.0f} g ({100 * one.mass_fraction:.1f} % of the machine)."
     )
+    warned = ", ".join(f"{check.name} ({check.code})" for check in result.checks if check.status == "warn")
+    text += f" Warning: {warned}." if warned else ""
     return [Paragraph(text, result.status)]
 
 
@@ -118,8 +120,12 @@ def _vibration(result: SizeResult) -> list[Block]:
     )  # fmt: skip
     header = ("", "place", "before, dB", "after, dB", "reduction, dB", "felt mass, kg")
     blocks: list[Block] = [Heading("Vibration level"), Grid(header, rows, frozenset({2, 3, 4, 5}))]
-    if result.vibration_loaded:
+    loaded = result.vibration_loaded
+    if loaded:
         blocks.append(Paragraph("Under load is information, not a check: it rests on the contact's stiffness."))
+    if loaded and loaded.parts:
+        steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
+        blocks.append(Paragraph(f"Wheel and work part: the level after is that of the simulated grinding; {steady}."))
     return blocks
 
 

@@ -50,7 +50,7 @@ def capacity(result: "SizeResult") -> Lines:
 def budget(result: "SizeResult") -> Lines:
     """The root of squares, and what is permitted."""
     found = result.accuracy_budget
-    parts = found.race_eccentricity_um, found.rolling_friction_um, found.plane_offset_um
+    parts = found.race_eccentricity_um, found.rolling_friction_um, found.race_ovality_um, found.plane_offset_um
     squares = " + ".join(f"{_n(part)}²" for part in parts)
     return (f"√({squares}) = {_n(found.residual_um)} µm, permitted {_n(found.permitted_um)} µm",)
 

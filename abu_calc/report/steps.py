@@ -58,7 +58,13 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
     "budget": Step(
         "Accuracy budget",
-        ("formulas.friction_band:friction_band", "sizing.budget:permitted_displacement", "sizing.budget:plane_rest"),
+        (
+            "formulas.friction_band:friction_band",
+            "formulas.worst_friction:worst_friction",
+            "sizing.budget:oval_rest",
+            "sizing.budget:permitted_displacement",
+            "sizing.budget:plane_rest",
+        ),
         step_numbers.budget,
     ),
     "balls": Step(
@@ -81,6 +87,9 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.stress:permitted_pressure",
             "sizing.stress:hoop_stress",
             "sizing.stress:ring_flexure",
+            "sizing.stress:web_lobes",
+            "sizing.stress:wall_lobes",
+            "sizing.stress:hinged_wall_lobes",
             "sizing.track:carry_over_speed",
             "formulas.slow_motion:ball_stiffness",
             "formulas.slow_motion:decay_rate",

@@ -14,7 +14,8 @@ from abu_calc.sizing.drawing import drawing
 from abu_calc.sizing.frequency import frequency_region
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
 from abu_calc.sizing.track import track, track_checks
-from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, vibration_checks
+from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks
+from abu_calc.sizing.worst import worst_residuals
 from abu_calc.spec.machine import MachineFile
 
 if TYPE_CHECKING:
@@ -48,6 +49,8 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
     race = track(case, best, frequency.natural_frequencies)
     others = tuple(track(case, one, frequency.natural_frequencies) for one, _ in choice.runners_up)
     idle = idle_vibration(case, imbalance.value, best, frequency.balancing_possible)
+    worst = worst_residuals(case, imbalance.value, best)
+    levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
     seats, arm = _seats(machine), _arm(case, imbalance.value, best.mass)
     advice = drawing(case, best, race)
@@ -55,13 +58,16 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
         frequency.check,
         *candidate_checks(case, best),
         *track_checks(case, best, race),
-        *vibration_checks(case, idle),
+        *vibration_checks(case, idle, levels),
         *power_checks(case),
         *(arm.checks if arm else ()),
         *(check for bearing in seats for check in bearing.checks),
     )
     warnings = design_warnings(case, best, loaded)
-    return Design(case, frequency, imbalance, choice, race, others, idle, loaded, seats, arm, advice, checks, warnings)
+    return Design(
+        case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, seats, arm, advice, checks,
+        warnings,
+    )  # fmt: skip
 
 
 def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":

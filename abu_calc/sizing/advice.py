@@ -4,7 +4,7 @@ from abu_calc.checks import Check, coded, verdict
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.vibration import Vibration
+from abu_calc.sizing.vibration import Loaded
 from abu_calc.standards.balls import stock_diameter
 from abu_calc.units import from_si
 
@@ -27,8 +27,10 @@ def _capacity(case: Case, one: Candidate) -> Check:
 
 def _budget(one: Candidate) -> Check:
     budget = one.budget
-    return coded("ABU202", verdict(budget.within), "race eccentricity and dry friction, expected, against "
-        "what the limit permits", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
+    speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
+    return coded("ABU202", verdict(budget.within), "race eccentricity, dry friction and an oval race, expected, "
+        f"against what the limit permits at {speed}", from_si(budget.residual, "um"), from_si(budget.permitted, "um"),
+        "µm",
         None if budget.within else "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
     )  # fmt: skip
 
@@ -78,7 +80,7 @@ def power_checks(case: Case) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def design_warnings(case: Case, one: Candidate, loaded: Vibration | None) -> tuple[str, ...]:
+def design_warnings(case: Case, one: Candidate, loaded: Loaded | None) -> tuple[str, ...]:
     """What a reader must know that no check says."""
     return (
         *_body_warnings(case),
@@ -88,8 +90,8 @@ def design_warnings(case: Case, one: Candidate, loaded: Vibration | None) -> tup
     )
 
 
-def _loaded_warnings(loaded: Vibration | None) -> list[str]:
-    if loaded is None or loaded.worst.after is not None:
+def _loaded_warnings(loaded: Loaded | None) -> list[str]:
+    if loaded is None or loaded.steady.after is not None:
         return []
     return [
         "No level under load is given with the autobalancer: the balls cannot balance at these speeds, or this contact "

@@ -5,11 +5,19 @@ from dataclasses import dataclass
 
 from abu_calc.formula import formula
 from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
-from abu_calc.sizing.budget import AccuracyBudget, Balls, accuracy_budget, fan
+from abu_calc.sizing.budget import (
+    AccuracyBudget,
+    Balls,
+    budget_where_worst,
+    fan,
+    oval_rest,
+    permitted_displacement,
+)
 from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import Housing, housing
 from abu_calc.sizing.pins import ball_counts, ball_diameters, impossible, race_radii
+from abu_calc.sizing.roundness import Roundness, roundness
 from abu_calc.sizing.strength import Strength, strength
 from abu_calc.standards.balls import material
 from abu_calc.units import from_si, to_si
@@ -22,7 +30,7 @@ DOZEN = 12
 
 @dataclass(frozen=True)
 class Candidate:
-    """One autobalancer that could be made [SI]."""
+    """One autobalancer that could be made [SI]; `budget`: at that speed of the range where it is worst."""
 
     ball_count: int
     ball_diameter: float
@@ -31,8 +39,11 @@ class Candidate:
     capacity: float
     requirement: Requirement
     housing: Housing
+    balls: Balls
     budget: AccuracyBudget
     strength: Strength
+    roundness: Roundness
+    stays_round: bool
     mass_fraction: float
 
     @property
@@ -68,9 +79,9 @@ class Choice:
 @formula(
     "The best of every stock diameter × count up to n* × race radius in the envelope",
     where=(
-        "Enough capacity comes first, then strength, the accuracy budget, the mass fraction, no more than a dozen "
-        "balls, and the least mass (ties: the smaller ball). Of each diameter and count the smallest sufficient race "
-        "stands for the rest: a larger one is heavier."
+        "Enough capacity comes first, then strength, a race that stays round, the accuracy budget, the mass fraction, "
+        "no more than a dozen balls, and the least mass (ties: the smaller ball). Of each diameter and count the "
+        "smallest sufficient race stands for the rest: a larger one is heavier."
     ),
 )
 def choose(case: Case, imbalance: float) -> Choice:
@@ -107,11 +118,15 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     need = required_capacity(case, imbalance, mass)
     held = capacity(count, ball_mass, pitch, beta)
     angles = fan(count, imbalance * abs(need.plane_ratio) / (ball_mass * pitch), beta)
-    balls = Balls(count, ball_mass, diameter / 2, pitch, held)
-    budget = accuracy_budget(case, imbalance, need, balls, angles)
     stress = strength(case, ball_mass, diameter, race_radius, body.outer_diameter)
+    oval = roundness(case, stress.ball_force, race_radius, diameter)
+    balls = Balls(count, ball_mass, diameter / 2, pitch, held, oval.lobes)
+    budget = budget_where_worst(case, imbalance, need, balls, angles)
+    stays_round = oval_rest(oval.unaided) <= permitted_displacement(case, mass, case.speed_range[1])
     share = mass / case.machine_mass
-    return Candidate(count, diameter, ball_mass, race_radius, held, need, body, budget, stress, share)
+    return Candidate(
+        count, diameter, ball_mass, race_radius, held, need, body, balls, budget, stress, oval, stays_round, share
+    )
 
 
 def _smallest(case: Case, imbalance: float, diameter: float, count: int, radii: tuple[float, ...]) -> Candidate | None:
@@ -163,14 +178,14 @@ def _light(case: Case, one: Candidate) -> bool:
 
 def sound(case: Case, one: Candidate) -> bool:
     """Whether it falls short of nothing."""
-    return _enough(case, one) and one.strength.enough and one.budget.within and _light(case, one)
+    return _enough(case, one) and one.strength.enough and one.stays_round and one.budget.within and _light(case, one)
 
 
 def _rank(case: Case, one: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
     shortage = max(0.0, case.autobalancer.capacity_margin - one.capacity_ratio)
     excess = 0.0 if one.budget.within else one.budget.residual
-    bad = shortage, not one.strength.enough, excess, not _light(case, one)
+    bad = shortage, not one.strength.enough, not one.stays_round, excess, not _light(case, one)
     return (*bad, one.ball_count > DOZEN, round(one.mass, 9), one.ball_diameter)
 
 
@@ -188,6 +203,8 @@ def _why_not(case: Case, one: Candidate, best: Candidate) -> str:
         return f"carries only {one.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
     if not one.strength.enough:
         return "stressed more than its material bears"
+    if not one.stays_round:
+        return "its race would go oval"
     if not one.budget.within:
         return f"rests at {from_si(one.budget.residual, 'um'):.1f} µm, more than the limit permits"
     if not _light(case, one):

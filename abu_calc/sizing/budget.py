@@ -1,4 +1,4 @@
-"""Step 4: what keeps a real autobalancer from 40 dB: race eccentricity, dry friction, race off the wheel's plane."""
+"""Step 4: what keeps a real autobalancer from 40 dB: race eccentricity, friction, an oval race, one off the wheel."""
 
 import math
 from bisect import bisect_left
@@ -16,16 +16,25 @@ FAN_STEPS = 512
 
 @dataclass(frozen=True)
 class AccuracyBudget:
-    """Displacements 0–peak at the wheel [m] that stay when the balls have settled, and what the limit permits."""
+    """Displacements 0–peak at the wheel [m] that stay when the balls have settled, and what the limit permits.
 
+    `speed`: at which [rad/s]; `rolling_friction` of balls fanned evenly, which is typical.
+    """
+
+    speed: float
     race_eccentricity: float
     rolling_friction: float
+    race_ovality: float
     plane_offset: float
     shortfall: float
-    residual: float
-    worst: float
     permitted: float
     resting_angles: tuple[float, ...]
+
+    @property
+    def residual(self) -> float:
+        """As expected: the root of the sum of squares, and what the balls cannot carry on top."""
+        parts = self.race_eccentricity, self.rolling_friction, self.race_ovality, self.plane_offset
+        return math.hypot(*parts) + self.shortfall
 
     @property
     def within(self) -> bool:
@@ -35,13 +44,22 @@ class AccuracyBudget:
 
 @dataclass(frozen=True)
 class Balls:
-    """The balls of one candidate [SI]: how many, mass and radius of one, pitch radius, what they can carry [kg m]."""
+    """The balls of one candidate [SI]: how many, mass and radius of one, pitch radius, what they can carry [kg m].
+
+    `lobes`: amplitude [m] of the race's two lobes under two opposite balls at the top of the speed range.
+    """
 
     count: int
     mass: float
     radius: float
     pitch_radius: float
     capacity: float
+    lobes: float
+
+    @property
+    def moment(self) -> float:
+        """m·R_p of one ball [kg m]."""
+        return self.mass * self.pitch_radius
 
 
 def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float, ...]:
@@ -68,17 +86,24 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
     "Displacement 0–peak at the wheel that keeps every handle within the limit",
     "√2·v/Ω, background taken off",
     "m",
-    where="v limit of the velocity, rms [m/s]; divided by the largest motion of a handle per motion of the wheel.",
+    where=(
+        "v limit of the velocity, rms [m/s], Ω speed [rad/s]; divided by the largest motion of a handle per motion of "
+        "the wheel."
+    ),
     source="Kladiev 1996 (limit)",
 )
-def permitted_displacement(case: Case, added_mass: float) -> float:
+def permitted_displacement(case: Case, added_mass: float, speed: float) -> float:
     allowed = velocity_from_level(case.level_limit) ** 2
     background = case.background_level
     if background is not None:
         allowed -= velocity_from_level(background) ** 2
+    return math.sqrt(2 * max(allowed, 0.0)) / (speed * loudest_transmission(case, added_mass))
+
+
+def loudest_transmission(case: Case, added_mass: float) -> float:
+    """Largest motion of a handle per motion of the wheel [1]."""
     places = [handle.place for handle in case.handles] or [case.body.wheel]
-    transmission = max(case.body.transmission(place, added_mass) for place in places)
-    return math.sqrt(2 * max(allowed, 0.0)) / (case.speed * transmission)
+    return max(case.body.transmission(place, added_mass) for place in places)
 
 
 def accuracy_budget(
@@ -87,20 +112,56 @@ def accuracy_budget(
     need: Requirement,
     balls: Balls,
     angles: tuple[float, ...],
+    speed: float,
 ) -> AccuracyBudget:
-    """The parts of the residual: root of the sum of squares as expected, plain sum as worst.
+    """The parts of the residual at one speed [rad/s] where balls rest at these angles.
 
-    What the balls cannot carry of the idle imbalance comes on top of both. Friction can hold no more than all balls in
-    one place would cause.
+    Friction can hold no more than all balls in one place would cause. The race's ovality is that of two opposite balls.
     """
     carried = imbalance * abs(need.plane_ratio)
-    most = (balls.count * balls.mass * balls.pitch_radius + carried) / need.effective_mass
-    friction = min(friction_band(case.friction_arm, balls.pitch_radius, balls.radius, angles), most)
-    parts = (case.race_eccentricity, friction, plane_rest(case, imbalance, need.added_mass))
-    resonance = resonance_factor(case.suspension, case.speed, need.effective_mass)
-    missing = max(0.0, carried - balls.capacity) / need.effective_mass * resonance
-    permitted = permitted_displacement(case, need.added_mass)
-    return AccuracyBudget(*parts, missing, math.hypot(*parts) + missing, sum(parts) + missing, permitted, angles)
+    band = friction_band(case.friction_arm, balls.pitch_radius, balls.radius, angles)
+    missing = max(0.0, carried - balls.capacity) / need.effective_mass
+    return AccuracyBudget(
+        speed=speed,
+        race_eccentricity=case.race_eccentricity,
+        rolling_friction=min(band, (balls.count * balls.moment + carried) / need.effective_mass),
+        race_ovality=oval_rest(balls.lobes) * (speed / case.speed_range[1]) ** 2,
+        plane_offset=plane_rest(case, imbalance, need.added_mass),
+        shortfall=missing * resonance_factor(case.suspension, speed, need.effective_mass) if missing else 0.0,
+        permitted=permitted_displacement(case, need.added_mass, speed),
+        resting_angles=angles,
+    )
+
+
+def budget_where_worst(
+    case: Case, imbalance: float, need: Requirement, balls: Balls, angles: tuple[float, ...]
+) -> AccuracyBudget:
+    """At that of the judged speeds where the residual is nearest to what the limit permits, or most above it."""
+    found = [accuracy_budget(case, imbalance, need, balls, angles, speed) for speed in judged_speeds(case)]
+    return max(found, key=lambda one: one.residual * one.speed)
+
+
+def judged_speeds(case: Case) -> tuple[float, ...]:
+    """Speeds [rad/s] at which levels are judged: the ends of the range and the rated one.
+
+    What stays grows with the speed, but for imbalance beyond the capacity, which grows toward a resonance, outside the
+    range: so the ends are worst.
+    """
+    return tuple(sorted({*case.speed_range, case.speed}))
+
+
+@formula(
+    "Displacement that two lobes of the race can leave",
+    "k·a, k = 2",
+    "m",
+    where=(
+        "a amplitude of the lobes [m]. A ball rests where its race slopes no more than the displacement pulls: k lobes "
+        "slope by k·a/R_p."
+    ),
+    source="derived",
+)
+def oval_rest(lobes: float) -> float:
+    return 2 * lobes
 
 
 @formula(

@@ -10,7 +10,8 @@ from abu_calc.sizing.drawing import Advice
 from abu_calc.sizing.frequency import FrequencyRegion
 from abu_calc.sizing.imbalance import Imbalance
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import Vibration
+from abu_calc.sizing.vibration import Loaded, SpeedLevels, Vibration
+from abu_calc.sizing.worst import WorstResidual
 
 if TYPE_CHECKING:
     from abu_calc.fits.seats import BearingSeats
@@ -28,7 +29,9 @@ class Design:
     track: Track
     runner_up_tracks: tuple[Track, ...]
     idle: Vibration
-    loaded: Vibration | None
+    worst: tuple[WorstResidual, ...]
+    speed_levels: SpeedLevels | None
+    loaded: Loaded | None
     seats: "tuple[BearingSeats, ...]"
     swing_arm: "SwingArmBounds | None"
     drawing: tuple[Advice, ...]

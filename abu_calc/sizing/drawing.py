@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from abu_calc.errors import RangeError
 from abu_calc.formula import formula
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.budget import oval_rest
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.track import Track
 from abu_calc.standards.limits import part_limits
@@ -48,14 +49,14 @@ def drawing(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
 
     What only changes the capacity, or what the balls themselves balance, costs nothing.
     """
-    return (*_race(case, one, track), *_seat_and_balls(case, one), *_running(case, track))
+    return (*_race(case, one, track), *_seat_and_balls(case, one), *_running(case, one, track))
 
 
 def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
     budget, abu = one.budget, case.autobalancer
     eccentricity = from_si(case.race_eccentricity, "um")
-    others = math.hypot(budget.rolling_friction, budget.plane_offset)
-    smooth = math.hypot(budget.race_eccentricity, budget.plane_offset)
+    others = math.hypot(budget.rolling_friction, budget.race_ovality, budget.plane_offset)
+    smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM
     groove = f"R {from_si(track.groove_radius, 'mm'):.2f} ± 0.2 mm across" if track.groove_radius else "straight ± 2 µm"
     return (
@@ -76,7 +77,7 @@ def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
 
 def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
     clearance = _bore_clearance(to_si(case.autobalancer.bore_diameter_mm, "mm"))
-    rest = math.hypot(one.budget.rolling_friction, one.budget.plane_offset)
+    rest = math.hypot(one.budget.rolling_friction, one.budget.race_ovality, one.budget.plane_offset)
     play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at worst"
     cost = None if clearance is None else _cost(rest, clearance / 2)
     return (
@@ -86,15 +87,21 @@ def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
     )  # fmt: skip
 
 
-def _running(case: Case, track: Track) -> tuple[Advice, ...]:
+def _running(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
+    oval = one.roundness
     optimum = "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
     return (
         Advice("oil", f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
                "to 50 by slip, more when cold; state grade and volume"),
-        Advice("web or cover", "must carry the wall: a free ring would go oval by "
-               f"{from_si(track.free_ring_ovality, 'um'):.1f} µm under two opposite balls"),
+        Advice("web and cover", "both must carry the wall, the cover spigoted into it: the race's two lobes then leave "
+               f"{_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))}; a free ring would "
+               f"go oval by {_um(oval.free_ring)}"),
         Advice("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
     )  # fmt: skip
+
+
+def _um(length: float) -> str:
+    return f"{from_si(length, 'um'):.3g}"
 
 
 def _bore_clearance(bore: float) -> float | None:

@@ -74,7 +74,7 @@ def hoop_stress(speed: float, radius: float, density: float) -> float:
 
 
 @formula(
-    "Ovality that two opposite ball forces would give a free ring",
+    "What two opposite ball forces would add to the diameter of a free ring",
     "0.149·F·R³/(E·I), I = b·h³/12",
     "m",
     where="A web must carry the wall.",
@@ -83,3 +83,51 @@ def hoop_stress(speed: float, radius: float, density: float) -> float:
 )
 def ring_flexure(force: float, radius: float, width: float, wall: float) -> float:
     return 0.149 * force * radius**3 / (STEEL_MODULUS * width * wall**3 / 12)
+
+
+@formula(
+    "Two lobes of a web, an annular plate in its plane, that two opposite forces pull at its edge",
+    "2F/(πR)·R/(E·t)·[1 + ν/3 + (8/3)·s(3 + s²)/(1 − s)³], s = (a/R)²",
+    "m",
+    where="Amplitude of the part in cos 2θ. F force, R outer, a inner radius, t thickness of the web [m].",
+    assumed="plane stress, the inner edge free; a = 0 for a hub that the spindle holds, which is stiffer than a disc",
+    source="Airy function A·r² + B·r⁴ + C/r² + D; for a near R it is the thin ring",
+)
+def web_lobes(force: float, radius: float, inner_radius: float, thickness: float, modulus: float) -> float:
+    """
+    >>> thin = web_lobes(100, 0.1, 0.098, 0.01, STEEL_MODULUS)
+    >>> round(thin / ring_flexure(100, 0.099, 0.01, 0.002), 2)
+    0.48
+    """
+    s = (inner_radius / radius) ** 2
+    shape = 1 + STEEL_POISSON / 3 + 8 / 3 * s * (3 + s**2) / (1 - s) ** 3
+    return 2 * force / math.pi / (modulus * thickness) * shape
+
+
+@formula(
+    "Two lobes of a wall between two webs, which two opposite forces push out half-way",
+    "2F/(πR)·l³/(48·D), D = E·h³/(12(1−ν²))",
+    "m",
+    where="Amplitude of the part in cos 2θ. l width between the webs, h wall, R radius [m].",
+    assumed="strips of the wall rest on the webs and do not help each other: more than a shell would give",
+    source="simply supported beam",
+)
+def wall_lobes(force: float, radius: float, width: float, wall: float) -> float:
+    return 2 * force / (math.pi * radius) * width**3 / (48 * _plate_rigidity(wall))
+
+
+@formula(
+    "Two lobes of a wall that a web holds at one edge only, half-way",
+    "2F/(πR)·l·R²/(4·D·[3(l/R)² + (9/2)(1 − ν)])",
+    "m",
+    where="Amplitude of the part in cos 2θ: the wall opens like a bell. Symbols as between two webs.",
+    assumed="bending without extension; the web a hinge, though its own bending stiffens it",
+    source="Love's inextensional shell, Rayleigh–Ritz",
+)
+def hinged_wall_lobes(force: float, radius: float, width: float, wall: float) -> float:
+    stiffness = 3 * (width / radius) ** 2 + 4.5 * (1 - STEEL_POISSON)
+    return 2 * force / (math.pi * radius) * width * radius**2 / (4 * _plate_rigidity(wall) * stiffness)
+
+
+def _plate_rigidity(wall: float) -> float:
+    return STEEL_MODULUS * wall**3 / (12 * (1 - STEEL_POISSON**2))

@@ -7,23 +7,22 @@ from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
 from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.budget import oval_rest, permitted_displacement
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import groove_radius
-from abu_calc.sizing.stress import ring_flexure
-from abu_calc.units import GRAVITY, from_si, to_si
+from abu_calc.units import GRAVITY, from_si
 
 LEAST_HARDNESS_HRC = 58.0
 
 
 @dataclass(frozen=True)
 class Track:
-    """Groove, ovality of a free ring, slow motion of the balls [SI]; null where there is none.
+    """Groove, slow motion of the balls [SI]; null where there is none.
 
     `decay_rates`: drag and slowest rate [1/s] at the drag of the file, a third of it and three times it.
     """
 
     groove_radius: float | None
-    free_ring_ovality: float
     carry_over: float
     ball_stiffness: float
     optimum_drag: float | None
@@ -47,14 +46,12 @@ def carry_over_speed(pitch_radius: float) -> float:
 
 
 def track(case: Case, one: Candidate, frequencies: tuple[float, float]) -> Track:
-    """Track of one candidate at the rated speed; ovality by the ball force at the top of the speed range."""
+    """Track of one candidate at the rated speed."""
     kappa = ball_stiffness(one.ball_mass, one.requirement.effective_mass, case.speed, frequencies)
     slowest, _ = slow_stiffness((kappa,) * one.ball_count, one.budget.resting_angles)
-    wall = to_si(case.autobalancer.min_wall_mm, "mm")
     rolls = case.autobalancer.corrector == "roller"
     return Track(
         groove_radius=None if rolls else groove_radius(one.race_radius, one.ball_diameter / 2),
-        free_ring_ovality=ring_flexure(one.strength.ball_force, one.race_radius, one.housing.width, wall),
         carry_over=carry_over_speed(one.pitch_radius),
         ball_stiffness=kappa,
         optimum_drag=optimum_drag(slowest, case.inertia_factor) if slowest > 0 else None,
@@ -67,25 +64,40 @@ def _rate(case: Case, one: Candidate, kappa: float, drag: float) -> float:
 
 
 def track_checks(case: Case, one: Candidate, race: Track) -> tuple[Check, ...]:
-    """Pressure, hardness, hoop stress, and on a horizontal spindle that the balls are carried over."""
+    """Pressure, hardness, hoop stress, roundness at the highest speed; on a horizontal spindle that the balls are
+    carried over at the lowest.
+    """
     hardness, stress = case.autobalancer.race_hardness_HRC, one.strength
     pressure, permitted = from_si(stress.contact_pressure, "MPa"), from_si(stress.permitted_pressure, "MPa")
     hoop, limit = from_si(stress.hoop_stress, "MPa"), from_si(stress.permitted_hoop, "MPa")
+    top = f"{from_si(case.speed_range[1], 'rpm'):.6g} rpm"
     checks = [
-        coded("ABU301", verdict(pressure <= permitted), "Hertz pressure of a ball at top speed "
-              "against 5.2·HV, which leaves no dent (assumed rule)", pressure, permitted, "MPa",
+        coded("ABU301", verdict(pressure <= permitted), f"Hertz pressure of a ball at {top}, against 5.2·HV, "
+              "which leaves no dent (assumed rule)", pressure, permitted, "MPa",
               None if pressure <= permitted else "A harder race, more and smaller balls, or a smaller race radius."),
         coded("ABU302", verdict(hardness >= LEAST_HARDNESS_HRC), "a soft race dents, and dents hold "
               "the balls: machines with soft races gained nothing", hardness, LEAST_HARDNESS_HRC, "HRC",
               None if hardness >= LEAST_HARDNESS_HRC else "Harden the race to 60–63 HRC and grind it.", "least"),
-        coded("ABU303", verdict(hoop <= limit), "spinning rim at top speed (limit assumed)", hoop, limit,
+        coded("ABU303", verdict(hoop <= limit), f"spinning rim at {top} (limit assumed)", hoop, limit,
               "MPa", None if hoop <= limit else "Reduce the outer diameter, or choose the one-piece steel design."),
+        _roundness(case, one, top),
     ]  # fmt: skip
     if case.table.machine.spindle_axis == "horizontal":
         lowest, needed = from_si(case.speed_range[0], "rpm"), from_si(race.carry_over, "rpm")
         checks.append(
-            coded("ABU102", verdict(lowest > needed), "lowest speed carries the balls round the "
+            coded("ABU102", verdict(lowest > needed), "the lowest speed carries the balls round the "
                   "horizontal spindle", lowest, needed, "rpm",
                   None if lowest > needed else "Raise the lowest speed, or enlarge the race.", "least")
         )  # fmt: skip
     return tuple(checks)
+
+
+def _roundness(case: Case, one: Candidate, top: str) -> Check:
+    """What an oval race leaves where one web alone holds it, against all that the level's limit permits."""
+    left, permitted = oval_rest(one.roundness.unaided), permitted_displacement(case, one.mass, case.speed_range[1])
+    drawn = f"{from_si(oval_rest(one.roundness.lobes), 'um'):.3g} µm"
+    return coded("ABU304", verdict(one.stays_round), "what the two lobes leave of a race that two opposite balls make "
+        f"oval, held by one web alone, at {top}; {drawn} as drawn, the cover carrying the wall", from_si(left, "um"),
+        from_si(permitted, "um"), "µm", None if one.stays_round else
+        "A thicker wall (min_wall_mm), a smaller race, or more and smaller balls.",
+    )  # fmt: skip

@@ -1,6 +1,7 @@
 """The parts of a sized design, as results hold them: SI in, user units out."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.analysis.region import TrueRegion
@@ -10,7 +11,7 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import Place
+from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, Place, SpeedLevels
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -128,7 +129,12 @@ class AccuracyBudget(Record):
     optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
 
     race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
-    rolling_friction_um: Annotated[float | None, Quantity("dry friction band", "k_r·R_p/r", 3)]
+    speed_rpm: Annotated[float, Quantity("at its worst speed", "Ω", 6)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fan)", "k_r·R_p/r", 3)]
+    rolling_friction_worst_um: Annotated[
+        float | None, Quantity("dry friction, worst", "", 3, "at the worst arrangement of the balls")
+    ]
+    race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a", 3)]
     plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
     capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
@@ -142,16 +148,20 @@ class AccuracyBudget(Record):
     def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:
         """Of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
         one, budget = design.autobalancer, design.autobalancer.budget
+        worst = next(each for each in design.worst if each.speed == budget.speed)
         band = None
         if reached is not None:
             band = friction_band(design.case.friction_arm, one.pitch_radius, one.ball_diameter / 2, reached)
         return cls(
             race_eccentricity_um=_um(budget.race_eccentricity),
+            speed_rpm=from_si(budget.speed, "rpm"),
             rolling_friction_um=_um(budget.rolling_friction),
+            rolling_friction_worst_um=_um(worst.rolling_friction),
+            race_ovality_um=_um(budget.race_ovality),
             plane_offset_um=_um(budget.plane_offset),
             capacity_shortfall_um=_um(budget.shortfall),
             residual_um=_um(budget.residual),
-            worst_um=_um(budget.worst),
+            worst_um=_um(worst.residual),
             permitted_um=_um(budget.permitted),
             rolling_friction_reached_um=None if band is None else _um(band),
         )
@@ -166,7 +176,7 @@ class HandleLevels(Record):
     """Levels at one place where the machine is held."""
 
     name: Annotated[str, Quantity("place")]
-    level_before_db: Annotated[float, Quantity("level before", "L")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
@@ -185,16 +195,40 @@ class HandleLevels(Record):
 
 
 @record
-class Vibration(Record):
-    """Levels at the loudest place, and at each; None after: balls cannot balance."""
+class SpeedLevel(Record):
+    """Level with the autobalancer at one speed, at the loudest place."""
 
-    level_before_db: Annotated[float, Quantity("level before", "L")]
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    level_after_db: Annotated[float, Quantity("level after", "L")]
+
+    @classmethod
+    def of(cls, level: LevelAtSpeed) -> Self:
+        """In user units."""
+        return cls(speed_rpm=from_si(level.speed, "rpm"), level_after_db=level.after)
+
+
+@record
+class Vibration(Record):
+    """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
+
+    `by_speed`: over the speed range; `worst_arrangement`: the highest of the range where friction holds the balls at
+    their worst; none under load. `parts`: under load, whether wheel and work part: then the level after is that of the
+    simulation of grinding, and that of steady contact is not valid.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset({"by_speed", "worst_arrangement", "parts", "steady_level_after_db"})
+
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
+    by_speed: tuple[SpeedLevel, ...] | None = None
+    worst_arrangement: SpeedLevel | None = None
+    parts: bool | None = None
+    steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
 
     @classmethod
-    def of(cls, vibration: Levelled) -> Self:
+    def of(cls, vibration: Levelled, levels: SpeedLevels | None = None) -> Self:
         """In the words of the interface."""
         worst = vibration.worst
         return cls(
@@ -202,7 +236,16 @@ class Vibration(Record):
             level_after_db=worst.after,
             reduction_db=worst.reduction,
             handles=tuple(map(HandleLevels.of, vibration.places)),
+            by_speed=None if levels is None else tuple(map(SpeedLevel.of, levels.by_speed)),
+            worst_arrangement=None if levels is None else SpeedLevel.of(levels.arranged),
         )
+
+    @classmethod
+    def of_loaded(cls, loaded: Loaded) -> Self:
+        """Under load."""
+        found = cls.of(loaded.levels)
+        steady = loaded.steady.after if loaded.parts_after else None
+        return replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
 
 
 @record

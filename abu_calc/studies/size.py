@@ -3,6 +3,7 @@
 from typing import Annotated, ClassVar
 
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
+from abu_calc.analysis.loaded import loaded_levels
 from abu_calc.analysis.machine import Run, simulated
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
@@ -77,7 +78,7 @@ def size(
     checks += ensemble_checks(design, tried.ensemble, tried.remedy)
     checks += tuple(not_simulated(failure.scene, failure.reason) for failure in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
-    need, loaded = design.autobalancer.requirement, design.loaded
+    need, loaded = design.autobalancer.requirement, loaded_levels(design, runs)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
@@ -98,8 +99,8 @@ def size(
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
-        vibration=Vibration.of(design.idle),
-        vibration_loaded=None if loaded is None else Vibration.of(loaded),
+        vibration=Vibration.of(design.idle, design.speed_levels),
+        vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded),
         ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
