@@ -165,6 +165,7 @@ def _all(
 
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
+    """What the response of a member's scene says."""
     speed = abs(response.final.speed) or scene.speed
     settling = response.settling_time
     return Outcome(
