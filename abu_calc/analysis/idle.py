@@ -1,5 +1,7 @@
 """What the simulation of an idle machine must show for its design to pass, in `abu size`."""
 
+from typing import Final
+
 from abu_calc.analysis.response import Response
 from abu_calc.checks import Check, verdict
 from abu_calc.formulas.motion import SETTLED
@@ -11,10 +13,13 @@ WORK = 300_000
 stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
 
 
-def idle_checks(design: Design, response: Response) -> tuple[Check, ...]:
+HARD: Final = "from the hard start, balls bunched on the heavy side"
+
+
+def idle_checks(design: Design, response: Response, start: str = HARD) -> tuple[Check, ...]:
     """Balls that balance (a tenth of the imbalance is left, beside what the budget grants), and soon enough.
 
-    Not done where the balls, side by side, cannot carry the imbalance.
+    `start`: in words, how they began. Not done where the balls, side by side, cannot carry the imbalance.
     """
     one, limit = design.autobalancer, design.case.table.limits.settling_time_s
     moved = design.imbalance.value * abs(one.requirement.plane_ratio)
@@ -30,7 +35,6 @@ def idle_checks(design: Design, response: Response) -> tuple[Check, ...]:
         message = "imbalance left: the balls make it worse, they gather on the heavy side"
     else:
         message = "imbalance left: the balls help, but do not balance"
-    start = "from the hard start, balls bunched on the heavy side"
     drag = design.track.optimum_drag
     sooner = "" if drag is None else f" {drag:.0f} 1/s"
     return (
