@@ -31,19 +31,19 @@ class PlaceLevel:
 def levels_at_places(design: Design, response: Response) -> tuple[PlaceLevel, ...]:
     """Levels where the machine is held: what the race plane does, carried there as by a free rigid body.
 
-    Of a race off the wheel's plane, what rests at the wheel is added as squares; a background as energy. Valid well
-    above the suspension, as in sizing. No places for a machine on a swing arm.
+    What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
+    background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
     """
     if response.scene not in HELD:
         return ()
     case, added = design.case, design.autobalancer.mass
     body, race = case.body, case.race_place
-    swing = math.sqrt(2) * response.velocity_rms / case.speed
-    rest = design.autobalancer.budget.plane_offset
+    swing = math.sqrt(2) * response.velocity_rms / case.speed / body.inertance(race, race, added)
+    imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
 
     def level(place: float) -> float:
-        carried = swing * abs(body.inertance(place, race, added)) / body.inertance(race, race, added)
-        displacement = math.hypot(carried, rest * body.transmission(place, added))
+        at_race, at_wheel = body.inertance(place, race, added), body.inertance(place, body.wheel, added)
+        displacement = math.hypot(swing * at_race, imbalance * at_wheel - balls * at_race)
         return displacement_level(displacement, case.speed, case.background_level)
 
     places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", body.wheel)]

@@ -19,6 +19,8 @@ WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL",
 RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn")
 """Grades that need a word, the worst first."""
 MARGIN: Final = 2
+MOST_ALIKE: Final = 3
+"""Checks that are named with the reason they share; the table of checks has all."""
 
 
 def of_scene(scene: str) -> str:
@@ -51,18 +53,24 @@ def check_blocks(checks: Sequence[Check]) -> list[Block]:
 
 def reasons(checks: Iterable[Check]) -> list[Paragraph]:
     """Checks that did not simply pass, the worst first, each with its grade, reason and remedy; alike ones together."""
+    return [reason(alike) for alike in unlike(checks)]
+
+
+def unlike(checks: Iterable[Check]) -> list[list[Check]]:
+    """Checks that did not simply pass, the worst first; those of one grade, reason and remedy together."""
     groups: dict[tuple[str, ...], list[Check]] = {}
     for check in sorted((one for one in checks if one.status != "pass"), key=lambda one: RANK.index(one.status)):
         groups.setdefault((check.status, check.message, check.remedy or ""), []).append(check)
-    return [_reason(alike) for alike in groups.values()]
+    return list(groups.values())
 
 
-def _reason(alike: Sequence[Check]) -> Paragraph:
+def reason(alike: Sequence[Check]) -> Paragraph:
     """Checks of one grade, one reason and one remedy."""
-    first = alike[0]
-    names = ", ".join(f"{one.code} {one.name}{_found(one)}" for one in alike)
+    first, more = alike[0], len(alike) - MOST_ALIKE
+    names = ", ".join(f"{one.code} {one.name}{_found(one)}" for one in alike[:MOST_ALIKE])
+    others = f" and {more} more" if more > 0 else ""
     remedy = f" Remedy: {first.remedy}" if first.remedy else ""
-    return Paragraph(f"{WORD[first.status]} {names}: {first.message}.{remedy}", first.status, hang=MARGIN)
+    return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
 
 
 def _found(check: Check) -> str:

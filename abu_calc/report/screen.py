@@ -9,7 +9,7 @@ from typing import Final
 
 from abu_calc.checks import Check, Status
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.report.parts import reasons, warning_lines
+from abu_calc.report.parts import reason, unlike, warning_lines
 from abu_calc.report.text import height
 from abu_calc.studies.result import Result
 
@@ -32,24 +32,25 @@ def one_screen(
     """
     passed = [Paragraph(_passed(result.checks))] if result.checks else []
     last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
-    warnings = warning_lines(result.warnings)
+    warnings, groups = warning_lines(result.warnings), unlike(result.checks)
     room = LINES - height([*about, *last])
     kept = min(2 + height(warnings), LEAST) if warnings else 0
-    told = _fitted(reasons(result.checks), room - kept - min(1 + height(body), LEAST), "check")
+    taken = room - kept - min(1 + height(body), LEAST)
+    told = _fitted([reason(alike) for alike in groups], list(map(len, groups)), taken, "check")
     room -= height(told)
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
-    rest = _fitted(warnings, room - height([BLANK, *shown]) - 2, "warning")
+    rest = _fitted(warnings, [1] * len(warnings), room - height([BLANK, *shown]) - 2, "warning")
     below: list[Block] = [Heading("Warnings"), *rest] if rest else []
     return (*about, *told, *parted, *below, *last)
 
 
-def _fitted(lines: Sequence[Paragraph], room: int, name: str) -> list[Paragraph]:
-    """As many as there is room for, the rest as a count."""
+def _fitted(lines: Sequence[Paragraph], counts: Sequence[int], room: int, name: str) -> list[Paragraph]:
+    """As many as there is room for, the rest as a count; `counts`: of how many things each tells."""
     if height(lines) <= room:
         return list(lines)
-    fit = bisect_right(range(len(lines)), room - 1, key=lambda count: height(lines[:count])) - 1
-    return [*lines[: max(fit, 0)], Paragraph(f"And {many(len(lines) - max(fit, 0), f'more {name}')}: --full.")]
+    fit = max(bisect_right(range(len(lines)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
+    return [*lines[:fit], Paragraph(f"And {many(sum(counts[fit:]), f'more {name}')}: --full.")] if lines else []
 
 
 def cut(blocks: Sequence[Block], room: int) -> list[Block]:

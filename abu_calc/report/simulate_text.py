@@ -82,11 +82,11 @@ def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
 def _numbers(result: SimulateResult) -> Grid:
     """Amplitude, levels, settling, error, each with its limit."""
     limits = {check.code: limit_in_file(check) for check in result.checks}
-    bearings = result.bearing_amplitudes_mm is not None
+    bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {one.name}" for one in result.handles or ()]
     rows = (
         ("axis amplitude", value_of(result, "unbalanced_amplitude_mm"), value_of(result, "axis_amplitude_mm"), ""),
         *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
-        *((place, "", level, limits.get("ABU401", "")) for place, _, level in _levels(result)),
+        *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
         ("settling time", "", "none" if result.settling_time_s is None else value_of(result, "settling_time_s"),
          limits.get("ABU702", "")),
         ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),

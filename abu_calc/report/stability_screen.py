@@ -5,7 +5,7 @@ from abu_calc.report.screen import shortened
 from abu_calc.report.stability import stability_blocks
 from abu_calc.studies.stability import StabilityResult
 
-LEFT_OUT = ("Eigenvalues, 1/s", "Floquet multipliers of one revolution", "Model")
+LEFT_OUT = ("Eigenvalues, 1/s", "Floquet multipliers of one revolution")
 
 
 def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
