@@ -5,6 +5,7 @@ to look next. What there is no room for is counted, never left out in silence.
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Final
 
 from abu_calc.checks import Check, Status
@@ -60,9 +61,9 @@ def cut(blocks: Sequence[Block], room: int) -> list[Block]:
     kept: list[Block] = []
     for block in blocks:
         kept += _what_fits(block, kept, room - 1)
-    while kept and isinstance(kept[-1], Heading):
-        kept.pop()
-    return [*kept, Paragraph("And more: --full.")]
+    ended: list[Block] = [*kept, Heading("")]
+    empty = [isinstance(one, Heading) and isinstance(below, Heading) for one, below in pairwise(ended)]
+    return [*(one for one, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]
 
 
 def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
@@ -78,18 +79,20 @@ def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
     return [parts[fitting - 1], Paragraph(f"And {more}: --full.")] if fitting > 1 else []
 
 
-def verdict_line(result: Result) -> Paragraph:
-    """PASS, FAIL or NOT DONE, and how many checks and warnings stand behind the word."""
+def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
+    """PASS, FAIL or NOT DONE, and how many checks and warnings stand behind the word.
+
+    `unjudged`: what to say in place of PASS where nothing was judged that the word could stand for.
+    """
     count, total = Counter(check.status for check in result.checks), many(len(result.checks), "check")
-    warned = count["warn"] + len(result.warnings)
+    warned = [many(number, "warning")] if (number := count["warn"] + len(result.warnings)) else []
     if result.status == "pass":
-        word = f"PASS with {many(warned, 'warning')}" if warned else "PASS"
-        return Paragraph(word, "warn" if count["warn"] else "pass")
-    said = {"failed": count["fail"], "not done": count["not-done"]}
-    first, *others = [f"{number} {word}" for word, number in said.items() if number] or ["no check was done"]
-    first = first.replace(" ", f" of {total} ", 1) if any(said.values()) else first
-    others += [many(warned, "warning")] if warned else []
-    return Paragraph(f"{WORDS[result.status]}: {', '.join([first, *others])}", result.status)
+        text = "; ".join([unjudged, *warned]) if unjudged else " with ".join(["PASS", *warned])
+        return Paragraph(text, "warn" if count["warn"] else None if unjudged else "pass")
+    failed = [f"{count['fail']} of {total} failed"] if count["fail"] else []
+    missing = f"{count['not-done']} not done" if failed else f"{count['not-done']} of {total} not done"
+    found = [*failed, *([missing] if count["not-done"] else []), *warned]
+    return Paragraph(f"{WORDS[result.status]}: {', '.join(found or ['there are no checks'])}", result.status)
 
 
 def many(count: int, name: str, plural: str | None = None) -> str:

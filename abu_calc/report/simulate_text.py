@@ -26,7 +26,8 @@ CONVENTIONS = (
     "imbalance) in the sense of rotation, ball speeds relative to the race. Settled: the imbalance left stays near its "
     "final value."
 )
-UNDER_LOAD: Final = "Under load the level is information, not a check: it rests on the contact's stiffness."
+UNJUDGED: Final = "The accuracy is reached; there are no limits for this scene"
+UNDER_LOAD: Final = "Under load the level is information, not a check: the limit of the file is for idling."
 
 MOTION = (
     *("duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "unbalanced_amplitude_mm"),
@@ -87,17 +88,27 @@ def _numbers(result: SimulateResult) -> Grid:
         ("axis amplitude", value_of(result, "unbalanced_amplitude_mm"), value_of(result, "axis_amplitude_mm"), ""),
         *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
         *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
-        ("settling time", "", "none" if result.settling_time_s is None else value_of(result, "settling_time_s"),
-         limits.get("ABU702", "")),
+        (*_settling(result), limits.get("ABU702", "")),
         ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),
     )  # fmt: skip
     return Grid(("", "without balls", "with", "limit"), rows, frozenset({1, 2}))
 
 
+def _settling(result: SimulateResult) -> tuple[str, str, str]:
+    """After a run-up as it is judged, from full speed."""
+    if result.settling_time_s is None:
+        return ("settling time", "", "none")
+    since = next((check.value for check in result.checks if check.code == "ABU702"), None)
+    if result.scene == "run-up" and since is not None:
+        return ("settling, from full speed", "", f"{number(since, 3)} s")
+    return ("settling time", "", value_of(result, "settling_time_s"))
+
+
 def _about(result: SimulateResult) -> list[Block]:
     """Title, verdict, the scene in a sentence."""
     title = f"{result.title}: simulation{of_scene(result.scene)}"
-    return [Heading(title), verdict_line(result), Paragraph(_sentence(result)), Paragraph(result.description)]
+    verdict = verdict_line(result, None if _judged(result) else UNJUDGED)
+    return [Heading(title), verdict, Paragraph(_sentence(result)), Paragraph(result.description)]
 
 
 def _sentence(result: SimulateResult) -> str:
@@ -114,9 +125,14 @@ def _levels(result: SimulateResult) -> list[tuple[str, str, str]]:
     return [*(row for row in bare if row not in places), *places]
 
 
+def _judged(result: SimulateResult) -> bool:
+    """Whether the limits of a file are for this scene."""
+    return any(check.code == "ABU401" for check in result.checks)
+
+
 def _informs(result: SimulateResult) -> bool:
     """Whether levels are given that no limit is for."""
-    return result.handles is not None and not any(check.code == "ABU401" for check in result.checks)
+    return result.handles is not None and not _judged(result)
 
 
 def _final(final: End) -> list[Block]:

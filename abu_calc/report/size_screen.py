@@ -58,8 +58,8 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
          _db(level.typical) or "not known", _db(level.worst), limit_in_file(limits.get("ABU401"))),
         ("settling time", "", _seconds(settling.typical) or "none", _seconds(settling.worst),
          limit_in_file(limits.get("ABU702"))),
-        ("mass with balls", "", f"{number(one.mass_g, 3)} g", "", f"{number(100 * one.mass_fraction, 2)} %, "
-         f"{limit_in_file(limits.get('ABU203'))}"),
+        ("mass with balls", "", f"{number(one.mass_g, 3)} g", "",
+         f"{number(100 * one.mass_fraction, 2)} %, {limit_in_file(limits.get('ABU203'))}".removesuffix(", ")),
     )  # fmt: skip
     header = ("", "without", "with", "worst", "limit")
     if level.worst is None and settling.worst is None:

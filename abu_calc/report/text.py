@@ -69,7 +69,8 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             case Heading(text):
                 yield fill(text, width, 0, MARGIN), "bold"
             case Paragraph(text, mark, indent, hang):
-                yield fill(text, width, indent, hang), STYLES.get(mark or "", "")
+                style = STYLES.get(mark or "", "")
+                yield fill(text, width, indent, hang), style.removeprefix("bold ") if hang else style
             case Facts(rows):
                 yield _facts(rows, width)
             case Grid():

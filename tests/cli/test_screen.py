@@ -123,6 +123,22 @@ def test_balls_that_do_not_balance_have_no_settling_time() -> None:
     assert settling.split()[2] == "none"
 
 
+def test_nothing_judged_is_no_pass(tmp_path: Path) -> None:
+    """A scene given outright, and one under load, have no limits to pass."""
+    file = tmp_path / "scene.toml"
+    file.write_text(SCENE, encoding="utf-8")
+    for arguments in ((str(file), "--duration", "20"), ("avtovaz-707-222", "--scene", "grinding")):
+        seen = once("simulate", *arguments)
+        assert seen.status == 0 and "PASS" not in seen.out and "no limits for this scene" in seen.out
+    assert "PASS" in once("simulate", "avtovaz-707-222").out.splitlines()[1]
+
+
+def test_settling_after_a_run_up_is_shown_as_it_is_judged() -> None:
+    seen = once("simulate", "msh-230", "--scene", "run-up", "--set", "run_up.time_s=1.5")
+    (line,) = [line for line in seen.out.splitlines() if "from full speed" in line]
+    assert seen.status == 0 and 0 < float(line.split()[4]) < 1 and "at most 1 s" in line
+
+
 # grades
 def graded(status: Grade, number: int = 1) -> Check:
     remedy = None if status == "pass" else f"Remedy {number} of many, long enough to be broken into two lines or more."
