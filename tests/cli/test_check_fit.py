@@ -104,7 +104,7 @@ def test_wrong_options_are_refused(arguments, said):
 @pytest.mark.parametrize("width", [60, 80])
 def test_the_report_fits_its_width(monkeypatch, width):
     monkeypatch.setenv("COLUMNS", str(width))
-    out = abu(*FLESHING).out
+    out = abu(*FLESHING, "--full").out
     assert max(map(len, out.splitlines())) <= width
     for words in ("may creep", "Write m6", "zero line", "positive when tight", "Fields that pass", "For the drawing"):
         assert words in " ".join(out.split())
