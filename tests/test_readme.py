@@ -18,10 +18,10 @@ def test_the_example_is_real_output() -> None:
     shown = re.search(r"\$ abu size avtovaz-707-222\n(.*?)\n```", README, re.DOTALL)
     assert shown is not None
     example = shown[1].splitlines()
-    real = once("size", "avtovaz-707-222").out.splitlines()[: len(example)]
+    real = once("size", "avtovaz-707-222").out.splitlines()
     assert [NUMBER.sub("#", line) for line in real] == [NUMBER.sub("#", line) for line in example]
     numbers = [[float(number) for number in NUMBER.findall("\n".join(lines))] for lines in (real, example)]
-    assert numbers[0] == pytest.approx(numbers[1], rel=0.05) and len(numbers[0]) > 50
+    assert numbers[0] == pytest.approx(numbers[1], rel=0.05) and len(numbers[0]) > 20
 
 
 def test_the_scene_is_simulated(tmp_path: Path) -> None:

@@ -29,6 +29,9 @@ WORK = 300_000
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
+HALF = 0.5
+"""Of the imbalance, that friction may leave."""
+
 SLIPPING = 0.05
 """Of the rotor's speed: balls whose mean speed against the race stays above hang."""
 
@@ -162,6 +165,7 @@ def _all(
 
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
+    """What the response of a member's scene says."""
     speed = abs(response.final.speed) or scene.speed
     settling = response.settling_time
     return Outcome(
@@ -176,10 +180,15 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
 
 
 def allowed_imbalance(design: Design, moved: float) -> float:
-    """What may be left [kg m]: a tenth of the imbalance, and what eccentricity and dry friction leave in any case."""
+    """What may be left [kg m]: a tenth of the imbalance, and what eccentricity and dry friction leave in any case.
+
+    Friction at its worst arrangement, but with that no more than half the imbalance: less would be no balancing.
+    """
     one = design.autobalancer
-    remaining = one.requirement.effective_mass * (one.budget.race_eccentricity + one.budget.rolling_friction)
-    return SETTLED * max(moved, 0.01 * one.static_moment) + remaining
+    mass, budget = one.requirement.effective_mass, one.budget
+    tenth = SETTLED * max(moved, 0.01 * one.static_moment) + mass * budget.race_eccentricity
+    worst = max(each.rolling_friction for each in design.worst)
+    return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
 
 
 def _deciding(found: Sequence[Outcome | Lost], drag: float) -> set[int]:

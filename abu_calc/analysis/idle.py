@@ -3,8 +3,7 @@
 import math
 from collections.abc import Callable, Iterable
 
-from abu_calc.analysis.ensemble import Ensemble, Outcome, allowed_imbalance
-from abu_calc.analysis.response import Response
+from abu_calc.analysis.ensemble import Ensemble, Outcome
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
@@ -124,21 +123,6 @@ def _listed(outcomes: Iterable[Outcome]) -> str:
 
 def _g_mm(value: float | None) -> float | None:
     return None if value is None else from_si(value, "g_mm")
-
-
-def one_run_checks(design: Design, response: Response) -> tuple[Check, ...]:
-    """The same of one start alone, as `abu simulate` judges it."""
-    one, limit = design.autobalancer, design.case.table.limits.settling_time_s
-    moved = design.imbalance.value * abs(one.requirement.plane_ratio)
-    left, allowed = response.residual_imbalance, allowed_imbalance(design, moved)
-    balanced, time = left <= allowed, response.settling_time
-    soon = balanced and time is not None and time <= limit
-    word = "this start ends" if balanced else "this start does not end"
-    message = f"{word} where the balls balance; others may differ: abu size tries many"
-    return (
-        coded("ABU701", verdict(balanced), message, _g_mm(left), _g_mm(allowed), "g·mm"),
-        coded("ABU702", verdict(soon), "by this start alone", time, limit, "s"),
-    )
 
 
 def not_simulated(scene: str, reason: str) -> Check:

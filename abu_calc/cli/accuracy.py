@@ -25,7 +25,7 @@ def accuracy(
     duration_s: Duration = None,
 ) -> Outcome:
     """What accuracy costs: every way to compute a scene, its error and its time."""
-    from abu_calc.report.accuracy import accuracy_blocks
+    from abu_calc.report.accuracy import accuracy_blocks, accuracy_screen
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.accuracy import accuracy as study
 
@@ -40,7 +40,7 @@ def accuracy(
             duration_s=duration_s,
             progress=tell,
         )
-    return Outcome.of(result, lambda: accuracy_blocks(result))
+    return Outcome.of(result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result))
 
 
 def register(app: typer.Typer) -> None:

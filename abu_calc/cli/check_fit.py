@@ -21,7 +21,7 @@ def check_fit(
         str | None, typer.Argument(metavar="[MACHINE]", help="A machine file, or a preset's name.")
     ] = None,
     set_: Overrides = None,
-    explain: Annotated[bool, typer.Option("--explain", help="Show every formula with its numbers and source.")] = False,
+    explain: Annotated[bool, typer.Option("--explain", help="The whole report, every formula with numbers.")] = False,
     **bearing: object,
 ) -> Outcome:
     """Judge bearing seats: interference, probability of clearance, what is required, what is permitted."""
@@ -30,7 +30,14 @@ def check_fit(
     given = {key: value for key, value in bearing.items() if value is not None}
     source = _of_options(given, set_ or ()) if machine is None else _of_file(machine, set_ or (), given)
     result = study(source)
-    return Outcome.of(result, lambda: _blocks(source, result, explain))
+    short = None if explain else lambda: _screen(result)
+    return Outcome.of(result, lambda: _blocks(source, result, explain), short)
+
+
+def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
+    from abu_calc.report.fit_screen import check_fit_screen
+
+    return check_fit_screen(result)
 
 
 def _blocks(source: "Machine", result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:

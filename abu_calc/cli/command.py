@@ -31,14 +31,15 @@ def _shared(
             "--output",
             "-o",
             metavar="FILE",
-            help="Also write a file; its suffix says as what (.json, .toml, .csv, .txt).",
+            help="Also write a file; its suffix says as what (.json, .toml, .csv; .txt: the whole report).",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report; the exit status tells.")] = False,
     no_color: Annotated[bool, typer.Option("--no-color", help="No colors (also: NO_COLOR).")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Print the whole report, not one screen of it.")] = False,
 ) -> Delivery:
-    return Delivery(json, output, force, quiet, not no_color)
+    return Delivery(json, output, force, quiet, not no_color, full)
 
 
 def add_command(

@@ -19,6 +19,7 @@ class Delivery(NamedTuple):
     force: bool = False
     quiet: bool = False
     color: bool = True
+    full: bool = False
 
     def check(self) -> None:
         """Refuse before computing what could not be written after."""
@@ -45,7 +46,8 @@ def deliver(outcome: Outcome, how: Delivery) -> int:
     else:
         from abu_calc.report.text import show
 
-        show(outcome.blocks, color=how.color and not os.environ.get("NO_COLOR"))
+        shown = outcome.blocks if how.full else outcome.screen
+        show(shown, color=how.color and not os.environ.get("NO_COLOR"))
     return outcome.exit_status
 
 

@@ -23,7 +23,7 @@ def effects(
     without_effects: Without = None,
 ) -> Outcome:
     """The effects there are; with a file: which are simulated, which are not, their weights and why."""
-    from abu_calc.report.effects import effects_blocks, known_blocks
+    from abu_calc.report.effects import effects_blocks, effects_screen, known_blocks
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.effects import effects as study
     from abu_calc.studies.effects import known_effects
@@ -40,7 +40,7 @@ def effects(
         with_effects=with_effects or (),
         without_effects=without_effects or (),
     )
-    return Outcome.of(result, lambda: effects_blocks(result))
+    return Outcome.of(result, lambda: effects_blocks(result), lambda: effects_screen(result))
 
 
 def register(app: typer.Typer) -> None:

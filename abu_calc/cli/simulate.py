@@ -38,7 +38,7 @@ def simulate(
 ) -> Outcome:
     """Integrate one scene: amplitude, level, settling time, where the balls end."""
     from abu_calc.report.files import write
-    from abu_calc.report.simulate_text import simulate_blocks
+    from abu_calc.report.simulate_text import simulate_blocks, simulate_screen
     from abu_calc.report.trajectory import trajectory_csv
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.simulate import simulate as study
@@ -60,7 +60,7 @@ def simulate(
         )
     if trajectory and result.motion:  # when nothing can fail or be interrupted for long any more
         write(trajectory, trajectory_csv(result.motion))
-    return Outcome.of(result, lambda: simulate_blocks(result))
+    return Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
 
 
 def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) -> None:

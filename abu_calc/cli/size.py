@@ -20,7 +20,9 @@ def size(
     how: Delivery,
     machine: Machine,
     set_: Overrides = None,
-    explain: Annotated[bool, typer.Option("--explain", help="Show every formula with its numbers and source.")] = False,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="The whole report and every formula with numbers.")
+    ] = False,
     accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the simulation.")] = 0.01,
 ) -> Outcome:
     """Size the autobalancer of a machine: region, capacity, balls, track, seats, simulation."""
@@ -29,7 +31,14 @@ def size(
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell, workers())
-    return Outcome.of(result, lambda: _blocks(result, explain))
+    short = None if explain else lambda: _screen(result)
+    return Outcome.of(result, lambda: _blocks(result, explain), short)
+
+
+def _screen(result: "SizeResult") -> tuple[Block, ...]:
+    from abu_calc.report.size_screen import size_screen
+
+    return size_screen(result)
 
 
 def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:

@@ -25,12 +25,13 @@ def stability(
 ) -> Outcome:
     """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""
     from abu_calc.report.stability import stability_blocks
+    from abu_calc.report.stability_screen import stability_screen
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.stability import stability as study
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
     result = study(read_any(file, set_ or ()), scene, speeds_rpm=speeds)
-    return Outcome.of(result, lambda: stability_blocks(result))
+    return Outcome.of(result, lambda: stability_blocks(result), lambda: stability_screen(result))
 
 
 def _two(text: str) -> tuple[float, float]:

@@ -13,11 +13,11 @@ from abu_calc.report.outcome import Outcome
 def validate(
     files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine or scene files, or names of presets.")],
 ) -> Outcome:
-    """Check machine and scene files: keys, types, ranges, rules between keys. Computes nothing."""
+    """Check machine and scene files: keys, types, ranges, rules between keys, usual ranges. Computes nothing."""
 
     from abu_calc.spec.read_scene import read_any
 
-    results, blocks, faults = [], list[Block](), list[InputError]()
+    results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
             loaded = read_any(file)
@@ -26,12 +26,14 @@ def validate(
             continue
         defaults = dict(loaded.defaults_used)
         results.append({"file": file, "sha256": loaded.sha256, "defaults": defaults, "warnings": list(loaded.warnings)})
+        warnings += [f"{file}: {warning}" for warning in loaded.warnings]
         blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
+        blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]
     if len(faults) == 1:
         raise faults[0]
     if faults:
         raise InputError("\n".join(map(str, faults)))
-    return Outcome("validate", {"files": results}, tuple(blocks))
+    return Outcome("validate", {"files": results}, tuple(blocks), warnings=tuple(warnings))
 
 
 def register(app: typer.Typer) -> None:

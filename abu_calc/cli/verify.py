@@ -28,7 +28,7 @@ def verify(
     ] = False,
 ) -> Outcome:
     """Recompute files that have [expected] and compare; without files, the presets."""
-    from abu_calc.report.verify import verify_blocks
+    from abu_calc.report.verify import verify_blocks, verify_screen
     from abu_calc.spec.bearing_file import expected_values
     from abu_calc.spec.read import read_machine
     from abu_calc.studies.verify import verify as study
@@ -43,7 +43,7 @@ def verify(
         if not asked:
             raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
         result = study(asked, tell)
-    return Outcome.of(result, lambda: verify_blocks(result))
+    return Outcome.of(result, lambda: verify_blocks(result), lambda: verify_screen(result))
 
 
 def _updated(machines: "list[Machine]", tell: "Progress") -> Outcome:

@@ -108,12 +108,16 @@ class Across:
 
 @dataclass(slots=True)
 class Bound:
-    """A constraint row · A = value; its reaction acts on the frame along `force`. `holds`: 1, or 0 while it does not."""
+    """A constraint row · A = value; its reaction acts on the frame along `force`.
+
+    `holds`: 1, or 0 while it does not; `beside`: one more, which has none beside it.
+    """
 
     row: Array
     value: Any
     force: Array
     holds: Any = 1.0
+    beside: "Bound | None" = None
 
 
 @dataclass(slots=True)
@@ -159,9 +163,9 @@ class Solved:
     """Accelerations at one time: of the frame A (d), of the balls along the race R_p θ'' (n), of the support q'' (N).
 
     `normal` (n): normal force of ball and race per ball mass, None where no effect asks for it; `across` (n): of the
-    second direction; `rotor`: of the rotor, inertial less the support's; `reaction` of a constraint [N]; `left` (n):
-    force along the race per ball mass that neighbours or the race take from balls that move together or stick;
-    `across_left` (n): all force in the second direction.
+    second direction; `rotor`: of the rotor, inertial less the support's; `reaction` of a constraint and `beside` of the
+    one beside it [N]; `left` (n): force along the race per ball mass that neighbours or the race take from balls that
+    move together or stick; `across_left` (n): all force in the second direction.
     """
 
     frame: Array
@@ -171,5 +175,6 @@ class Solved:
     across: Any
     rotor: Any
     reaction: Any
+    beside: Any = None
     left: Any = None
     across_left: Any = None

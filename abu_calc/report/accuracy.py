@@ -6,6 +6,7 @@ from typing import Final
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import notices, of_scene, provenance_blocks
+from abu_calc.report.screen import shortened
 from abu_calc.studies.accuracy import AccuracyResult, MeasuredPoint
 
 MARKS: Final = {
@@ -47,6 +48,11 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
         *notices(result),
         *provenance_blocks(result.provenance),
     )
+
+
+def accuracy_screen(result: AccuracyResult) -> tuple[Block, ...]:
+    """The answer and the picture."""
+    return shortened(result, accuracy_blocks(result), "Points", more=("--budget SECONDS, more points",))
 
 
 def _grouped(names: tuple[str, ...]) -> list[str]:

@@ -10,11 +10,15 @@ class Heading(NamedTuple):
 
 
 class Paragraph(NamedTuple):
-    """Running text, wrapped to the width there is; `mark` sets it off (pass, warn, fail, not-done, warning)."""
+    """Running text, wrapped to the width there is; `mark` sets it off (pass, warn, fail, not-done, warning).
+
+    `hang`: by how much lines but the first are indented more.
+    """
 
     text: str
     mark: str | None = None
     indent: int = 2
+    hang: int = 0
 
 
 class Facts(NamedTuple):

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import notices, of_scene, provenance_blocks
+from abu_calc.report.screen import shortened
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
 from abu_calc.studies.simulated_scene import EffectEntry
 
@@ -44,6 +45,11 @@ def effects_blocks(result: EffectsResult) -> tuple[Block, ...]:
         *notices(result),
         *provenance_blocks(result.provenance),
     )
+
+
+def effects_screen(result: EffectsResult) -> tuple[Block, ...]:
+    """The ledger on one screen."""
+    return shortened(result, effects_blocks(result), "Weights", head=1)
 
 
 def _ledger(result: EffectsResult) -> list[Block]:

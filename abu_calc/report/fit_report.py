@@ -6,6 +6,7 @@ from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.fit_zones import legend, zone_lines
 from abu_calc.report.fits import CONVENTION, Seats, by_bearing, fit_grid, note_blocks
 from abu_calc.report.parts import check_blocks, notices, provenance_blocks
+from abu_calc.report.screen import verdict_line
 from abu_calc.studies.check_fit import CheckFitResult
 from abu_calc.studies.seat_records import Clearance, Requirements, SeatResult
 
@@ -19,6 +20,8 @@ def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
     """Every bearing, then checks, warnings, defaults and where it all comes from."""
     blocks = [block for pair in by_bearing(result.seats) for block in _bearing(pair)]
     return (
+        Heading(result.title),
+        verdict_line(result),
         *blocks,
         Paragraph(CONVENTION),
         *check_blocks(result.checks),

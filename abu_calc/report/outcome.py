@@ -29,21 +29,33 @@ class Outcome:
     model: dict[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     status: Status = "pass"
+    short: Callable[[], tuple[Block, ...]] | None = None
+    """The one screen that stands in a terminal for blocks that take more."""
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
 
     @classmethod
-    def of(cls, result: "Result", view: Callable[[], tuple[Block, ...]]) -> "Outcome":
-        """That of a study, and what makes its blocks."""
+    def of(
+        cls,
+        result: "Result",
+        view: Callable[[], tuple[Block, ...]],
+        short: Callable[[], tuple[Block, ...]] | None = None,
+    ) -> "Outcome":
+        """That of a study, and what makes its blocks, all of them and one screen."""
         return cls(
             result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
-            result.warnings, result.status,
+            result.warnings, result.status, short,
         )  # fmt: skip
 
     @property
     def blocks(self) -> tuple[Block, ...]:
-        """What is shown to people."""
+        """The whole report."""
         return self.view() if callable(self.view) else self.view
+
+    @property
+    def screen(self) -> tuple[Block, ...]:
+        """The report on one screen; the whole one where that is short anyway."""
+        return self.short() if self.short else self.blocks
 
     @property
     def exit_status(self) -> int:

@@ -1,8 +1,9 @@
 """Blocks that several reports share: facts of a record, checks, defaults, warnings, where a result comes from."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Final
 
-from abu_calc.checks import Check
+from abu_calc.checks import Check, Grade
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number, shown
 from abu_calc.spec.text import key_path
@@ -10,7 +11,16 @@ from abu_calc.spec.text import shown as exact
 from abu_calc.studies.quantity import Record, quantities
 from abu_calc.studies.result import Provenance, Result
 
-BOUND = {"most": "at most", "least": "at least"}
+BOUND: Final = {"most": "at most", "least": "at least"}
+WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT DONE"}
+"""What stands before a check: no grade is told by its color alone."""
+
+
+RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn")
+"""Grades that need a word, the worst first."""
+MARGIN: Final = 2
+MOST_ALIKE: Final = 3
+"""Checks that are named with the reason they share; the table of checks has all."""
 
 
 def of_scene(scene: str) -> str:
@@ -35,14 +45,38 @@ def value_of(record: Record, name: str) -> str:
 
 
 def check_blocks(checks: Sequence[Check]) -> list[Block]:
-    """All checks as a table; what failed or was not done with its reason and remedy below."""
-    rows = tuple((check.status, check.code, check.name, _value(check), _limit(check)) for check in checks)
-    blocks: list[Block] = [Heading("Checks"), Grid(("", "code", "check", "value", "limit"), rows, frozenset({3}))]
-    for check in checks:
-        if check.status != "pass":
-            remedy = f" {check.remedy}" if check.remedy else ""
-            blocks.append(Paragraph(f"{check.code} {check.name}: {check.message}.{remedy}", check.status))
-    return blocks
+    """All checks as a table; those that did not simply pass with their reasons and remedies below."""
+    rows = tuple((WORD[check.status], check.code, check.name, _value(check), limit_of(check)) for check in checks)
+    table = Grid(("", "code", "check", "value", "limit"), rows, frozenset({3}))
+    return [Heading("Checks"), table, *reasons(checks)]
+
+
+def reasons(checks: Iterable[Check]) -> list[Paragraph]:
+    """Checks that did not simply pass, the worst first, each with its grade, reason and remedy; alike ones together."""
+    return [reason(alike) for alike in unlike(checks)]
+
+
+def unlike(checks: Iterable[Check]) -> list[list[Check]]:
+    """Checks that did not simply pass, the worst first; those of one grade, reason and remedy together."""
+    groups: dict[tuple[str, ...], list[Check]] = {}
+    for check in sorted((one for one in checks if one.status != "pass"), key=lambda one: RANK.index(one.status)):
+        groups.setdefault((check.status, check.message, check.remedy or ""), []).append(check)
+    return list(groups.values())
+
+
+def reason(alike: Sequence[Check]) -> Paragraph:
+    """Checks of one grade, one reason and one remedy."""
+    first, more = alike[0], len(alike) - MOST_ALIKE
+    names = ", ".join(f"{one.code} {one.name}{_found(one)}" for one in alike[:MOST_ALIKE])
+    others = f" and {more} more" if more > 0 else ""
+    remedy = f" Remedy: {first.remedy}" if first.remedy else ""
+    return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
+
+
+def _found(check: Check) -> str:
+    """The value beside its limit."""
+    found = [part for part in (_value(check), limit_of(check)) if part and check.value is not None]
+    return f" ({', '.join(found)})" if found else ""
 
 
 def notices(result: Result) -> list[Block]:
@@ -52,8 +86,13 @@ def notices(result: Result) -> list[Block]:
 
 def warning_blocks(warnings: Iterable[str]) -> list[Block]:
     """Warnings, each a paragraph."""
-    lines: list[Block] = [Paragraph(f"! {warning}") for warning in warnings]
+    lines = warning_lines(warnings)
     return [Heading("Warnings"), *lines] if lines else []
+
+
+def warning_lines(warnings: Iterable[str]) -> list[Paragraph]:
+    """Each with its mark."""
+    return [Paragraph(f"! {warning}", hang=MARGIN) for warning in warnings]
 
 
 def default_blocks(defaults: Iterable[tuple[str, object]]) -> list[Block]:
@@ -101,5 +140,15 @@ def _value(check: Check) -> str:
     return "" if check.value is None else f"{number(check.value)} {check.unit or ''}".rstrip()
 
 
-def _limit(check: Check) -> str:
+def limit_of(check: Check) -> str:
+    """The most or the least that is permitted, in words."""
     return "" if check.limit is None else f"{BOUND[check.bound]} {number(check.limit)}"
+
+
+def limit_in_file(check: Check | None) -> str:
+    """A limit that a file gives, as it gives it, with its unit; nothing without one."""
+    return (
+        ""
+        if check is None or check.limit is None
+        else f"{BOUND[check.bound]} {check.limit:g} {check.unit or ''}".strip()
+    )

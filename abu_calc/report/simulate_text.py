@@ -1,11 +1,22 @@
 """The report of `abu simulate`: what came out, where the balls ended, what was left out, what it cost."""
 
 from collections.abc import Sequence
+from typing import Final
 
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.effects import effects_grid
 from abu_calc.report.numbers import number
-from abu_calc.report.parts import check_blocks, facts, notices, of_scene, provenance_blocks, value_of
+from abu_calc.report.parts import (
+    check_blocks,
+    default_blocks,
+    facts,
+    limit_in_file,
+    of_scene,
+    provenance_blocks,
+    value_of,
+    warning_blocks,
+)
+from abu_calc.report.screen import one_screen, verdict_line
 from abu_calc.studies.simulate import SimulateResult
 from abu_calc.studies.simulated_scene import Audit, Cost, EffectEntry, End
 
@@ -15,10 +26,12 @@ CONVENTIONS = (
     "imbalance) in the sense of rotation, ball speeds relative to the race. Settled: the imbalance left stays near its "
     "final value."
 )
+UNJUDGED: Final = "The accuracy is reached; there are no limits for this scene"
+UNDER_LOAD: Final = "Under load the level is information, not a check: the limit of the file is for idling."
 
 MOTION = (
     *("duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "unbalanced_amplitude_mm"),
-    *("largest_amplitude_mm", "bearing_amplitudes_mm", "velocity_rms_mm_per_s", "level_db", "error_estimate"),
+    *("largest_amplitude_mm", "bearing_amplitudes_mm", "velocity_rms_mm_per_s", "error_estimate"),
 )
 FINAL = (
     *("x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad"),
@@ -26,32 +39,100 @@ FINAL = (
 )
 
 
+MOST_BALLS: Final = 12
+"""Whose places a screen shows."""
+MORE: Final = ("--trajectory FILE.csv, the motion",)
+
+
 def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
-        Heading(f"{result.title}: simulation{of_scene(result.scene)}"),
-        Paragraph(_verdict(result), result.checks[0].status),
+        *_about(result),
         Heading("Motion"),
-        facts(result, *MOTION),
+        Facts((*facts(result, *MOTION).rows, *_levels(result))),
+        *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
         *_final(result.final),
+        *check_blocks(result.checks),
+        *warning_blocks(result.warnings),
         *_effects(result.effects),
         *_audit(result.audit),
-        *check_blocks(result.checks),
-        *notices(result),
         Heading("Model"),
         Paragraph(f"{result.description} Start: {result.start}."),
         Paragraph(f"{_rung(result)} {_cost(result.cost)}"),
         Heading("Conventions"),
         Paragraph(CONVENTIONS),
+        *default_blocks(result.provenance.defaults),
         *provenance_blocks(result.provenance),
     )
 
 
-def _verdict(result: SimulateResult) -> str:
+def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
+    """The one screen."""
+    angles = result.final.ball_angles_deg
+    ends = ", ".join(f"{angle:.1f}°" for angle in angles[:MOST_BALLS]) + (", …" if len(angles) > MOST_BALLS else "")
+    left_out = [each.name for each in result.effects if not each.included]
+    body: list[Block] = [
+        _numbers(result),
+        *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
+        *([Paragraph(f"The balls end at {ends} from the zero mark.")] if angles else []),
+        *([Paragraph(f"Effects left out: {', '.join(left_out)}.")] if left_out else []),
+    ]
+    return one_screen(result, [*_about(result), Paragraph(f"Start: {result.start}.")], body, MORE)
+
+
+def _numbers(result: SimulateResult) -> Grid:
+    """Amplitude, levels, settling, error, each with its limit."""
+    limits = {check.code: limit_in_file(check) for check in result.checks}
+    bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {one.name}" for one in result.handles or ()]
+    rows = (
+        ("axis amplitude", value_of(result, "unbalanced_amplitude_mm"), value_of(result, "axis_amplitude_mm"), ""),
+        *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
+        *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
+        (*_settling(result), limits.get("ABU702", "")),
+        ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),
+    )  # fmt: skip
+    return Grid(("", "without balls", "with", "limit"), rows, frozenset({1, 2}))
+
+
+def _settling(result: SimulateResult) -> tuple[str, str, str]:
+    """After a run-up as it is judged, from full speed."""
+    if result.settling_time_s is None:
+        return ("settling time", "", "none")
+    since = next((check.value for check in result.checks if check.code == "ABU702"), None)
+    if result.scene == "run-up" and since is not None:
+        return ("settling, from full speed", "", f"{number(since, 3)} s")
+    return ("settling time", "", value_of(result, "settling_time_s"))
+
+
+def _about(result: SimulateResult) -> list[Block]:
+    """Title, verdict, the scene in a sentence."""
+    title = f"{result.title}: simulation{of_scene(result.scene)}"
+    verdict = verdict_line(result, None if _judged(result) else UNJUDGED)
+    return [Heading(title), verdict, Paragraph(_sentence(result)), Paragraph(result.description)]
+
+
+def _sentence(result: SimulateResult) -> str:
     settled = result.settling_time_s is not None
     when = f"settled in {value_of(result, 'settling_time_s')}" if settled else "not settled by the end"
     before, after = (value_of(result, name) for name in ("unbalanced_amplitude_mm", "axis_amplitude_mm"))
     return f"The axis moves {after} in the end, {before} without balls; {when}."
+
+
+def _levels(result: SimulateResult) -> list[tuple[str, str, str]]:
+    """Each with its place; on the axis and where the machine is held, unless these are the same."""
+    bare = [] if result.level_db is None else [(f"level, {result.level_at}", "L", value_of(result, "level_db"))]
+    places = [(f"level, {one.name}", "L", value_of(one, "level_db")) for one in result.handles or ()]
+    return [*(row for row in bare if row not in places), *places]
+
+
+def _judged(result: SimulateResult) -> bool:
+    """Whether the limits of a file are for this scene."""
+    return any(check.code == "ABU401" for check in result.checks)
+
+
+def _informs(result: SimulateResult) -> bool:
+    """Whether levels are given that no limit is for."""
+    return result.handles is not None and not _judged(result)
 
 
 def _final(final: End) -> list[Block]:

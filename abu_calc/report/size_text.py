@@ -1,11 +1,11 @@
-"""The report of `abu size`: verdict, design, checks, what was assumed, then the rest."""
+"""The whole report of `abu size`: verdict, checks, warnings, design, then what it rests on."""
 
 from collections.abc import Sequence
 
-from abu_calc.checks import Check
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
-from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
+from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
+from abu_calc.report.size_screen import about, balls, numbers_that_matter
 from abu_calc.studies.design_records import Autobalancer, Frequency, StabilityBoundary
 from abu_calc.studies.simulated_scene import SimulatedScene
 from abu_calc.studies.size import SizeResult
@@ -24,13 +24,14 @@ START = (
 def size_blocks(result: SizeResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
-        Heading(result.title),
-        *_verdict(result),
-        *_design(result.autobalancer),
+        *about(result),
+        *numbers_that_matter(result),
         *check_blocks(result.checks),
-        *notices(result),
+        *warning_blocks(result.warnings),
+        *_design(result.autobalancer),
         *_need(result),
         *_vibration(result),
+        *_ensemble(result),
         *_simulation(result.simulation),
         *_alternatives(result.alternatives),
         *_swing_arm(result),
@@ -38,37 +39,9 @@ def size_blocks(result: SizeResult) -> tuple[Block, ...]:
         *_drawing(result),
         Heading("Conventions"),
         Paragraph(CONVENTIONS),
+        *default_blocks(result.provenance.defaults),
         *provenance_blocks(result.provenance),
     )
-
-
-def _verdict(result: SizeResult) -> list[Block]:
-    one, levels = result.autobalancer, result.vibration
-    failed = [check for check in result.checks if check.status in ("fail", "not-done")]
-    if failed:
-        return [_failure(result, failed)]
-    settle = next((scene.settling_time_s for scene in result.simulation), None)
-    soon = ", not simulated" if settle is None else f", settled in {number(settle, 2)} s"
-    text = (
-        f"PASS: {_balls(one)} on a race of R {one.race_radius_mm:g} mm balance this machine. Idle "
-        f"{levels.level_before_db:.1f} → {levels.level_after_db:.1f} dB{soon}, "
-        f"{one.mass_g:.0f} g ({100 * one.mass_fraction:.1f} % of the machine)."
-    )
-    warned = ", ".join(f"{check.name} ({check.code})" for check in result.checks if check.status == "warn")
-    text += f" Warning: {warned}." if warned else ""
-    return [Paragraph(text, result.status)]
-
-
-def _failure(result: SizeResult, failed: Sequence[Check]) -> Paragraph:
-    one, word = result.autobalancer, "FAIL" if result.status == "fail" else "NOT DONE"
-    names = "; ".join(f"{check.name} ({check.code})" for check in failed)
-    found = f"Best that was found: {_balls(one)} on a race of R {one.race_radius_mm:g} mm."
-    return Paragraph(f"{word}: {names}. {found}", result.status)
-
-
-def _balls(one: Autobalancer) -> str:
-    """Count and size, inch sizes to the micrometre."""
-    return f"{one.ball_count} × Ø{round(one.ball_diameter_mm, 3):g} mm"
 
 
 def _design(one: Autobalancer) -> list[Block]:
@@ -77,8 +50,30 @@ def _design(one: Autobalancer) -> list[Block]:
         *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),
         *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s"),
     )
-    rows = ((f"{one.ball_material} {one.corrector}s", "n × 2r", _balls(one)), *facts(one, *names).rows)
+    rows = ((f"{one.ball_material} {one.corrector}s", "n × 2r", balls(one)), *facts(one, *names).rows)
     return [Heading("Design"), Facts(rows), Paragraph(f"Housing {one.housing}.")]
+
+
+def _ensemble(result: SizeResult) -> list[Block]:
+    """Medians and the worst of many starts."""
+    many = result.ensemble
+    if many is None:
+        return []
+    spreads = (
+        ("settling time", many.settling_time_s, "s"),
+        ("level", many.level_db, "dB"),
+        ("residual", many.residual_um, "µm"),
+    )
+    rows = tuple((name, _or_never(one.typical), _or_never(one.worst), unit) for name, one, unit in spreads)
+    return [
+        Heading("Many starts"),
+        facts(many, "members", "balanced", "hanging"),
+        Grid(("", "median", "worst", ""), rows, frozenset({1, 2})),
+    ]
+
+
+def _or_never(value: float | None) -> str:
+    return "never" if value is None else number(value)
 
 
 def _need(result: SizeResult) -> list[Block]:
@@ -173,7 +168,7 @@ def _alternatives(others: Sequence[Autobalancer]) -> list[Block]:
     if not others:
         return []
     names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um")
-    rows = tuple((_balls(one), *(_bare(one, name) for name in names), one.why_not or "") for one in others)
+    rows = tuple((balls(one), *(_bare(one, name) for name in names), one.why_not or "") for one in others)
     header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "why not")
     return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4}))]
 

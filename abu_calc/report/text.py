@@ -2,10 +2,11 @@
 
 import io
 import os
+import re
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from rich.console import Console
 from rich.table import Table
@@ -17,14 +18,20 @@ STYLES = {
     "pass": "bold green",
     "warn": "bold yellow",
     "fail": "bold red",
-    "not-done": "bold yellow",
+    "not-done": "bold magenta",
     "warning": "yellow",
 }
+WORDS = {"WARN": "warn", "FAIL": "fail", "NOT DONE": "not-done"}
+"""Cells of tables that are styled as these marks are."""
 WIDEST = 100
 MARGIN = 2
 """Blanks before each column of a table, and before running text."""
 FACT_WIDTHS = (35, 17)
 """Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
+
+BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:g·mm|1/s|mm|Hz|rpm|dB|µm|MPa|kg|[sNgW%])(?!\w))")
+"""Blanks at which no line is broken."""
+TIE = "\u00a0"
 
 NARROW = 72
 """On lines shorter than this the symbols are left out."""
@@ -60,21 +67,28 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             yield "", ""
         match block:
             case Heading(text):
-                yield text, "bold"
-            case Paragraph(text, mark, indent):
-                yield fill(text, width, indent), STYLES.get(mark or "", "")
+                yield fill(text, width, 0, MARGIN), "bold"
+            case Paragraph(text, mark, indent, hang):
+                style = STYLES.get(mark or "", "")
+                yield fill(text, width, indent, hang), style.removeprefix("bold ") if hang else style
             case Facts(rows):
                 yield _facts(rows, width)
             case Grid():
                 yield _grid(block)
 
 
-def fill(text: str, width: int, indent: int) -> str:
-    """Text wrapped to a width, every line indented; long words keep whole."""
-    margin = " " * indent
+def height(blocks: Sequence[Block], width: int = 80) -> int:
+    """How many lines blocks take."""
+    return len(as_text(blocks, width).splitlines()) if blocks else 0
+
+
+def fill(text: str, width: int, indent: int, hang: int = 0) -> str:
+    """Text wrapped to a width, every line indented, those but the first by `hang` more; long words keep whole."""
+    together = BEFORE_UNIT.sub(TIE, text)
     return textwrap.fill(
-        text, width, initial_indent=margin, subsequent_indent=margin, break_long_words=False, break_on_hyphens=False
-    )
+        together, width, initial_indent=" " * indent, subsequent_indent=" " * (indent + hang), break_long_words=False,
+        break_on_hyphens=False,
+    ).replace(TIE, " ")  # fmt: skip
 
 
 def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
@@ -93,5 +107,5 @@ def _grid(grid: Grid) -> Table:
     for index, title in enumerate(grid.header):
         table.add_column(title, justify="right" if index in grid.right else "left", overflow="fold")
     for row in grid.rows:
-        table.add_row(*(Text(cell, style=STYLES.get(cell, "")) for cell in row))
+        table.add_row(*(Text(cell, style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
     return table

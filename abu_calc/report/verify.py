@@ -1,22 +1,46 @@
 """The report of `abu verify`: each file in a line, what differs in a table."""
 
-from typing import Any
+from typing import Any, Final
 
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Paragraph
 from abu_calc.report.numbers import number
+from abu_calc.report.parts import WORD, warning_blocks
+from abu_calc.report.screen import LINES, cut, many
+from abu_calc.report.text import height
 from abu_calc.studies.expected import ComparedValue
 from abu_calc.studies.verify import VerifyResult
+
+MOST_NAMES: Final = 30
+"""Files as expected that a screen names."""
 
 
 def verify_blocks(result: VerifyResult) -> tuple[Block, ...]:
     """The whole report."""
+    return (*_blocks(result, {file.file for file in result.files}), *warning_blocks(result.warnings))
+
+
+def verify_screen(result: VerifyResult) -> tuple[Block, ...]:
+    """What differs, as far as there is room; the files that are as expected in a line."""
+    differ = [file.file for file in result.files if file.failed]
+    same = [file.file for file in result.files if not file.failed]
+    title = f"{len(same)} of {many(len(result.files), 'file')} as expected"
+    verdict = Paragraph(f"{'FAIL' if differ else 'PASS'}: {title}", result.status)
+    names = [Paragraph(f"As expected: {', '.join(same[:MOST_NAMES])}{', …' if len(same) > MOST_NAMES else ''}.")]
+    last = [Paragraph("More: --full, every file; --update writes what is meant.")] if differ else []
+    head: list[Block] = [verdict, *(names if same else [])]
+    return (*head, *cut(_blocks(result, set(differ)), LINES - height([*head, *last])), *last)
+
+
+def _blocks(result: VerifyResult, shown: set[str]) -> list[Block]:
+    """A line and a table a file."""
     blocks: list[Block] = []
     for file, check in zip(result.files, result.checks, strict=True):
-        blocks.append(Paragraph(f"{file.file}: {check.message}", check.status))
+        if file.file in shown:
+            blocks.append(Paragraph(f"{WORD[check.status]} {file.file}: {check.message}", check.status))
         if file.failed:
             rows = tuple(map(_row, file.failed))
-            blocks += [Heading(file.file), Grid(("path", "expected", "found", "deviation", "allowed"), rows)]
-    return tuple(blocks)
+            blocks.append(Grid(("path", "expected", "found", "deviation", "allowed"), rows))
+    return blocks
 
 
 def _row(one: ComparedValue) -> tuple[str, ...]:

@@ -95,7 +95,7 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         start_velocity=(0.0,) * len(support.names),
         effects=tuple(_effects(design, which)),
     )
-    return replace(scene, duration=settling + _running_up(design)) if which == "run-up" else placed(scene)
+    return replace(scene, duration=settling + running_up(design)) if which == "run-up" else placed(scene)
 
 
 def idle_scene(design: Design, start: Start = "bunched") -> Scene:
@@ -221,7 +221,7 @@ def _contact(design: Design) -> GrindingContact | None:
     )
 
 
-def _running_up(design: Design) -> float:
+def running_up(design: Design) -> float:
     """Time [s] from rest to full speed; that of a motor is five of its time constants J Ω₀/M."""
     table = design.case.table
     given = table.run_up.time_s if table.run_up else 0.0

@@ -116,9 +116,6 @@ def _contact_warnings(case: Case, one: Candidate) -> list[str]:
         return ["No [grinding]: the capacity is for idling; the need under load, compliant or rigid, was not computed."]
     if contact.kind != "compliant":
         return [f"The contact is {contact.kind}: a compliant need was not computed."]
-    grinding = case.table.grinding
-    if grinding is not None and "contact_stiffness_N_per_m" not in grinding.model_fields_set:
-        warnings.append("The contact stiffness is the default 2e5 N/m, a guess: the loaded levels depend on it.")
     steady = steady_contact(case, one.mass, damped=False)
     if steady is not None and steady.balls_increase_imbalance:
         warnings.append(

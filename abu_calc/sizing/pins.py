@@ -17,12 +17,13 @@ def ball_diameters(case: Case) -> tuple[float, ...]:
     abu = case.autobalancer
     if abu.ball_diameter_mm is not None:
         return (_pinned_diameter(case, abu.ball_diameter_mm),)
-    fitting = tuple(d for d in stock_diameters() if _fits_width(case, d) and race_radii(case, d))
+    stock = stock_diameters(abu.ball_sizes)
+    fitting = tuple(d for d in stock if _fits_width(case, d) and race_radii(case, d))
     if fitting:
         return fitting
     if abu.race_radius_mm is not None:
         raise impossible("race_radius_mm", abu.race_radius_mm, "no stock ball runs on this race in this envelope")
-    smallest = min(stock_diameters())
+    smallest = stock[0]
     if not _fits_width(case, smallest):
         least = from_si(width(abu.design, smallest), "mm")
         raise impossible("max_width_mm", abu.max_width_mm, "too narrow for the smallest ball", f"at least {least:.1f}")

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from abu_calc.spec.table import Table, problem
+from abu_calc.spec.usual import usual
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
@@ -29,17 +30,28 @@ class Bearing(Table):
         min_length=1,
     )
     bore_mm: float | None = Field(
-        default=None, description="Bore of the bearing [mm]; {range}.", examples=[17.0], gt=0, le=5000
+        default=None,
+        description="Bore of the bearing [mm]; {range}.",
+        examples=[17.0],
+        gt=0,
+        le=5000,
+        json_schema_extra=usual(3, 500),
     )
     outer_mm: float | None = Field(
         default=None,
-        description="Outer diameter of the bearing [mm]; above bore_mm, up to {most}.",
+        description="Outer diameter of the bearing [mm]; above bore_mm, up to {most}, {usual}.",
         examples=[40.0],
         gt=0,
         le=8000,
+        json_schema_extra=usual(8, 800),
     )
     width_mm: float | None = Field(
-        default=None, description="Width of the ring [mm]; {range}.", examples=[12.0], gt=0, le=2000
+        default=None,
+        description="Width of the ring [mm]; {range}.",
+        examples=[12.0],
+        gt=0,
+        le=2000,
+        json_schema_extra=usual(2, 300),
     )
     chamfer_mm: float | None = Field(
         default=None,
@@ -47,9 +59,15 @@ class Bearing(Table):
         examples=[0.6],
         ge=0,
         le=100,
+        json_schema_extra=usual(0.1, 10),
     )
-    radial_load_kN: float = Field(
-        default=0.8, description="Radial load [kN]; {range}. Default: {default}, assumed.", ge=0, le=1e5
+    radial_load_kN: float | None = Field(
+        default=None,
+        description="Radial load [kN]; {range}. Without it whether a ring creeps is not known.",
+        examples=[0.8],
+        ge=0,
+        le=1e5,
+        json_schema_extra=usual(0.01, 300),
     )
     series: Literal["light", "medium", "heavy"] = Field(
         default="light", description="Series of the bearing: light, medium or heavy. Default: {default}."
@@ -84,6 +102,7 @@ class Bearing(Table):
         examples=[4.0],
         ge=0,
         le=1000,
+        json_schema_extra=usual(0.1, 50),
     )
     housing_rz_um: float | None = Field(
         default=None,
@@ -92,6 +111,7 @@ class Bearing(Table):
         examples=[6.3],
         ge=0,
         le=1000,
+        json_schema_extra=usual(0.1, 50),
     )
     ring_temperature_difference_K: float | None = Field(
         default=None,
@@ -100,6 +120,7 @@ class Bearing(Table):
         examples=[10.0],
         ge=0,
         le=500,
+        json_schema_extra=usual(0.1, 100),
     )
     speed_rpm: float | None = Field(
         default=None,
@@ -108,20 +129,24 @@ class Bearing(Table):
         examples=[5800.0],
         ge=0,
         le=300_000,
+        json_schema_extra=usual(10, 60_000),
     )
     shaft_bore_mm: float | None = Field(
         default=None,
-        description="Bore of a hollow shaft, for stresses [mm]; 0 (solid) up to the bearing's bore.",
+        description="Bore of a hollow shaft, for stresses [mm]; 0 (solid) up to the bearing's bore, {usual}.",
         examples=[0.0],
         ge=0,
         le=5000,
+        json_schema_extra=usual(1, 500),
     )
     housing_outer_mm: float | None = Field(
         default=None,
-        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to {most}.",
+        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to {most}, "
+        "{usual}.",
         examples=[60.0],
         gt=0,
         le=20_000,
+        json_schema_extra=usual(10, 2000),
     )
     housing_material: Literal["steel", "cast-iron", "aluminium"] = Field(
         default="steel",
@@ -140,6 +165,7 @@ class Bearing(Table):
         examples=[5.0],
         ge=0,
         le=500,
+        json_schema_extra=usual(0.1, 60),
     )
     starting_torque_N_m: float | None = Field(
         default=None,
@@ -148,6 +174,7 @@ class Bearing(Table):
         examples=[2.0],
         ge=0,
         le=1e7,
+        json_schema_extra=usual(0.01, 5000),
     )
     seat_friction: float = Field(
         default=0.12,
@@ -155,12 +182,15 @@ class Bearing(Table):
         "steel).",
         ge=0,
         le=1,
+        json_schema_extra=usual(0.05, 0.3),
     )
     asked_interference_um: Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
         default=None,
-        description="Least and largest interference asked of the pairs, ascending, tight positive [µm]. When given, "
+        description="Least and largest interference asked of the pairs, ascending, tight positive [µm], {usual} either "
+        "way. When given, "
         "the groups for selective assembly are given.",
         examples=[[10.0, 28.0]],
+        json_schema_extra=usual(1, 300),
     )
 
     @classmethod

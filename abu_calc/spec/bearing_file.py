@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Field, WithJsonSchema
 from abu_calc.spec.bearing import Bearing
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import is_number, shown_short
+from abu_calc.spec.usual import usual
 
 NAME = "Name of the machine, as reports print it."
 
@@ -80,6 +81,7 @@ class Limits(Table):
         "GOST 17770-86 above 16 Hz.",
         ge=0,
         le=200,
+        json_schema_extra=usual(85, 130),
     )
     settling_time_s: float = Field(
         default=1.0,
@@ -87,6 +89,7 @@ class Limits(Table):
         "hand grinders (Kladiev 1996: under 1 s).",
         gt=0,
         le=3600,
+        json_schema_extra=usual(0.05, 30),
     )
 
 

@@ -6,6 +6,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.spec.bearing_file import NAME
 from abu_calc.spec.table import Table, boxed, problem
+from abu_calc.spec.usual import usual
 
 Speed = Annotated[float, Field(ge=1, le=300_000)]
 Frequency = Annotated[float, Field(gt=0, le=10_000)]
@@ -22,6 +23,7 @@ class Handle(Table):
         examples=[100.0],
         ge=-2000,
         le=2000,
+        json_schema_extra=usual(5, 1000),
     )
 
 
@@ -40,15 +42,20 @@ class MachineTable(Table):
         examples=[5.6],
         ge=0.001,
         le=20_000,
+        json_schema_extra=usual(0.3, 150),
     )
     speed_rpm: Speed = Field(
-        description="Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000.", examples=[5800.0]
+        description="Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000.",
+        examples=[5800.0],
+        json_schema_extra=usual(700, 60_000),
     )
     speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
         default=None,
-        description="Lowest and highest working speed, ascending, with the rated speed between them [rpm]. Frequency "
+        description="Lowest and highest working speed, ascending, with the rated speed between them [rpm]; "
+        "{range}. Frequency "
         "regions are checked over all of it, stresses at the top. Without it: the rated speed alone.",
         examples=[[5800.0, 5800.0]],
+        json_schema_extra=usual(200, 60_000),
     )
     spindle_axis: Literal["horizontal", "vertical"] = Field(
         description="How the spindle lies: horizontal (gravity acts in the plane of the balls) or vertical.",
@@ -62,6 +69,7 @@ class MachineTable(Table):
         examples=[0.10],
         gt=0,
         le=1e6,
+        json_schema_extra=usual(0.0005, 20),
     )
     center_of_mass_to_wheel_mm: float | None = Field(
         default=None,
@@ -70,6 +78,7 @@ class MachineTable(Table):
         examples=[200.0],
         ge=0,
         le=10_000,
+        json_schema_extra=usual(25, 1000),
     )
     power_W: float | None = Field(
         default=None,
@@ -77,6 +86,7 @@ class MachineTable(Table):
         examples=[1000.0],
         gt=0,
         le=1e7,
+        json_schema_extra=usual(30, 30_000),
     )
     background_level_db: float | None = Field(
         default=None,
@@ -85,6 +95,7 @@ class MachineTable(Table):
         examples=[98.0],
         ge=0,
         le=200,
+        json_schema_extra=usual(60, 130),
     )
     handle: Annotated[tuple[Handle, ...], Field(strict=False)] = Field(
         default=(), description="Places where levels are wanted: [[machine.handle]], any number."
@@ -168,6 +179,7 @@ class Suspension(Table):
         description="For springs: natural frequency, one number, or two along x (along the work) and y (normal to "
         "it) [Hz], {range}; of the machine as used, wheel on, idle, without autobalancer.",
         examples=[[2.5, 2.5]],
+        json_schema_extra=usual(0.2, 300),
     )
     damping_ratios: (
         Annotated[
@@ -184,6 +196,7 @@ class Suspension(Table):
         default=None,
         description="For springs: damping ratio, one number, or two along x and y; {range}, hands 0.25 … 0.9.",
         examples=[[0.5, 0.5]],
+        json_schema_extra=usual(0.001, 2),
     )
 
     @property

@@ -16,6 +16,7 @@ from pydantic import ValidationError
 
 from abu_calc.errors import InputError, Place
 from abu_calc.spec import presets
+from abu_calc.spec.remarks import Source, remarks
 from abu_calc.spec.table import Table
 from abu_calc.spec.text import Part, key_path
 
@@ -130,6 +131,7 @@ def validate(
 
         raise input_error(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
     defaults = tuple((key_path(path), value) for path, value in table.defaults())
+    notes = [*remarks(table, Source(document.text, overrides)), *notes]
     notes += [f"{key_path(path)} plays no part beside the other keys." for path in table.given_in_vain()]
     return table, Reading(document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes))
 

@@ -1,16 +1,23 @@
 """What the machine does besides idling: grinding, running up, hanging on a motor or on a swing arm."""
 
-from typing import Annotated, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 from pydantic import BeforeValidator, Field
 
 from abu_calc.spec.table import Table, whole
+from abu_calc.spec.usual import usual
 
 STIFFNESS: Final = "contact_stiffness_N_per_m"
+JOINT: Final = ("arm_length_mm", "moment_of_inertia_kg_m2", "joint_stiffness_N_per_m", "joint_damping_N_s_per_m")
+"""What an arm is made of."""
+GRIP: Final = (STIFFNESS, "cutting_coefficient", "contact_angle_deg", "touch_angle_deg", "pressing_moment_N_m")
+"""How an arm is pressed to the work."""
 
 
 class Grinding(Table):
     """The machine under load: the wheel pressed to the work. Without this table the machine idles."""
+
+    example_defaults: ClassVar[frozenset[str]] = frozenset({STIFFNESS})
 
     press_force_N: float = Field(
         default=45.0,
@@ -18,13 +25,15 @@ class Grinding(Table):
         "{default}, the upper feed force of ISO 28927-4.",
         gt=0,
         le=1e5,
+        json_schema_extra=usual(5, 500),
     )
     cutting_coefficient: float = Field(
         default=0.35,
-        description="Cutting force over normal force, f = T/N; {range}, usually 0.3 … 0.5. Default: {default}, "
+        description="Cutting force over normal force, f = T/N; {range}, by practice 0.3 … 0.5. Default: {default}, "
         "assumed.",
         ge=0,
         le=1.5,
+        json_schema_extra=usual(0.1, 1),
     )
     contact: Literal["compliant", "rigid", "face"] = Field(
         default="compliant",
@@ -38,6 +47,7 @@ class Grinding(Table):
         "warning.",
         gt=0,
         le=1e12,
+        json_schema_extra=usual(5e3, 5e7),
     )
     rotation_sense: Annotated[Literal[-1, 1], BeforeValidator(whole)] = Field(
         default=-1,
@@ -63,48 +73,62 @@ class RunUp(Table):
         description="Time from standstill to the rated speed [s]; {range}. Default: {default}, assumed.",
         gt=0,
         le=3600,
+        json_schema_extra=usual(0.05, 30),
     )
     run_down_s: float = Field(
         default=3.0,
         description="Time from the rated speed to standstill [s]; {range}. Default: {default}, assumed.",
         gt=0,
         le=3600,
+        json_schema_extra=usual(0.1, 120),
     )
 
 
 class Motor(Table):
-    """A motor of limited power: its torque falls linearly from stall to the no-load speed."""
+    """A motor of limited power: its torque falls linearly from stall to the no-load speed. The defaults are an
+    example, not your motor.
+    """
+
+    example_defaults: ClassVar[frozenset[str]] = frozenset(
+        {"stall_torque_N_m", "no_load_speed_rpm", "rotor_inertia_kg_m2"}
+    )
 
     stall_torque_N_m: float = Field(
         default=3.0,
-        description="Torque at standstill, at the spindle [N·m]; {range}. Default: {default}, assumed.",
+        description="Torque at standstill, at the spindle [N·m]; {range}. Default: {default}, an example.",
         gt=0,
         le=1e6,
+        json_schema_extra=usual(0.05, 100),
     )
     no_load_speed_rpm: float = Field(
         default=6000.0,
         description="Speed of the spindle at which the torque is zero [rpm]; {range}, not below machine.speed_rpm. "
-        "Default: {default}, assumed.",
+        "Default: {default}, an example.",
         ge=1,
         le=300_000,
+        json_schema_extra=usual(700, 80_000),
     )
     rotor_inertia_kg_m2: float = Field(
         default=2e-3,
         description="Moment of inertia of all that turns, reduced to the spindle [kg·m²]; {range}. Default: "
-        "{default}, assumed.",
+        "{default}, an example.",
         gt=0,
         le=1e6,
+        json_schema_extra=usual(1e-06, 2),
     )
 
 
 class SwingArm(Table):
     """The machine mounted on a swing arm (Kovalenko 2010). The defaults are an example, not your machine."""
 
+    example_defaults: ClassVar[frozenset[str]] = frozenset({*JOINT, *GRIP})
+
     arm_length_mm: float = Field(
         default=350.0,
         description="From the arm's axis to the wheel's axis [mm]; {range}. Default: {default}, an example.",
         ge=1,
         le=1e5,
+        json_schema_extra=usual(50, 3000),
     )
     moment_of_inertia_kg_m2: float = Field(
         default=0.62,
@@ -112,36 +136,42 @@ class SwingArm(Table):
         "{range}. Default: {default}, an example.",
         gt=0,
         le=1e6,
+        json_schema_extra=usual(0.001, 200),
     )
     joint_stiffness_N_per_m: float = Field(
         default=2000.0,
         description="Stiffness of the joint reduced to the arm length [N/m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e12,
+        json_schema_extra=usual(5, 1000000.0),
     )
     joint_damping_N_s_per_m: float = Field(
         default=40.0,
         description="Damping of the joint reduced to the arm length [N·s/m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e9,
+        json_schema_extra=usual(0.01, 10000.0),
     )
     contact_stiffness_N_per_m: float = Field(
         default=1e6,
         description="Normal stiffness of the work [N/m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e12,
+        json_schema_extra=usual(5e3, 5e7),
     )
     cutting_coefficient: float = Field(
         default=0.45,
         description="Cutting force over normal force, f = T/N; {range}. Default: {default}, an example.",
         ge=0,
         le=1.5,
+        json_schema_extra=usual(0.1, 1),
     )
     contact_angle_deg: float = Field(
         default=90.0,
         description="Angle between the arm and the contact radius [degrees]; {range}. Default: {default}, an example.",
         ge=0,
         le=180,
+        json_schema_extra=usual(10, 180),
     )
     touch_angle_deg: float = Field(
         default=2.0,
@@ -149,10 +179,12 @@ class SwingArm(Table):
         "example.",
         ge=-90,
         le=90,
+        json_schema_extra=usual(0.1, 60),
     )
     pressing_moment_N_m: float = Field(
         default=20.0,
         description="Torque that presses the disk to the work [N·m]; {range}. Default: {default}, an example.",
         ge=0,
         le=1e6,
+        json_schema_extra=usual(0.2, 1000),
     )

@@ -12,8 +12,11 @@ from abu_calc.spec.lines import line_of
 from abu_calc.spec.names import header, meant_key, meant_table, nearest
 from abu_calc.spec.table import RULE, Table, is_array, subtable, table_at
 from abu_calc.spec.text import Part, is_number, key_path, quoted, shown, shown_short, unit_symbol
+from abu_calc.spec.usual import usual_of
 
 MOST_LISTED: Final = 10
+MUCH: Final = 1e12
+"""No unit makes more of it a usual number."""
 
 
 class SpecErrors(InputError):  # noqa: N818 - it is several
@@ -188,9 +191,20 @@ def _not_finite(finding: _Finding) -> _Words:
 
 def _bound(words: str, fact: str) -> Callable[[_Finding], _Words]:
     def out_of_bounds(finding: _Finding) -> _Words:
-        return "out of range", f"{words} {finding.facts[fact]:g}{unit_symbol(finding.key)}", None
+        return "out of range", f"{words} {finding.facts[fact]:g}{unit_symbol(finding.key)}", _other_unit(finding)
 
     return out_of_bounds
+
+
+def _other_unit(finding: _Finding) -> str | None:
+    """The units in which a number out of range would be usual."""
+    usual = usual_of(finding.table.model_fields[finding.key])
+    if usual is None or not 0 < finding.value < MUCH:
+        return None
+    from abu_calc.spec.mistaken_units import guesses, meant_in
+
+    words = meant_in(guesses(finding.key, [finding.value], usual), unit_symbol(finding.key))
+    return f"{words}?" if words else None
 
 
 def _no_literal(finding: _Finding) -> _Words:

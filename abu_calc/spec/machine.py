@@ -1,5 +1,6 @@
 """A machine file as a whole, and the rules between its tables."""
 
+from collections.abc import Iterator
 from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -17,6 +18,7 @@ from abu_calc.spec.bearing_file import (
 )
 from abu_calc.spec.body import MachineTable, Suspension
 from abu_calc.spec.duty import Grinding, Motor, RunUp, SwingArm
+from abu_calc.spec.proportions import larger_than_its_wheel, rim_too_fast
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import shown_short
 from abu_calc.spec.wheel import Wheel
@@ -58,6 +60,12 @@ class MachineFile(Table):
     )
     limits: Limits = Field(default_factory=Limits)
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
+
+    def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:
+        """An autobalancer larger than the wheel, a rim faster than wheels bear."""
+        if self.autobalancer is not None:
+            yield from larger_than_its_wheel(self.autobalancer, self.wheel)
+        yield from rim_too_fast(self.machine, self.wheel)
 
     @model_validator(mode="after")
     def _measured_at_a_handle(self) -> Self:

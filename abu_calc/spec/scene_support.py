@@ -4,8 +4,9 @@ from typing import Annotated, ClassVar, Final, Self
 
 from pydantic import Field, model_validator
 
-from abu_calc.spec.duty import SwingArm
+from abu_calc.spec.duty import GRIP, SwingArm
 from abu_calc.spec.table import Table, problem
+from abu_calc.spec.usual import usual
 
 Stiffness = Annotated[float, Field(ge=0, le=1e15)]
 Damping = Annotated[float, Field(ge=0, le=1e12)]
@@ -38,6 +39,7 @@ class CoupleImbalance(Table):
         examples=[6.8e-5],
         ge=0,
         le=0.1,
+        json_schema_extra=usual(1e-7, 5e-3),
     )
     angle_deg: float = Field(
         default=0.0,
@@ -125,6 +127,10 @@ class SceneSwingArm(SwingArm):
         default=False,
         description="Whether the wheel is pressed to the work: true or false. Default: {default}, idle.",
     )
+
+    def unused(self) -> frozenset[str]:
+        """How the wheel is pressed to the work, while it is not."""
+        return frozenset() if self.cutting else frozenset({*GRIP, "wheel_radius_mm"})
 
     @model_validator(mode="after")
     def _cutting_needs_a_radius(self) -> Self:

@@ -22,6 +22,9 @@ class Table(BaseModel):
     shown_in_template: ClassVar[frozenset[str]] = frozenset()
     """Keys without a default that a new file should nevertheless show live."""
 
+    example_defaults: ClassVar[frozenset[str]] = frozenset()
+    """Keys whose default is an example's, or a guess, and never that of the machine at hand."""
+
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: object) -> None:
         """Bounds and defaults stand in the fields alone: their descriptions are made of them."""
@@ -36,6 +39,15 @@ class Table(BaseModel):
     def unused(self) -> frozenset[str]:
         """Keys that play no part, given the other keys: not listed as defaults in force, warned of where given."""
         return frozenset()
+
+    def borrowed(self) -> tuple[str, ...]:
+        """Keys left out, though their default is example data and plays a part."""
+        silent = self.model_fields_set | self.unused()
+        return tuple(key for key in type(self).model_fields if key in self.example_defaults and key not in silent)
+
+    def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:
+        """What is unusual of numbers together, though each may stand alone: a path below this table, words on it."""
+        return iter(())
 
     def own_defaults(self) -> dict[str, object]:
         """The defaults in force in this table, in the order of its keys."""

@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.spec.table import Table, boxed, problem
+from abu_calc.spec.usual import usual
 
 Level = Annotated[float, Field(ge=0, le=200)]
 BalanceGrade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
@@ -24,12 +25,14 @@ class Wheel(Table):
         examples=[0.6],
         ge=0.0001,
         le=5000,
+        json_schema_extra=usual(0.005, 50),
     )
     diameter_mm: float = Field(
         description="Outer diameter of the wheel [mm]; {range}, hand grinders 50 … 230.",
         examples=[150.0],
         ge=1,
         le=5000,
+        json_schema_extra=usual(20, 600),
     )
     runout_mm: float = Field(
         default=0.0,
@@ -37,6 +40,7 @@ class Wheel(Table):
         "mounted wheels 0.02 … 0.2. Default: {default}, a true wheel. Or give runout_tir_mm.",
         ge=0,
         le=10,
+        json_schema_extra=usual(0.001, 1),
     )
     runout_tir_mm: float | None = Field(
         default=None,
@@ -45,6 +49,7 @@ class Wheel(Table):
         examples=[0.08],
         ge=0,
         le=20,
+        json_schema_extra=usual(0.002, 2),
     )
     runout_angle_deg: float = Field(
         default=0.0,
@@ -60,6 +65,7 @@ class Wheel(Table):
         examples=[150.0],
         ge=0,
         le=1e9,
+        json_schema_extra=usual(2, 5e4),
     )
     balance_grade: BalanceGrade | None = Field(
         default=None,
@@ -79,6 +85,7 @@ class Wheel(Table):
         description="Velocity level measured idle, without autobalancer: one number, or a list that is averaged in "
         "velocity [dB re 5e-8 m/s]; {range}, hand grinders 95 … 120. Instead of imbalance_g_mm.",
         examples=[111.0],
+        json_schema_extra=usual(85, 135),
     )
     measured_at: str | None = Field(
         default=None,

@@ -1,6 +1,7 @@
 """What a key takes, in the words of its description: bounds and defaults put into its description.
 
-A description writes {range} ("above 0 … 100"), {most} ("100") and {default} where they belong in its sentence.
+A description writes {range} ("above 0 … 100, usually 1 … 20"), {most} ("100"), {usual} ("usually 1 … 20") and {default}
+where they belong in its sentence.
 """
 
 from collections.abc import Iterator
@@ -9,6 +10,7 @@ from typing import Annotated, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from abu_calc.spec.text import shown
+from abu_calc.spec.usual import usual_of
 from abu_calc.validity import bounded
 
 
@@ -21,7 +23,14 @@ def described(field: FieldInfo) -> str | None:
     low = bounded(bounds["ge"]) if "ge" in bounds else f"above {bounded(bounds['gt'])}" if "gt" in bounds else ""
     most = bounded(bounds["le"]) if "le" in bounds else ""
     default = field.default if isinstance(field.default, str) else _default(field.default)
-    return text.format(range=f"{low} … {most}", most=most, default=default)
+    usual = _usual(field, signed=bounds.get("ge", 0) < 0)
+    whole = ", ".join(part for part in (f"{low} … {most}", usual) if part)
+    return text.format(range=whole, most=most, usual=usual, default=default)
+
+
+def _usual(field: FieldInfo, *, signed: bool) -> str:
+    usual = usual_of(field)
+    return f"usually {usual}{' either way' if signed else ''}" if usual else ""
 
 
 def _default(value: object) -> str:

@@ -1,7 +1,7 @@
 """Balls: stock diameters and materials."""
 
 from functools import cache
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from abu_calc.standards.tables import toml_table, unknown
 from abu_calc.units import to_si
@@ -23,14 +23,19 @@ class Material(NamedTuple):
 
 
 @cache
-def stock_diameters() -> tuple[float, ...]:
-    """Diameters [m] that balls are stocked in, ascending, 3 … 30 mm, metric and inch. Source: ISO 3290-1:2014.
+def stock_diameters(sizes: Literal["metric", "all"] = "all") -> tuple[float, ...]:
+    """Diameters [m] that balls are stocked in, ascending, 3 … 30 mm. Source: ISO 3290-1:2014.
+
+    `sizes`: metric (whole and half millimetres), or all (inch sizes, too).
 
     >>> [d for d in stock_diameters() if 15.9e-3 < d < 17e-3]
     [0.016, 0.0165, 0.01666875]
+    >>> [d for d in stock_diameters("metric") if 15.9e-3 < d < 17e-3]
+    [0.016, 0.0165]
     """
     table = toml_table("balls")
-    return tuple(to_si(d, "mm") for d in sorted((*table["metric"], *table["inch"])))
+    inch = table["inch"] if sizes == "all" else ()
+    return tuple(to_si(d, "mm") for d in sorted((*table["metric"], *inch)))
 
 
 def stock_diameter(diameter: float) -> float | None:

@@ -58,7 +58,7 @@ def _further(scene: Scene, times: Array, states: Array) -> Iterator[tuple[str, A
     tilt, turned = support.tilt(q), support.turned(q)
     if tilt is not None:
         about_y, about_minus_x = (1000 * np.asarray(angle) for angle in tilt)
-        yield from (("tilt_x_mrad", -about_minus_x), ("tilt_y_mrad", about_y))
+        yield from (("tilt_x_mrad", 0.0 - about_minus_x), ("tilt_y_mrad", about_y))
     for k, place in enumerate(support.bearings, 1):
         x, y = from_si(1.0, "mm") * axis_place(scene, states, place)
         yield from ((f"bearing{k}_x_mm", x), (f"bearing{k}_y_mm", y))

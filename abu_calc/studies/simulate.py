@@ -2,21 +2,23 @@
 
 from collections.abc import Sequence
 from dataclasses import field
-from typing import ClassVar, Final
+from typing import Annotated, ClassVar, Final
 
 from abu_calc.analysis.audit import Audit
 from abu_calc.analysis.audit import audit as with_all_effects
+from abu_calc.analysis.one_run import levels_at_places, one_run_checks
+from abu_calc.analysis.response import Response
 from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.motion import Motion, equally_spaced
-from abu_calc.studies.quantity import record
+from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel, in_words
-from abu_calc.studies.simulated_scene import SimulatedScene
-from abu_calc.studies.subject import Source, subject_of
+from abu_calc.studies.simulated_scene import SimulatedLevel, SimulatedScene
+from abu_calc.studies.subject import Source, Subject, subject_of
 
 INTEGRATORS: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
 
@@ -27,8 +29,13 @@ class SimulateResult(SimulatedScene, Result):
 
     command: ClassVar[str] = "simulate"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "run"}
+    optional: ClassVar[frozenset[str]] = SimulatedScene.optional | {"handles"}
 
     model: SceneModel
+    level_at: Annotated[str, Quantity("place of the level")]
+    """Where on the axis `level_db` holds."""
+    handles: tuple[SimulatedLevel, ...] | None
+    """Levels where a machine is held, background included; None for what has no places to hold."""
     description: str
     """Support, races and balls, in a sentence."""
     start: str
@@ -68,19 +75,47 @@ def simulate(
     ledger = subject.ledger(accuracy, with_effects, without_effects)
     run = integrated(ledger.scene, accuracy - ledger.spared, times, integrator=integrator, progress=progress)
     audited = with_all_effects(subject.scene, ledger, run, accuracy, integrator, progress) if audit else None
-    checks = (_reached(run, ledger.spared, accuracy), *((_left_out(audited, accuracy),) if audited else ()))
+    checks = (
+        *_limits(subject, run, ledger.spared, duration_s),
+        _reached(run, ledger.spared, accuracy),
+        *((_left_out(audited, accuracy),) if audited else ()),
+    )
     return SimulateResult(
         **vars(SimulatedScene.of(run, ledger, audit=audited)),
         title=subject.title,
         checks=checks,
         warnings=(*subject.warnings, *run.warnings),
         model=SceneModel.of(run.scene),
+        level_at=_level_at(subject, run.response),
+        handles=_handles(subject, run.response),
         provenance=subject.provenance,
         description=in_words(run.scene),
         start=subject.start,
         motion=Motion.of(run, times) if len(times) else None,
         run=run,
     )
+
+
+def _limits(subject: Subject, run: Simulation, spared: float, duration_s: float | None) -> tuple[Check, ...]:
+    """The limits of a machine's file; a scene given outright has none."""
+    if subject.design is None:
+        return ()
+    error = run.error_estimate + spared
+    return one_run_checks(subject.design, run.response, subject.start, error, asked=duration_s is not None)
+
+
+def _level_at(subject: Subject, response: Response) -> str:
+    """The place on the axis whose motion the response is about, in words."""
+    if subject.design is not None:
+        return "race plane" if subject.design.case.race_offset else "wheel plane"
+    if response.final.arm_angle is not None:
+        return "end of the arm"
+    return "axis" if response.final.tilt is None else "axis, centre of mass"
+
+
+def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...] | None:
+    places = () if subject.design is None else levels_at_places(subject.design, response)
+    return tuple(SimulatedLevel(name=each.name, level_db=each.level) for each in places) or None
 
 
 def _reached(run: Simulation, spared: float, accuracy: float) -> Check:

@@ -128,6 +128,14 @@ class Audit(Record):
 
 
 @record
+class SimulatedLevel(Record):
+    """Level at one place where the machine is held, by the simulated motion."""
+
+    name: Annotated[str, Quantity("place")]
+    level_db: Annotated[float, Quantity("level", "L")]
+
+
+@record
 class SettlingEstimate(Record):
     """Settling at another drag: the simulated time, scaled by the rates of the slow motion."""
 

@@ -14,6 +14,7 @@ from abu_calc.errors import InputError, Place
 from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scene_of_design
 from abu_calc.scenes.from_scene import lasting, scene_from
 from abu_calc.sizing import size
+from abu_calc.sizing.design import Design
 from abu_calc.spec.document import Reading
 from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import SceneDescription
@@ -29,7 +30,7 @@ class Subject:
     """A scene with all effects there is data for, and where it comes from.
 
     `half_angle` of touching balls [rad], 0 without size; `start`: how the balls start, in words; `reading`: the file,
-    if there is one.
+    if there is one; `design`: that of a machine.
     """
 
     title: str
@@ -38,6 +39,7 @@ class Subject:
     start: str
     half_angle: float = 0.0
     warnings: tuple[str, ...] = ()
+    design: Design | None = None
 
     @property
     def provenance(self) -> Provenance:
@@ -98,6 +100,7 @@ def _of_machine(machine: Machine, scene: str, start: str, command: str) -> Subje
         start=STARTS[chosen_start],
         half_angle=contact_half_angle(design),
         warnings=(*machine.warnings, *design.warnings),
+        design=design,
     )
 
 

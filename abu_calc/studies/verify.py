@@ -47,7 +47,10 @@ def verify(machines: Sequence[Machine], progress: Progress = silent) -> VerifyRe
         progress(f"{index}/{len(machines)} {machine.file}")
         files.append(_verified(machine))
     checks = tuple(map(_check, files))
-    return VerifyResult(title="verify", checks=checks, provenance=Provenance.today(), files=tuple(files))
+    warnings = tuple(f"{machine.file}: {warning}" for machine in machines for warning in machine.warnings)
+    return VerifyResult(
+        title="verify", checks=checks, warnings=warnings, provenance=Provenance.today(), files=tuple(files)
+    )
 
 
 def present_values(machine: Machine) -> dict[str, Any]:

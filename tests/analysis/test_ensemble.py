@@ -73,7 +73,9 @@ def test_standstill_settles_later_than_bunched() -> None:
 
 
 def test_hands_are_not_chaotic() -> None:
-    assert set(judged("hands-called-chaotic").values()) == {"pass"}
+    """All starts balance in time; of the level only the closed worst arrangement of friction warns."""
+    found = judged("hands-called-chaotic")
+    assert found == {"ABU401": "warn", "ABU701": "pass", "ABU702": "pass", "ABU704": "pass"}
 
 
 def test_workers_change_nothing() -> None:
@@ -201,8 +203,8 @@ def test_the_level_check_keeps_the_worse() -> None:
 
 def test_another_candidate_where_the_best_does_not_pass() -> None:
     """And the report says so; what is pinned stays, and a drag that was tried is named."""
-    free = proven(design("late-settling"))
-    assert free.design.autobalancer != design("late-settling").autobalancer
+    free = proven(design("friction-elsewhere"))
+    assert free.design.autobalancer != design("friction-elsewhere").autobalancer
     assert free.ensemble is not None
     assert passes(free.design, free.ensemble)
     assert "does not pass from every start" in free.warnings[0]

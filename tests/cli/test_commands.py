@@ -158,11 +158,18 @@ def test_wheel_and_work_that_part_are_a_warning() -> None:
 
 
 def test_report_reads_like_a_calculation_note() -> None:
-    seen = once("size", "avtovaz-707-222")
+    seen = once("size", "avtovaz-707-222", "--full")
     lines = seen.out.splitlines()
     assert seen.status == 0 and max(map(len, lines)) <= 80
     assert lines[1].strip().startswith("PASS")
-    order = ["Design", "Checks", "Warnings", "Defaults used (not in the file)", "Frequencies and capacity"]
+    order = [
+        "Checks",
+        "Warnings",
+        "Design",
+        "Frequencies and capacity",
+        "Defaults used (not in the file)",
+        "Provenance",
+    ]
     places = [lines.index(title) for title in order]
     assert places == sorted(places)
 
@@ -176,7 +183,7 @@ def test_explain_puts_the_numbers_in(monkeypatch: pytest.MonkeyPatch) -> None:
         return known[0]
 
     monkeypatch.setattr(size_module, "simulated", simulated_once)
-    plain, told = abu("size", "swing-arm-grinder").out, abu("size", "swing-arm-grinder", "--explain").out
+    plain, told = abu("size", "swing-arm-grinder", "--full").out, abu("size", "swing-arm-grinder", "--explain").out
     assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
     assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)
     for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
@@ -359,7 +366,7 @@ def test_an_interruption_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch, tmp_
 
 def test_entries_replaced_are_shown_as_a_file_would_have_them() -> None:
     grinding = '{contact="compliant", press_force_N=30, contact_stiffness_N_per_m=1e5}'
-    seen = abu("effects", "msh-230", "--set", f"grinding={grinding}", "--set", "wheel.mass_kg=0.512345678")
+    seen = abu("effects", "msh-230", "--set", f"grinding={grinding}", "--set", "wheel.mass_kg=0.512345678", "--full")
     assert seen.out.split("With these entries replaced:\n")[1].splitlines() == [
         '    grinding.contact = "compliant"',
         "    grinding.press_force_N = 30",
@@ -370,5 +377,5 @@ def test_entries_replaced_are_shown_as_a_file_would_have_them() -> None:
 
 def test_an_array_of_tables_replaced_is_shown_by_its_elements() -> None:
     bearing = '[{designation="6203", shaft_fit="k6", housing_fit="H7"}]'
-    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"bearing={bearing}")
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"bearing={bearing}", "--full")
     assert '    bearing[0].shaft_fit = "k6"\n' in seen.out and "{" not in seen.out

@@ -59,7 +59,7 @@ def test_of_a_scene(file: str) -> None:
     simulated = abu("simulate", file, "--duration", "20", "--json").document
     assert found["race_eccentricity"]["weight"] < simulated["result"]["error_estimate"] <= 0.01
     assert simulated["checks"][0]["value"] == simulated["result"]["error_estimate"]
-    assert "Defaults used" in abu("effects", file).out
+    assert "Defaults used" in abu("effects", file, "--full").out
     assert simulated["result"]["effects"] == list(found.values()) and simulated["model"]["effects"] == ["gravity"]
 
 
@@ -84,7 +84,7 @@ def test_all_at_once_as_a_scene_and_as_text(tmp_path: Path) -> None:
     assert all(
         found[name]["weight"] is None and found[name]["included"] for name in ("run_up", "motor", "ball_contact")
     )
-    seen = abu("effects", str(path))
+    seen = abu("effects", str(path), "--full")
     assert seen.status == 0 and seen.width <= 80
     assert "half the accuracy" in " ".join(seen.out.split())
     assert "has data for none" in abu("effects", _without_effects(tmp_path)).out

@@ -103,6 +103,40 @@ def test_ball_angles_of_a_trajectory_are_not_wrapped(scene: str, tmp_path: Path)
     assert rows_of(motion)[-1]["ball1_deg"] > 360 * 30
 
 
+def test_a_trajectory_holds_all_that_moves(tmp_path: Path) -> None:
+    """Its last row is the end that is reported; bearings and the ball's way along the spindle by own geometry."""
+    effects = """[scene.effects]
+run_up = { time_s = 0.05 }
+transverse_motion = { groove_radius_mm = 9.0, ball_radius_mm = 4.0, axial_runout_mm = 0.05 }
+"""
+    motion = tmp_path / "motion.csv"
+    options = ("--with", "transverse_motion", "--trajectory", str(motion), "--samples", "11", "--json")
+    text = written(tmp_path, TILTING + effects)
+    final = abu("simulate", text, "--duration", "0.1", *options).document["result"]["final"]
+    rows = rows_of(motion)
+    balls = [f"ball{k}_deg" for k in (1, 2, 3, 4)]
+    places = [f"bearing{k}_{axis}_mm" for k in (1, 2) for axis in "xy"]
+    axial = [f"ball{k}_axial_mm" for k in (1, 2, 3, 4)]
+    assert list(rows[0]) == [
+        "t_s", "x_mm", "y_mm", *balls, "tilt_x_mrad", "tilt_y_mrad", *places, *axial, "rotor_speed_rpm",
+    ]  # fmt: skip
+    for name in ("x_mm", "tilt_x_mrad", "tilt_y_mrad", "rotor_speed_rpm"):
+        assert rows[-1][name] == pytest.approx(final[name], rel=1e-9)
+    assert rows[5]["rotor_speed_rpm"] == pytest.approx(final["rotor_speed_rpm"])
+    assert rows[0]["rotor_speed_rpm"] == 0
+    for row in rows[1:]:
+        for k, place in ((1, 110.0), (2, -150.0)):
+            assert row[f"bearing{k}_x_mm"] == pytest.approx(row["x_mm"] + 1e-3 * place * row["tilt_y_mrad"], rel=1e-9)
+            assert row[f"bearing{k}_y_mm"] == pytest.approx(row["y_mm"] - 1e-3 * place * row["tilt_x_mrad"], rel=1e-9)
+    assert 1e-4 < max(abs(row[name]) for row in rows for name in axial) < 5
+    arm = abu("simulate", written(tmp_path, ARM), "--duration", "0.1", *options[2:], "--force").document["result"]
+    rows = rows_of(motion)
+    assert list(rows[0]) == ["t_s", "x_mm", "y_mm", "ball1_deg", "ball2_deg", "arm_angle_mrad"]
+    assert rows[-1]["arm_angle_mrad"] == pytest.approx(arm["final"]["arm_angle_mrad"], rel=1e-9)
+    for row in rows:
+        assert row["y_mm"] == pytest.approx(300 * math.sin(row["arm_angle_mrad"] / 1000), rel=1e-9)
+
+
 # supports and effects
 def test_a_tilting_rotor_tells_tilts_and_bearings(tmp_path: Path) -> None:
     document = abu("simulate", written(tmp_path, TILTING), "--duration", "0.2", "--json").document
@@ -200,7 +234,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
     assert gravity["weight"] / 3 < audit["difference"] < 3 * gravity["weight"] and audit["evaluations"] > 0
     checks = {check["code"]: check for check in document["checks"]}
     assert checks["ABU803"]["status"] == "pass" and checks["ABU803"]["value"] == audit["difference"]
-    seen = abu("simulate", file, *fast, "--with", "gravity", "--audit")
+    seen = abu("simulate", file, *fast, "--with", "gravity", "--audit", "--full")
     assert seen.status == 0 and "Every effect was in already" in seen.out
     seen = abu("simulate", file, "--without", "gravity", "--duration", "60", "--audit", "--json")
     assert seen.status == 1 and seen.document["checks"][1]["remedy"]  # at 19 rpm gravity is all there is
@@ -208,7 +242,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
 
 def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     """Light balls are slow: their averages do for two per cent, and the equations are taken for less."""
-    heavy = " ".join(abu("simulate", scene, "--duration", "50").out.split())
+    heavy = " ".join(abu("simulate", scene, "--duration", "50", "--full").out.split())
     assert "the averaged ones will not do: the balls' own rate" in heavy
     light = written(tmp_path, SCENE.replace("[50.0, 50.0]", "[0.2, 0.2]").replace("10000.0", "100.0"))
     options = ("--set", "scene.damping_N_s_per_m=[0.6, 0.6]", "--set", "scene.race[0].rolling_drag_per_s=0.04",
@@ -221,7 +255,7 @@ def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     assert full["result"]["envelope"]["error_estimate"] > 0.001 and full["result"]["envelope"]["why"]
     one, other = (document["result"]["final"]["ball_angles_deg"] for document in (slow, full))
     assert one == pytest.approx(other, abs=math.degrees(0.05))
-    text = abu("simulate", light, *options[:-1], "--accuracy", "0.05")
+    text = abu("simulate", light, *options[:-1], "--accuracy", "0.05", "--full")
     assert text.status == 0 and "Averaged slow motion" in text.out
 
 

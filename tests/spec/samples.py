@@ -90,6 +90,7 @@ FULL: dict[str, dict[str, str]] = {
         "max_mass_fraction": "0.05",
         "bore_diameter_mm": "20.0",
         "design": '"one-piece"',
+        "ball_sizes": '"metric"',
         "ball_material": '"steel"',
         "corrector": '"ball"',
         "capacity_margin": "1.2",

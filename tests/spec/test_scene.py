@@ -220,7 +220,7 @@ def test_defaults_in_force_are_told(tmp_path: Path) -> None:
 
 def test_a_key_that_plays_no_part_is_told(tmp_path: Path) -> None:
     """The stiffness of a contact that is none; the file is right otherwise."""
-    rigid = effect('grinding_contact = { contact = "rigid", contact_stiffness_N_per_m = 1 }')
+    rigid = effect('grinding_contact = { contact = "rigid", contact_stiffness_N_per_m = 1e5 }')
     loaded = read(tmp_path, SCENE.replace(RACE, rigid))
     assert loaded.warnings == ("scene.effects.grinding_contact.contact_stiffness_N_per_m plays no part beside the "
                                "other keys.",)  # fmt: skip

@@ -12,7 +12,7 @@ on the centre of the wheel's surface, ε e^{i(turn + φ₀)} off the axis, R_w a
 
     ε (N cos − T sin)(turn + φ₀) + T R_w,    face: s f N₀ R_w
 
-Where T brakes a driven rotor it turns round with the sliding, and at rest holds by up to f N, see `switching.stopping`.
+Where T brakes a driven rotor it turns round with the sliding, and at rest holds by up to f N, see `switching.cutting`.
 
 Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and a remark
 tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power
@@ -31,9 +31,9 @@ from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weig
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance, weighing_amplitude
-from abu_calc.dynamics.switching.stopping import Cutting, Slip, decided, goes_on
+from abu_calc.dynamics.switching.cutting import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
 from abu_calc.dynamics.trajectory import Samples
-from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.errors import InputError
 from abu_calc.validity import Range
 
 Contact = Literal["compliant", "rigid", "face"]
@@ -45,12 +45,9 @@ TOUCHING, APART = 1.0, 0.0
 NEAR = 1e-9
 """Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
 
-RUNAWAY = 1e3
-"""Balls this many times as fast as the rotor run away: they go on to infinite speed, in a moment."""
-
 REMEDY = ": press harder, or run the wheel truer"
 
-STOPPED = 1e-6
+STOPPED = 0.01
 """Of the scene's speed: a rotor slower than this stands."""
 
 LEAST_DEPTH = 1e-9
@@ -92,7 +89,7 @@ class GrindingContact(Effect):
 
     @property
     def switches(self) -> bool:  # type: ignore[override]
-        """Wheel and work part where the contact is compliant; balls may run away where it is rigid; a rotor may stop."""
+        """Wheel and work part where the contact is compliant; where it is rigid, balls may run away; rotors stop."""
         return self.contact != "face" or self._brakes
 
     @property
@@ -104,11 +101,6 @@ class GrindingContact(Effect):
     def _brakes(self) -> bool:
         """Whether cutting brakes a driven rotor, so that it may stop it."""
         return self.drag < 0 and self.wheel_radius > 0
-
-    @property
-    def stands(self) -> bool:
-        """Whether friction can hold the wheel on the work."""
-        return self.contact != "rigid"
 
     def first_mode(self, scene: Circumstances) -> Any:
         """Touching, and sliding where that may change; raises InputError on supports that have no such contact."""
@@ -145,9 +137,11 @@ class GrindingContact(Effect):
         touching = mode.touching if isinstance(mode, Cutting) else mode
         return touching * (self.press_force - self.contact_stiffness * self._surface(m, p)[0])
 
-    def most(self, m: Motion, mode: Any, p: Parameters) -> Any:
-        """f N [N] of a contact that is not rigid."""
-        return self.cutting_coefficient * self.pressed(m, mode, p)
+    def held(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> tuple[Any, Any]:
+        """T with which the work holds a wheel that stands, and the most it can, f N [N]."""
+        rigid = self.contact == "rigid"
+        normal = solved.reaction if rigid else self.pressed(m, mode, p)
+        return solved.beside if rigid else solved.reaction, self.cutting_coefficient * normal
 
     def _rows(self, x: Any, y: Any, turning: Any, p: Parameters) -> Array:
         """A force (x, y) at the wheel and a torque on the rotor, as the frame feels them."""
@@ -193,15 +187,16 @@ class GrindingContact(Effect):
         h, moved, x, y = self._surface(m, p)
         strayed = p.speed * (2 * (moved + x * m.speed) + p.speed * h)
         value = y * m.speed * m.speed - x * m.acceleration - strayed
-        return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, mode, p))
+        beside = self._standing(m, mode, p) if isinstance(mode, Cutting) else None
+        return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, mode, p), beside=beside)
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """How deep the wheel is in the work while touching, the gap while apart, relative to what is usual.
 
-        Rigid: what the balls' squared speeds lack of a runaway. Where cutting may stop the rotor, how clearly it slides,
-        or stands.
+        Rigid: what the balls' squared speeds lack of a runaway. Where cutting may stop the rotor, how clearly it
+        slides, or stands.
         """
-        found = [] if not isinstance(mode, Cutting) else [self._goes_on(m, mode, solved, p)]
+        found = self._goes_on(m, mode, solved, p) if isinstance(mode, Cutting) else []
         if self.contact == "face":
             return found
         if self.contact == "rigid":
@@ -215,14 +210,11 @@ class GrindingContact(Effect):
         """What is usual of a compliant contact [m]."""
         return self.press_force / self.contact_stiffness + self.runout + LEAST_DEPTH
 
-    def _goes_on(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> Any:
-        """Speed over the work relative to that of the surface, and what friction has left, (f N)² − T²."""
-        speed = self.slip(m, p).speed / (p.speed * self.wheel_radius)
-        if not self.stands:
-            return goes_on(mode, speed, 0.0)
-        usual = self.press_force if self.contact == "face" else self.contact_stiffness * self._depth
-        unit, most = self.cutting_coefficient * usual, self.most(m, mode, p)
-        return goes_on(mode, speed, (most * most - solved.reaction * solved.reaction) / (unit * unit))
+    def _goes_on(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> list[Any]:
+        """By the speed over the work relative to that of the surface, and forces relative to usual ones."""
+        usual = self.contact_stiffness * self._depth if self.contact == "compliant" else self.press_force or 1.0
+        unit, (held, most) = self.cutting_coefficient * usual, self.held(m, mode, solved, p)
+        return goes_on(mode, self.slip(m, p).speed / (p.speed * self.wheel_radius), held / unit, most / unit)
 
     def rule(self, mode: Any) -> Rule | None:
         """Wheel and work part and meet where the contact is compliant and cannot stop the rotor."""
@@ -231,10 +223,10 @@ class GrindingContact(Effect):
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
         """Touching where the wheel is in the work; at its very surface, where it is about to be. And how it slides.
 
-        Raises NotTrustworthyError when a rigid contact drives the balls to ever higher speeds, or stops the rotor.
+        Raises NotTrustworthyError when a rigid contact drives the balls to ever higher speeds, or makes no sense.
         """
         if self.contact == "rigid":
-            _check_speeds(at)
+            check_speeds(at)
         touching = self._touches(at) if self.contact == "compliant" else TOUCHING
         if not isinstance(at.mode, Cutting):
             return at.y, at.mode if at.mode in (None, touching) else touching
@@ -250,7 +242,7 @@ class GrindingContact(Effect):
         rows = self._rows(0.0, 1.0, x, p)
         depth, deeper = unloaded - h, -(moved + x * m.speed)
         ever = -(float(rows.dot(solved.frame)) + x * m.acceleration - y * m.speed * m.speed)
-        return TOUCHING if _inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
+        return TOUCHING if inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
         """Of N − N₀, T and, where it is driven, the torque, by the motion of frame and rotor [W]; none by standing.
@@ -357,27 +349,3 @@ def _pulls(t: Array, normal: Array) -> tuple[str, ...]:
         f"wheel and work would part if they could: the rigid contact pulls for {100 * share:.2g} % of the time, its "
         f"least force {normal.min():.3g} N{REMEDY}, or give it a stiffness",
     )
-
-
-def _inside(depth: float, deeper: float, ever: float, near: float) -> bool:
-    """Whether depth + deeper t + ½ ever t² counts as inside: by its sign, or where that is nothing by what follows.
-
-    An excursion that stays nothing is none, so that a graze is not entered.
-    """
-    if abs(depth) > near:
-        return depth > 0
-    if deeper * ever < 0:
-        return (depth - deeper**2 / (2 * ever) > near) if deeper > 0 else (depth - deeper**2 / (2 * ever) > -near)
-    return (deeper or ever) >= 0
-
-
-def _check_speeds(at: SwitchPoint) -> None:
-    """Refuse balls that run away."""
-    p, first = at.parameters, 2 * at.parameters.size + at.parameters.balls
-    fast = np.abs(at.y[first : first + p.balls]) / p.speed
-    if np.linalg.norm(fast) > 0.999 * RUNAWAY:
-        raise NotTrustworthyError(
-            f"ball {int(fast.argmax()) + 1} runs away at t = {at.t:.6g} s: a rigid contact cannot part, and its "
-            "cutting force T = f N feeds the balls\n"
-            "  give the race more drag or the contact a stiffness, or lower the cutting coefficient"
-        )

@@ -65,17 +65,14 @@ class RunUp(Effect):
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """What carries the rotor takes the reaction of what drives it, where it can turn; a motor's knows its own."""
-        if self._felt(p):
+        if self.inertia and _reacts(p):
             unit = np.zeros(len(p.frame.mass))
             unit[list(p.frame.turning)] = 1.0
             loads.add(frame=-self.inertia * mode * unit)
 
-    def _felt(self, p: Parameters) -> bool:
-        return bool(self.inertia and p.rotor.given and p.frame.turning)
-
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
         """−J_r Ω' φ' [W] on an arm that turns by φ."""
-        return -self.inertia * mode * (m.speed - m.own_speed) if self._felt(p) else 0.0
+        return -self.inertia * mode * (m.speed - m.own_speed) if self.inertia and _reacts(p) else 0.0
 
     def breaks(self, scene: Circumstances) -> tuple[float, ...]:
         """Ends of the run-up, begin of the run-down."""
@@ -106,7 +103,7 @@ class RunUp(Effect):
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """That an arm lacks the reaction torque where the inertia is not known, and how much that is."""
         scene = equations.scene
-        if self.inertia or not scene.rotor.given or not scene.support.turns:
+        if self.inertia or not _reacts(equations.parameters):
             return ()
         fastest = max(abs(self.mode_at(scene, t, None)) for t in (0.0, *self.breaks(scene)))
         return (
@@ -117,3 +114,8 @@ class RunUp(Effect):
     def weight(self, scene: Circumstances) -> Weight:
         """It is the scene itself."""
         return Weight(None, "the speed itself: without it there is no run-up")
+
+
+def _reacts(p: Parameters) -> bool:
+    """Whether what carries the rotor turns, and nothing else knows what drives this."""
+    return p.rotor.given and bool(p.frame.turning)

@@ -10,7 +10,7 @@ import numpy as np
 
 from abu_calc.dynamics.chains import Chains
 from abu_calc.dynamics.equations.linear import solve
-from abu_calc.dynamics.motion import Across, Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import Across, Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 
 
@@ -36,7 +36,7 @@ class _Reduced:
 def solve_all(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solved:
     """All accelerations, by eliminating those of the balls."""
     r, across = _reduced(m, levers, loads, p), loads.across
-    A, reaction = _frame(r.mass, r.force, loads)
+    A, reaction, second = _frame(r.mass, r.force, loads)
     left = r.drive - A.dot(r.felt)
     tied = loads.free is not None or loads.mates is not None
     balls = r.give * left if loads.mates is None else r.give * loads.mates.sums(p.masses * m.radii * left)
@@ -51,6 +51,7 @@ def solve_all(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solved:
         across_left=beside,
         rotor=p.rotor.acceleration(m, A),
         reaction=reaction,
+        beside=second,
         left=left - r.inertias * balls if tied else None,
     )
 
@@ -60,8 +61,8 @@ def by_pulls(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Ar
     r = _reduced(m, levers, loads, p)
     A = -np.linalg.solve(r.mass, r.weights)
     if loads.bound is not None:
-        row, pushed = loads.bound.row, np.linalg.solve(r.mass, loads.bound.force)
-        A = A - loads.bound.holds * np.outer(pushed, row.dot(A) / row.dot(pushed))
+        for bound, pushed, _ in _pushes(r.mass, loads.bound):
+            A = A - bound.holds * np.outer(pushed, bound.row.dot(A) / bound.row.dot(pushed))
     return r.give[:, None] * (np.eye(p.balls) - r.felt.T.dot(A)), -levers.outward.T.dot(A)
 
 
@@ -193,15 +194,30 @@ def _together(inertias: Array, radii: Array, mates: Chains, loads: Loads) -> Arr
     return shares if loads.free is None else loads.free * shares
 
 
-def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any]:
-    """The frame's accelerations, and the reaction of a constraint."""
+def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any, Any]:
+    """The frame's accelerations, and the reactions of constraints."""
+    A = np.array(solve(mass.tolist(), force.tolist()))
     if loads.bound is None:
-        return np.array(solve(mass.tolist(), force.tolist())), None
-    row, value, direction = loads.bound.row, loads.bound.value, loads.bound.force
-    free = np.array(solve(mass.tolist(), force.tolist()))
-    pushed = np.array(solve(mass.tolist(), direction.tolist()))
-    reaction = loads.bound.holds * (value - row.dot(free)) / row.dot(pushed)
-    return free + pushed * reaction, reaction
+        return A, None, None
+    reactions: list[Any] = []
+    for bound, pushed, back in _pushes(mass, loads.bound):
+        reaction = bound.holds * (bound.value - bound.row.dot(A)) / bound.row.dot(pushed)
+        reactions = [*(one - back * reaction for one in reactions), reaction]
+        A = A + pushed * reaction
+    return A, reactions[0], reactions[1] if len(reactions) > 1 else None
+
+
+def _pushes(mass: Array, bound: Bound) -> list[tuple[Bound, Array, Any]]:
+    """Constraints, what a unit of each one's reaction does to the frame, and what that takes from the one before.
+
+    The second acts through the first, which goes on holding.
+    """
+    pushed = np.array(solve(mass.tolist(), bound.force.tolist()))
+    if bound.beside is None:
+        return [(bound, pushed, None)]
+    aside = np.array(solve(mass.tolist(), bound.beside.force.tolist()))
+    back = bound.row.dot(aside) / bound.row.dot(pushed)
+    return [(bound, pushed, None), (bound.beside, aside - pushed * back, back)]
 
 
 def _behind(m: Motion, A: Array, p: Parameters) -> Array:

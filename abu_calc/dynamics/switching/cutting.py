@@ -1,4 +1,4 @@
-"""Cutting on a rotor that a motor drives: the wheel slides over the work one way or the other, or stands on it.
+"""Wheel and work: whether they touch, and how a rotor that a motor drives slides over the work, or stands on it.
 
     |T| ≤ f N on a wheel that stands,    T = −f N v/|v| on one that slides,    v = x_w' + Ω (R_w − ε sin(turn + φ₀))
 
@@ -12,10 +12,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from abu_calc.dynamics.effect import SwitchPoint
-from abu_calc.dynamics.motion import Array, Motion
+from abu_calc.dynamics.motion import Array, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.switching.sticking import AT_REST, HOLD
 from abu_calc.errors import NotTrustworthyError
+
+RUNAWAY = 1e3
+"""Balls this many times as fast as the rotor run away: they go on to infinite speed, in a moment."""
 
 
 @dataclass(frozen=True)
@@ -44,27 +47,27 @@ class Slip:
 class Contact(Protocol):
     """What is asked of a contact that can stop its rotor."""
 
-    @property
-    def stands(self) -> bool:
-        """Whether the wheel can stand on the work; a constraint normal to it leaves no room for another."""
-
     def slip(self, m: Motion, p: Parameters) -> Slip:
         """How the wheel's surface moves over the work."""
 
-    def most(self, m: Motion, mode: Any, p: Parameters) -> Any:
-        """f N [N]."""
+    def held(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> tuple[Any, Any]:
+        """T with which the work holds a wheel that stands, and the most it can, f N [N]."""
 
 
-def goes_on(mode: Cutting, speed: Any, spare: Any) -> Any:
-    """What stays at or above zero as long as the wheel slides on, or stands: relative numbers; 1 while apart."""
+def goes_on(mode: Cutting, speed: Any, held: Any, most: Any) -> list[Any]:
+    """What stays at or above zero as long as the wheel slides on, or stands, by relative numbers; 1 while apart."""
     slides, stands = mode.touching * mode.slides * mode.slides, mode.stands
-    return slides * mode.slides * speed + stands * (spare + HOLD) + (1 - slides - stands)
+    apart, most = 1 - slides - stands, (1 + HOLD) * most
+    return [
+        slides * mode.slides * speed + stands * (most - held) + apart,
+        stands * (most + held) + slides + apart,
+    ]
 
 
 def decided(at: SwitchPoint, mode: Cutting, contact: Contact) -> tuple[Array, Cutting]:
     """State and mode with which the rotor can go on; a wheel that comes to rest gets v = 0 exactly.
 
-    Raises NotTrustworthyError where it comes to rest and the contact cannot hold it.
+    Raises NotTrustworthyError where neither standing nor sliding is consistent.
     """
     if not mode.touching:
         return at.y, replace(mode, slides=1.0)
@@ -81,11 +84,11 @@ def decided(at: SwitchPoint, mode: Cutting, contact: Contact) -> tuple[Array, Cu
 
 def _from_rest(at: SwitchPoint, mode: Cutting, contact: Contact) -> Cutting:
     """Whether a wheel at rest stands, or which way it starts: the way in which it then goes."""
-    if contact.stands:
-        still = replace(mode, slides=0.0)
-        m, _, solved = at.solved(still)
-        if abs(solved.reaction) <= (1 + HOLD / 4) * contact.most(m, still, at.parameters):
-            return still
+    still = replace(mode, slides=0.0)
+    m, _, solved = at.solved(still)
+    held, most = contact.held(m, still, solved, at.parameters)
+    if abs(held) <= (1 + HOLD / 4) * most:
+        return still
     for slides in (1.0, -1.0):
         starts = replace(mode, slides=slides)
         m, _, solved = at.solved(starts)
@@ -93,6 +96,30 @@ def _from_rest(at: SwitchPoint, mode: Cutting, contact: Contact) -> Cutting:
         if slides * at.parameters.speed * (slip.row.dot(solved.frame) - slip.turned) > 0:
             return starts
     raise NotTrustworthyError(
-        f"the rotor comes to rest on the work at t = {at.t:.6g} s, where a rigid contact does not say what holds it\n"
-        "  give the contact a stiffness, a stronger motor, or a shorter run"
+        f"at t = {at.t:.6g} s a wheel at rest can neither stand on the work nor slide: the rigid contact pulls\n"
+        "  give the contact a stiffness, or press harder"
     )
+
+
+def inside(depth: float, deeper: float, ever: float, near: float) -> bool:
+    """Whether depth + deeper t + ½ ever t² counts as inside: by its sign, or where that is nothing by what follows.
+
+    An excursion that stays nothing is none, so that a graze is not entered.
+    """
+    if abs(depth) > near:
+        return depth > 0
+    if deeper * ever < 0:
+        return (depth - deeper**2 / (2 * ever) > near) if deeper > 0 else (depth - deeper**2 / (2 * ever) > -near)
+    return (deeper or ever) >= 0
+
+
+def check_speeds(at: SwitchPoint) -> None:
+    """Refuse balls that run away."""
+    p, first = at.parameters, 2 * at.parameters.size + at.parameters.balls
+    fast = np.abs(at.y[first : first + p.balls]) / p.speed
+    if np.linalg.norm(fast) > 0.999 * RUNAWAY:
+        raise NotTrustworthyError(
+            f"ball {int(fast.argmax()) + 1} runs away at t = {at.t:.6g} s: a rigid contact cannot part, and its "
+            "cutting force T = f N feeds the balls\n"
+            "  give the race more drag or the contact a stiffness, or lower the cutting coefficient"
+        )

@@ -1,0 +1,109 @@
+"""What one run of a machine says of the limits in its file."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final
+
+from abu_calc.analysis.ensemble import SLIPPING, allowed_imbalance
+from abu_calc.analysis.response import Response
+from abu_calc.check_codes import CHECK_CODES
+from abu_calc.checks import Check, coded, overall, verdict
+from abu_calc.scenes.from_design import running_up
+from abu_calc.sizing.budget import displacement_level
+from abu_calc.sizing.design import Design
+from abu_calc.units import from_si
+
+HELD: Final = frozenset({"idle", "run-up", "grinding"})
+"""Scenes of a machine that is held where its handles are; on a swing arm it is not."""
+LIMITED: Final = frozenset({"idle", "run-up"})
+"""Scenes that the limits of a file are for; under load a level is information."""
+LAST: Final = 0.95
+"""Share of a run by which balls must have settled to count as settled."""
+
+
+@dataclass(frozen=True)
+class PlaceLevel:
+    """Simulated velocity level [dB] at a handle, or in the wheel plane where the file names none."""
+
+    name: str
+    level: float
+
+
+def levels_at_places(design: Design, response: Response) -> tuple[PlaceLevel, ...]:
+    """Levels where the machine is held: what the race plane does, carried there as by a free rigid body.
+
+    What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
+    background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
+    """
+    if response.scene not in HELD:
+        return ()
+    case, added = design.case, design.autobalancer.mass
+    body, race = case.body, case.race_place
+    swing = math.sqrt(2) * response.velocity_rms / case.speed / body.inertance(race, race, added)
+    imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
+
+    def level(place: float) -> float:
+        at_race, at_wheel = body.inertance(place, race, added), body.inertance(place, body.wheel, added)
+        displacement = math.hypot(swing * at_race, imbalance * at_wheel - balls * at_race)
+        return displacement_level(displacement, case.speed, case.background_level)
+
+    places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", body.wheel)]
+    return tuple(PlaceLevel(name, level(place)) for name, place in places)
+
+
+def one_run_checks(
+    design: Design, response: Response, start: str, error: float = 0.0, *, asked: bool = False
+) -> tuple[Check, ...]:
+    """Whether the balls balance, soon enough, and the level is kept: for the scenes that idle at full speed.
+
+    `start`: how the balls began, in words; `error`: of the run, relative; `asked`: its duration was asked for: where it
+    ends too soon to tell, the checks are not done. After a run-up settling counts from full speed.
+    """
+    if response.scene not in LIMITED:
+        return ()
+    ramp = running_up(design) if response.scene == "run-up" else 0.0
+    limit, settled = design.case.table.limits.settling_time_s, response.settling_time
+    since = replace(response, settling_time=None if settled is None else max(0.0, settled - ramp))
+    counted = f"{start}; counted from full speed, after {ramp:.3g} s" if ramp else start
+    checks = (*_balancing(design, since, f"from {counted}"), _level(design, response, error))
+    if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
+        reason = f"the run ends after {response.duration:.3g} s, before the limit of the settling time"
+        remedy = "A longer run (--duration, Python: duration_s=)."
+        return tuple(coded(check.code, "not-done", reason, remedy=remedy) for check in checks)
+    return checks
+
+
+def _balancing(design: Design, response: Response, start: str) -> tuple[Check, ...]:
+    """That the balls balance, and soon enough; not done where, side by side, they cannot carry the imbalance."""
+    one, limit = design.autobalancer, design.case.table.limits.settling_time_s
+    moved = design.imbalance.value * abs(one.requirement.plane_ratio)
+    if one.capacity < moved:
+        reason = "the balls cannot carry the imbalance side by side"
+        return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in ("ABU701", "ABU702"))
+    left, allowed, time = response.residual_imbalance, allowed_imbalance(design, moved), response.settling_time
+    slips = max(map(abs, response.final.ball_speeds), default=0.0) > SLIPPING * abs(response.final.speed)
+    balanced = left <= allowed and not slips
+    message = "imbalance left: the balls end opposite the imbalance"
+    if slips:
+        message = "imbalance left: the balls hang, they keep going round behind the rotor"
+    elif not balanced:
+        word = "make it worse, they gather on the heavy side" if left > moved else "help, but do not balance"
+        message = f"imbalance left: the balls {word}"
+    soon = balanced and time is not None and time <= limit
+    remedy = None if balanced and soon else "abu size tries what helps."
+    return (
+        coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm", remedy),
+        coded("ABU702", verdict(soon), start if balanced else "settled where it does not balance", time, limit, "s",
+              remedy),
+    )  # fmt: skip
+
+
+def _level(design: Design, response: Response, error: float) -> Check:
+    """The loudest place against the limit; a warning where the error of the run leaves it open."""
+    loudest, limit = max(levels_at_places(design, response), key=lambda one: one.level), design.case.level_limit
+    passed, safe = loudest.level <= limit, loudest.level + 20 * math.log10(1 + error) <= limit
+    message = f"at the end of this run, {loudest.name}"
+    if passed and not safe:
+        message += f"; its error of {error:.2g} leaves it open"
+    remedy = None if passed and safe else CHECK_CODES["ABU401"].remedy if not passed else "Ask for more accuracy."
+    return coded("ABU401", verdict(passed, safe), message, loudest.level, limit, "dB", remedy)

@@ -1,0 +1,34 @@
+"""The report of `abu check-fit` on one screen: each seat in a line."""
+
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.numbers import number
+from abu_calc.report.screen import one_screen, verdict_line
+from abu_calc.studies.check_fit import CheckFitResult
+from abu_calc.studies.seat_records import SeatResult
+
+SIGN = (
+    "Tight by: interference from the loosest to the tightest pair, negative when loose; at least what the ring needs, "
+    "at most what is permitted."
+)
+NO_GRIP = "needs no grip"
+
+
+def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
+    """The one screen."""
+    about: list[Block] = [Heading(f"Bearing seats: {result.title}"), verdict_line(result)]
+    header = ("bearing", "seat", "field", "tight by, µm", "at least", "at most", "write")
+    body: list[Block] = [Grid(header, tuple(map(_row, result.seats)), frozenset({4, 5})), Paragraph(SIGN)]
+    return one_screen(result, about, body, ("--explain, every formula with its numbers",))
+
+
+def _row(seat: SeatResult) -> tuple[str, ...]:
+    low, high = seat.interference_um
+    needed = "no grip" if seat.creep.verdict == NO_GRIP else _um(seat.required_interference_um)
+    return (
+        seat.name if seat.seat == "shaft" else "", seat.seat, seat.fit, f"{low:.4g} … {high:.4g}",
+        needed, _um(seat.permitted_interference_um), seat.recommended_fit or "–",
+    )  # fmt: skip
+
+
+def _um(value: float | None) -> str:
+    return "–" if value is None else number(value, 3)

@@ -1,0 +1,145 @@
+"""A report on one screen: verdict, what it is about, what failed or warns with remedies, the numbers that matter, where
+to look next. What there is no room for is counted, never left out in silence.
+"""
+
+from bisect import bisect_right
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Final
+
+from abu_calc.checks import Check, Status
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.parts import reason, unlike, warning_lines
+from abu_calc.report.text import height
+from abu_calc.studies.result import Result
+
+LINES: Final = 48
+"""At 80 columns."""
+LEAST: Final = 8
+"""Lines kept for the warnings and for the body, where others ask for all."""
+BLANK: Final[Block] = Paragraph("")
+ELSEWHERE: Final = frozenset({"Checks", "Warnings", "Defaults used (not in the file)", "Conventions", "Provenance"})
+"""Sections of a whole report that a screen words in its own way, or leaves to it."""
+WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
+
+
+def one_screen(
+    result: Result, about: Sequence[Block], body: Sequence[Block] = (), more: Sequence[str] = ()
+) -> tuple[Block, ...]:
+    """`about`: title, verdict, the thing in a line; `body`: its numbers; `more`: further places to look.
+
+    First come the checks that did not pass, then the body, then the warnings; each as far as there is room.
+    """
+    passed = [Paragraph(_passed(result.checks))] if result.checks else []
+    last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
+    warnings, groups = warning_lines(result.warnings), unlike(result.checks)
+    room = LINES - height([*about, *last])
+    kept = min(2 + height(warnings), LEAST) if warnings else 0
+    taken = room - kept - min(1 + height(body), LEAST)
+    told = _fitted([reason(alike) for alike in groups], list(map(len, groups)), taken, "check")
+    room -= height(told)
+    shown = cut(body, room - kept - 1)
+    parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
+    rest = _fitted(warnings, [1] * len(warnings), room - height([BLANK, *shown]) - 2, "warning")
+    below: list[Block] = [Heading("Warnings"), *rest] if rest else []
+    return (*about, *told, *parted, *below, *last)
+
+
+def _fitted(lines: Sequence[Paragraph], counts: Sequence[int], room: int, name: str) -> list[Paragraph]:
+    """As many as there is room for, the rest as a count; `counts`: of how many things each tells."""
+    if height(lines) <= room:
+        return list(lines)
+    fit = max(bisect_right(range(len(lines)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
+    return [*lines[:fit], Paragraph(f"And {many(sum(counts[fit:]), f'more {name}')}: --full.")] if lines else []
+
+
+def cut(blocks: Sequence[Block], room: int) -> list[Block]:
+    """Blocks as far as there is room for them, of tables the first rows; then a line that says so."""
+    if height(blocks) <= room:
+        return list(blocks)
+    kept: list[Block] = []
+    for block in blocks:
+        kept += _what_fits(block, kept, room - 1)
+    ended: list[Block] = [*kept, Heading("")]
+    empty = [isinstance(one, Heading) and isinstance(below, Heading) for one, below in pairwise(ended)]
+    return [*(one for one, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]
+
+
+def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
+    """A block, the first rows of a table, or nothing; a heading where some lines fit below it."""
+    lines = [BLANK] * 3 if isinstance(block, Heading) else []
+    if height([*above, block, *lines]) <= room:
+        return [block]
+    if not isinstance(block, Grid):
+        return []
+    parts = [block._replace(rows=block.rows[:count]) for count in range(len(block.rows))]
+    fitting = bisect_right(parts, room - 1, key=lambda part: height([*above, part]))
+    more = many(len(block.rows) - fitting + 1, "more row")
+    return [parts[fitting - 1], Paragraph(f"And {more}: --full.")] if fitting > 1 else []
+
+
+def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
+    """PASS, FAIL or NOT DONE, and how many checks and warnings stand behind the word.
+
+    `unjudged`: what to say in place of PASS where nothing was judged that the word could stand for.
+    """
+    count, total = Counter(check.status for check in result.checks), many(len(result.checks), "check")
+    warned = [many(number, "warning")] if (number := count["warn"] + len(result.warnings)) else []
+    if result.status == "pass":
+        text = "; ".join([unjudged, *warned]) if unjudged else " with ".join(["PASS", *warned])
+        return Paragraph(text, "warn" if count["warn"] else None if unjudged else "pass")
+    failed = [f"{count['fail']} of {total} failed"] if count["fail"] else []
+    missing = f"{count['not-done']} not done" if failed else f"{count['not-done']} of {total} not done"
+    found = [*failed, *([missing] if count["not-done"] else []), *warned]
+    return Paragraph(f"{WORDS[result.status]}: {', '.join(found or ['there are no checks'])}", result.status)
+
+
+def many(count: int, name: str, plural: str | None = None) -> str:
+    """So many of something.
+
+    >>> many(1, "check"), many(2, "entry", "entries")
+    ('1 check', '2 entries')
+    """
+    return f"{count} {name if count == 1 else plural or f'{name}s'}"
+
+
+def _passed(checks: Iterable[Check]) -> str:
+    """The codes of the checks that passed, in a line; how often, where several things were checked."""
+    codes = Counter(check.code for check in checks if check.status == "pass")
+    names = [code if times == 1 else f"{code} ({times})" for code, times in sorted(codes.items())]
+    short = [name if k == 0 else name.removeprefix("ABU") for k, name in enumerate(names)]
+    return f"Passed: {' '.join(short) or 'none'}."
+
+
+def _next(result: Result, more: Sequence[str]) -> str:
+    """Where to look, and what is needed to come here again."""
+    source, codes = result.provenance, [check.code for check in result.checks if check.status != "pass"]
+    codes = codes or [check.code for check in result.checks]
+    asked = [f"`abu explain {codes[0]}`, what a check asks"] if codes else []
+    defaults = [f"{many(len(source.defaults), 'default')} in force"] if source.defaults else []
+    replaced = [f"{many(len(source.overrides), 'entry', 'entries')} replaced"] if source.overrides else []
+    within = f" ({', '.join([*defaults, *replaced])})" if defaults or replaced else ""
+    return f"More: {'; '.join([f'--full, the whole report{within}', *more, *asked])}."
+
+
+def shortened(
+    result: Result, whole: Sequence[Block], *left_out: str, head: int = 2, more: Sequence[str] = ()
+) -> tuple[Block, ...]:
+    """A whole report on one screen: its title and verdict, and the sections that are not worded in another way here.
+
+    `left_out`: titles of further sections that are left to the whole report; `head`: blocks that are never cut.
+    """
+    first, *others = sections(whole)
+    kept = [part for part in others if isinstance(part[0], Heading) and part[0].text not in ELSEWHERE | set(left_out)]
+    return one_screen(result, first[:head], [*first[head:], *(block for part in kept for block in part)], more)
+
+
+def sections(blocks: Iterable[Block]) -> list[list[Block]]:
+    """A heading with what stands below it, one after another."""
+    found: list[list[Block]] = []
+    for block in blocks:
+        if isinstance(block, Heading) or not found:
+            found.append([])
+        found[-1].append(block)
+    return found

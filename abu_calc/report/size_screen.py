@@ -1,0 +1,94 @@
+"""The report of `abu size` on one screen, and the lines with which the whole one begins."""
+
+import math
+from typing import NamedTuple
+
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.numbers import number
+from abu_calc.report.parts import limit_in_file
+from abu_calc.report.screen import BLANK, one_screen, verdict_line
+from abu_calc.studies.design_records import Autobalancer, Vibration
+from abu_calc.studies.ensemble_records import EnsembleResult
+from abu_calc.studies.size import SizeResult
+
+MORE = ("--explain, every formula with its numbers",)
+
+
+class Spread(NamedTuple):
+    """A number as one run or the typical one has it, and the worst of many, if there were many."""
+
+    typical: float | None
+    worst: float | None = None
+
+
+def size_screen(result: SizeResult) -> tuple[Block, ...]:
+    """The one screen."""
+    return one_screen(result, about(result), numbers_that_matter(result)[1:], MORE)
+
+
+def about(result: SizeResult) -> list[Block]:
+    """Title, verdict, the design in a line."""
+    one = result.autobalancer
+    housing = f"{one.housing.split(':')[0]} housing Ø{number(one.outer_diameter_mm, 3)} × {number(one.width_mm, 3)} mm"
+    best = "" if result.status == "pass" else "Best that was found: "
+    line = f"{best}{balls(one)} {one.ball_material} {one.corrector}s, race R {one.race_radius_mm:g} mm, {housing}."
+    return [Heading(result.title), verdict_line(result), Paragraph(line)]
+
+
+def balls(one: Autobalancer) -> str:
+    """Count and size, inch sizes to the micrometre."""
+    return f"{one.ball_count} × Ø{round(one.ball_diameter_mm, 3):g} mm"
+
+
+def numbers_that_matter(result: SizeResult) -> list[Block]:
+    """Level without and with the autobalancer, settling, mass; each with its limit, and what many starts came to."""
+    many = result.ensemble
+    if many is None:
+        return [BLANK, _table(result, Spread(result.vibration.level_after_db), Spread(None))]
+    told = many.level_db.worst, result.vibration.level_after_db
+    level = Spread(many.level_db.typical, max((one for one in told if one is not None), default=None))
+    found = many.settling_time_s
+    settling = Spread(found.typical, math.inf if found.worst is None else found.worst)
+    return [BLANK, _table(result, level, settling), Paragraph(_starts(many))]
+
+
+def _starts(many: EnsembleResult) -> str:
+    """How many starts there were, and which was worst."""
+    text = f"Of {many.members} starts, with the drag given, a third and three times of it, {many.balanced} balance"
+    worst = many.worst_member
+    return f"{text}; worst: {worst.start}, drag {number(worst.drag_per_s, 3)} 1/s." if worst else f"{text}."
+
+
+def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
+    """The worst stand beside the typical ones where many runs were made."""
+    one, limits = result.autobalancer, {check.code: check for check in result.checks}
+    rows = (
+        (f"idle level, {_place(result.vibration)}", _db(result.vibration.level_before_db),
+         _db(level.typical) or "not known", _db(level.worst), limit_in_file(limits.get("ABU401"))),
+        ("settling time", "", _seconds(settling.typical) or "none", _seconds(settling.worst),
+         limit_in_file(limits.get("ABU702"))),
+        ("mass with balls", "", f"{number(one.mass_g, 3)} g", "",
+         f"{number(100 * one.mass_fraction, 2)} %, {limit_in_file(limits.get('ABU203'))}".removesuffix(", ")),
+    )  # fmt: skip
+    header = ("", "without", "with", "worst", "limit")
+    if level.worst is None and settling.worst is None:
+        return Grid((*header[:3], header[4]), tuple((*row[:3], row[4]) for row in rows), frozenset({1, 2}))
+    return Grid(header, rows, frozenset({1, 2, 3}))
+
+
+def _place(vibration: Vibration) -> str:
+    """Where the level is: of several places the loudest."""
+    after = vibration.level_after_db
+    known = [one.name for one in vibration.handles if (one.level_before_db if after is None else one.level_after_db)
+             == (vibration.level_before_db if after is None else after)]  # fmt: skip
+    return known[0] if known else "loudest place"
+
+
+def _db(level: float | None) -> str:
+    return "" if level is None else f"{level:.1f} dB"
+
+
+def _seconds(time: float | None) -> str:
+    if time is None:
+        return ""
+    return f"{number(time, 2)} s" if math.isfinite(time) else "never"
