@@ -202,6 +202,10 @@ class Effect:
 
     # Modes.
 
+    def switching(self, scene: Circumstances) -> bool:
+        """Whether it has modes that the state may end, in this scene."""
+        return self.switches
+
     def first_mode(self, scene: Circumstances) -> Any:
         """How it acts at first, before the modes of all effects are settled; None where there is one way only."""
         return None

@@ -193,6 +193,16 @@ def test_balls_go_on_in_a_rotor_that_stands_and_it_is_told():
     assert simulate(driven).warnings == ()
 
 
+def test_a_rotor_that_never_starts_leaves_balls_with_dry_friction_at_rest():
+    """Nothing presses them, so friction holds nothing, and nothing but rounding pulls."""
+    race = Race(0.03, (0.0167,) * 3, 8.0, 1.4, (0.5, 1.7, 2.9), (0.0,) * 3, ball_radius=0.008)
+    balls = BallContact(0.008, 0.5), DryRollingFriction(2e-6, 0.008)
+    scene = cutting(RunUp(0.1), Motor(0.8, NO_LOAD, INERTIA), contact("face"), *balls, races=(race,), duration=1.0)
+    run = simulate(replace(scene, imbalance=1e-4))
+    assert run.response.final.ball_angles == pytest.approx(race.start_angles, abs=1e-9)
+    assert run.response.final.speed == pytest.approx(0.0, abs=1e-9)
+
+
 # A rigid contact that would have to pull
 
 

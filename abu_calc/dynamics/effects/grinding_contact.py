@@ -75,6 +75,7 @@ class GrindingContact(Effect):
     name: ClassVar[str] = "grinding_contact"
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = "Grinding contact: the wheel is pressed to the work on the −y side, where it cuts"
+    switches: ClassVar[bool] = True
     whole_run: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
@@ -87,25 +88,23 @@ class GrindingContact(Effect):
         if self.rotation_sense not in (-1, 1):
             raise InputError("rotation sense", found=str(self.rotation_sense), allowed="-1, 1")
 
-    @property
-    def switches(self) -> bool:  # type: ignore[override]
+    def switching(self, scene: Circumstances) -> bool:
         """Wheel and work part where the contact is compliant; where it is rigid, balls may run away; rotors stop."""
-        return self.contact != "face" or self._brakes
+        return self.contact != "face" or self._may_stop(scene)
 
     @property
     def drag(self) -> float:
         """s f: T per N."""
         return self.rotation_sense * self.cutting_coefficient
 
-    @property
-    def _brakes(self) -> bool:
-        """Whether cutting brakes a driven rotor, so that it may stop it."""
-        return self.drag < 0 and self.wheel_radius > 0
+    def _may_stop(self, scene: Circumstances) -> bool:
+        """Whether cutting brakes a rotor that a torque drives."""
+        return self.drag < 0 and self.wheel_radius > 0 and bool(scene.rotor.rows)
 
     def first_mode(self, scene: Circumstances) -> Any:
         """Touching, and sliding where that may change; raises InputError on supports that have no such contact."""
         self._row(scene)
-        if self._brakes and scene.rotor.rows:
+        if self._may_stop(scene):
             return Cutting()
         return TOUCHING if self.contact == "compliant" else None
 
@@ -280,8 +279,8 @@ class GrindingContact(Effect):
 
     def _stops(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """That cutting has stopped the rotor before anything switched its motor off."""
-        p, scene = equations.parameters, equations.scene
-        if not isinstance(equations.first_modes[p.effects.index(self)], Cutting) or scene.run_down:
+        scene = equations.scene
+        if not self._may_stop(scene) or scene.run_down:
             return ()
         _, speeds = scene.rotor.turning(samples.t, samples.y, scene.speed)
         moves = np.flatnonzero(np.abs(speeds) > STOPPED * scene.speed)

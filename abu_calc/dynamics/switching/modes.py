@@ -32,7 +32,7 @@ def settled(equations: Equations, t: float, y: NDArray[np.float64], modes: Modes
 
     Raises NotTrustworthyError when they never do.
     """
-    deciding = [index for index, effect in enumerate(equations.scene.effects) if effect.switches]
+    deciding = [index for index, effect in enumerate(equations.scene.effects) if effect.switching(equations.scene)]
     agreed = 0
     for turn in range(MOST_ROUNDS * len(deciding)):
         index = deciding[turn % len(deciding)]
@@ -61,4 +61,4 @@ def watched(t: float, y: Any, acting: Acting, xp: Any = np) -> list[Any]:
 
 def watches(equations: Equations) -> bool:
     """Whether any effect has modes that the state may end."""
-    return any(effect.switches for effect in equations.scene.effects)
+    return any(effect.switching(equations.scene) for effect in equations.scene.effects)

@@ -27,6 +27,9 @@ SLOW = 1e-6
 that overcomes friction, and may stick again at half of it: at rest it has no direction. Less where drag would stop it:
 then with the speed at which drag takes what friction leaves over, at least 1e-6 of it."""
 
+AT_ALL = 1e-9
+"""What friction holds of f m R_p Ω² at least, where the rotor may stand: with nothing pressed, rounding pulls."""
+
 CROSSES = 1e-7
 """A ball changes sides when pulled from one with this much of m R_p Ω², so that it changes with certainty."""
 
@@ -55,6 +58,8 @@ def forces(f: Any, m: Motion, mode: Rolling, loads: Loads, solved: Solved, p: Pa
     """
     masses = m.static_moments / p.radii
     pull, most = masses * solved.left, f * masses * (mode.side * solved.normal)
+    if p.rotor.rows:
+        most = most + AT_ALL * f * masses * p.radii * p.speed**2
     aside = 0.0 * pull if loads.across is None else masses * solved.across_left
     if loads.mates is None:
         return pull, aside, most
