@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from abu_calc.dynamics.balanced.stability import Boundary, boundaries, stability
+from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.scenes.from_design import contact_half_angle, idle_scene
 from abu_calc.sizing.design import Design

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.analysis.region import TrueRegion
-from abu_calc.dynamics.balanced.stability import Boundary as SpeedLimit
+from abu_calc.dynamics.balanced.boundaries import Boundary as SpeedLimit
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design

@@ -3,7 +3,8 @@
 from typing import Annotated, ClassVar, Final
 
 from abu_calc.checks import Check, verdict
-from abu_calc.dynamics.balanced.stability import Boundary, Stability, boundaries, critical_damping
+from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries
+from abu_calc.dynamics.balanced.stability import Stability, critical_damping
 from abu_calc.dynamics.balanced.stability import stability as judged
 from abu_calc.errors import InputError, Place
 from abu_calc.studies.arguments import checked, one_of
