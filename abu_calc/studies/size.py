@@ -64,7 +64,7 @@ def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) 
         design = size_design(tables)
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
-    checks = (*design.checks, *(not_simulated(failure.scene, failure.reason) for failure in failures))
+    checks = (*design.checks, region.check, *(not_simulated(failure.scene, failure.reason) for failure in failures))
     for run in runs:
         if run.ledger.scene.name == "idle":
             checks += idle_checks(design, run.simulation.response)
@@ -74,7 +74,7 @@ def size(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) 
     return SizeResult(
         title=tables.machine.name,
         checks=checks,
-        warnings=(*machine.warnings, *design.warnings, *region.warnings, *remarks),
+        warnings=(*machine.warnings, *design.warnings, *remarks),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,

@@ -35,6 +35,9 @@ MOST_STATES: Final = 16
 REAL: Final = 1e-4
 """A solution for the speed whose imaginary part is a smaller share than this may be one of a close pair."""
 
+FINE, ROUGH = 1e-13, 1e-6
+"""How near zeros are found, and where that must not take long; relative."""
+
 NARROW: Final = 1e-9
 """Relative; speeds as near as this are one."""
 
@@ -97,9 +100,8 @@ def _on_grid(
 ) -> tuple[Boundary, ...]:
     if coarse:
         points = [(speed, excess(speed)) for speed in grid_of(scene, low, high, COARSE, FEW)]
-    else:
-        points = _refined(excess, grid_of(scene, low, high, GRID, MANY))
-    return tuple(_changes(excess, points))
+        return tuple(_changes(excess, points, ROUGH))
+    return tuple(_changes(excess, _refined(excess, grid_of(scene, low, high, GRID, MANY))))
 
 
 def quick(motions: Sequence[BalancedMotion]) -> tuple[Motion, ...]:
@@ -112,7 +114,7 @@ def quick(motions: Sequence[BalancedMotion]) -> tuple[Motion, ...]:
 
 def excess_of(motions: Sequence[Motion], speed: float) -> float:
     """The largest growth rate per radian, beyond what is taken for none."""
-    return max(decided(motion, speed).growth(speed) for motion in motions) / speed + MARGIN
+    return max(decided(motion, speed)[1] for motion in motions) / speed + MARGIN
 
 
 @dataclass(frozen=True)
@@ -263,12 +265,12 @@ def _extremes(function: Callable[[float], float], points: Points) -> Points:
     return found
 
 
-def _changes(function: Callable[[float], float], points: Points) -> list[Boundary]:
-    """Zeros of the function between points of opposite sign."""
+def _changes(function: Callable[[float], float], points: Points, near: float = FINE) -> list[Boundary]:
+    """Zeros of the function between points of opposite sign, as near as that (relative)."""
     from scipy.optimize import brentq
 
     return [
-        Boundary(float(brentq(function, low, high, xtol=1e-13 * high, rtol=1e-13)), stable_above=after < 0)
+        Boundary(float(brentq(function, low, high, xtol=near * high, rtol=near)), stable_above=after < 0)
         for (low, before), (high, after) in pairwise(points)
         if (before < 0) != (after < 0)
     ]

@@ -5,6 +5,7 @@ support; Kovalenko 2010, (17)–(24), for a swing arm. Printed: Kladiev 1996, (7
 frequency; that does not suffice.
 """
 
+import math
 from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeVar
 
@@ -79,24 +80,26 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
 
 def worst(motions: tuple[BalancedMotion, ...], speed: float) -> BalancedMotion:
     """The one that dies out most slowly; of those alike the first."""
-    found = [(decided(motion, speed), k) for k, motion in enumerate(motions)]
-    if len(found) == 1:
-        return found[0][0]
-    rates = [motion.growth(speed) for motion, _ in found]
-    best = 0
-    for k, rate in enumerate(rates):
-        if rate > rates[best] + MARGIN * speed:
-            best = k
-    return found[best][0]
+    if len(motions) == 1:
+        return decided(motions[0], speed)[0]
+    best, most = motions[0], -math.inf
+    for motion in motions:
+        one, growth = decided(motion, speed)
+        if growth > most + MARGIN * speed:
+            best, most = one, growth
+    return best
 
 
-def decided(motion: Motion, speed: float) -> Motion:
-    """The motion itself, or where rounding would decide that of balls on one line.
+def decided(motion: Motion, speed: float) -> tuple[Motion, float]:
+    """The motion itself, or where rounding would decide that of balls on one line; and its growth rate [1/s].
 
     Balls that stand all but on one line come back along it next to not at all, by the square of what they lack: less
     than rounding. As the support pushes them back exactly where it pushes back those on the line, these decide.
     """
-    return motion.on_one_line if abs(motion.growth(speed)) <= UNDECIDED * speed else motion
+    growth = motion.growth(speed)
+    if abs(growth) > UNDECIDED * speed or motion.on_one_line is motion:
+        return motion, growth
+    return motion.on_one_line, motion.on_one_line.growth(speed)
 
 
 def critical_damping(scene: Scene) -> float | None:
