@@ -25,9 +25,16 @@ from abu_calc.dynamics.balanced.linearised import QUARTER, WIDE_SPAN, BalancedMo
 from abu_calc.dynamics.support import SmallMotion
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 ALIKE: Final = 1e-12
 """Relative; what differs by less along x and y is the same."""
+
+PHASES: Final = 64
+"""Of half a turn, at which what is felt of the support is looked at."""
+
+SPEEDS: Final = (0.5, 1.0, 2.0)
+"""Shares of the unit at which A is taken: it is a polynomial of the second degree in the speed."""
 
 ONE_LINE: Final = 1e-9
 """1 − χ of balls that stand on one line: the second mode is neutral then."""
@@ -76,13 +83,19 @@ class TwoModes:
 
     def polynomial(self) -> Array:
         """L₀, L₁, L₂ of A = (L₀ + L₁x + L₂x²)/x on an isotropic support, x the speed over `unit`, time in 1/Ω."""
-        values = np.array([self._scaled(np.zeros(1), W, self.unit)[0] for W in (0.0, self.unit, 2 * self.unit)])
-        inverse = np.linalg.inv(np.vander((0.0, 1.0, 2.0), increasing=True))
-        return np.asarray(np.tensordot(inverse, values, axes=1), dtype=float)
+        return np.asarray(self._parts[:, 0].real, dtype=float)
 
     @cached_property
-    def _polynomial(self) -> Array:
-        return self.polynomial()
+    def _parts(self) -> Complex:
+        """[degree, harmonic, row, column] of A with time in 1/unit: that of e^{2ikφ}, φ the turn, as Re Σ."""
+        phases = np.zeros(1) if self.isotropic else math.pi * np.arange(PHASES) / PHASES
+        values = np.array([self._scaled(phases, x * self.unit) for x in SPEEDS])
+        terms = np.fft.rfft(values, axis=1) / len(phases)
+        terms[:, 1:] *= 2
+        sizes = np.abs(terms).max(axis=(0, 2, 3))
+        last = int(np.flatnonzero(sizes > ALIKE * sizes[0])[-1])
+        inverse = np.linalg.inv(np.vander(SPEEDS, increasing=True))
+        return np.asarray(np.tensordot(inverse, terms[:, : last + 1], axes=1), dtype=complex)
 
     def growth(self, speed: float) -> float:
         """Growth rate of the slowest-dying disturbance at Ω [1/s]: the largest Re λ, or ln|μ|/T over a revolution T."""
@@ -94,22 +107,23 @@ class TwoModes:
 
     def _rates(self, speed: float) -> Array:
         """Of all."""
+        x = speed / self.unit
+        terms = np.tensordot((1.0, x, x * x), self._parts, axes=1)
         if self.isotropic:
-            x = speed / self.unit
-            A = np.tensordot((1.0, x, x * x), self._polynomial, axes=1)
-            return np.asarray(np.linalg.eigvals(A).real * self.unit, dtype=float)
+            return np.asarray(np.linalg.eigvals(terms[0].real).real * self.unit, dtype=float)
+        orders = 2j * np.arange(len(terms))
 
         def matrices(phases: Array) -> Array:
-            return self._scaled(phases, speed, speed)
+            return np.asarray(np.einsum("tk,kij->tij", np.exp(phases[:, None] * orders), terms).real / x, dtype=float)
 
         # Seen from the rotor, half a turn later all is the same.
         found = np.abs(floquet.multipliers(matrices, math.pi, np.eye(self.states)))
         return np.asarray(np.log(np.maximum(found, np.finfo(float).tiny)) * speed / math.pi, dtype=float)
 
-    def _scaled(self, phases: Array, speed: float, unit: float) -> Array:
+    def _scaled(self, phases: Array, speed: float) -> Array:
         """A with time in 1/unit."""
-        scale = np.repeat((1.0, unit), self.states // 2)
-        return np.asarray(self._matrices(phases, speed) * scale / scale[:, None] / unit, dtype=float)
+        scale = np.repeat((1.0, self.unit), self.states // 2)
+        return np.asarray(self._matrices(phases, speed) * scale / scale[:, None] / self.unit, dtype=float)
 
     @property
     def _spin(self) -> Array:
