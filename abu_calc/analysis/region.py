@@ -85,7 +85,9 @@ def _check(design: Design, motions: Sequence[Motion], limits: Sequence[Boundary]
         message = f"every small disturbance dies out, {where}, in the worst arrangement that balances"
     else:
         message = f"not every small disturbance dies out at {rpm}, in the worst arrangement that balances"
-    return coded("ABU103", verdict(stable), message, rates[worst], 0.0, "1/s", None if stable else _remedy(limits, high))
+    return coded(
+        "ABU103", verdict(stable), message, rates[worst], 0.0, "1/s", None if stable else _remedy(limits, high)
+    )
 
 
 def _remedy(limits: Sequence[Boundary], high: float) -> str:

@@ -85,7 +85,7 @@ def zones(frequencies: tuple[float, float]) -> tuple[tuple[float, float] | None,
 
 
 def frequency_region(case: Case, ball_mass: float, added_mass: float) -> FrequencyRegion:
-    """Whether light balls balance over the whole speed range, with the mass of the autobalancer and the same springs."""
+    """Whether light balls balance over the whole speed range, with the mass of the autobalancer added."""
     mass = case.body.effective_mass(added_mass)
     frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
     between, above = zones(frequencies)

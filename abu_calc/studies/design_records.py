@@ -52,7 +52,10 @@ class Frequency(Record):
     region: Annotated[str, Quantity("region")]
     balancing_possible: Annotated[bool, Quantity("balancing possible")]
     finite_mass_gap: Annotated[float, Quantity("finite-mass gap", "(2m/JM)^⅓", 3)]
-    stable: Annotated[bool | None, Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed, in the worst arrangement")]
+    stable: Annotated[
+        bool | None,
+        Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed, in the worst arrangement"),
+    ]
     stability_boundaries_rpm: tuple[StabilityBoundary, ...] | None
     modes: tuple[Mode, ...]
     hanging_drag_per_s: Annotated[

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from abu_calc.dynamics.balanced.boundaries import boundaries, crossings
 from abu_calc.dynamics.balanced.floquet import magnus, multipliers
 from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import resting_angles
-from abu_calc.dynamics.balanced.boundaries import boundaries, crossings
 from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian

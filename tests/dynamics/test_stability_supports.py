@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from abu_calc.dynamics.balanced.boundaries import boundaries
 from abu_calc.dynamics.balanced.floquet import multipliers
 from abu_calc.dynamics.balanced.linearised import BalancedMotion
 from abu_calc.dynamics.balanced.resting import Rest, resting_state
-from abu_calc.dynamics.balanced.boundaries import boundaries
 from abu_calc.dynamics.balanced.stability import critical_damping, stability
 from abu_calc.dynamics.balanced.stationary import NotKnownError
 from abu_calc.dynamics.effects.gravity import Gravity

@@ -73,6 +73,7 @@ def boundaries(
     if not found and not moves:
         return ()
     if moves:
+
         def excess(speed: float) -> float:
             there = judged(at_speed(scene, speed), half_angle, arrangement)[1]
             return excess_of(there, speed) if there else 1.0

@@ -77,7 +77,7 @@ def hanging_bounds(
 def _bounds(scene: Scene, race: Race, half_angle: float, speed: float, *, weight: bool) -> HangingBounds:
     """At one speed of the rotor, of one race."""
     support = scene.support.small_motion(speed).carrying(scene.balls)
-    rates = np.linalg.eigvals(support.motion)
+    rates = np.asarray(np.linalg.eigvals(support.motion), dtype=complex)
     natural = _natural(support, rates, speed)
     found = _at_a_resonance(_driven(scene, race, half_angle), support, rates, natural, speed)
     sizes = np.abs(rates)
@@ -142,7 +142,7 @@ def _lost(driven: Driven, support: SmallMotion, frequencies: Array) -> Array:
 
 
 def _above_one(scene: Scene, race: Race, support: SmallMotion, span: tuple[float, float]) -> float:
-    """`damped_drag` by the axis that is damped most, c = Im(1/h)/ν, from the lowest heavily damped motion to the speed."""
+    """`damped_drag` by the axis that is damped most, c = Im(1/h)/ν, from the lowest heavily damped motion upward."""
     frequencies = np.geomspace(*span, ZOOM)
     ways = np.kron((1.0, race.plane_offset), np.eye(2))[:, : len(support.frame)]
     h = np.einsum("ai,tij,aj->ta", ways, _receptances(support, frequencies), ways)

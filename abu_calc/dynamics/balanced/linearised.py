@@ -13,7 +13,7 @@ Supports with an odd number of coordinates, and those that turn with the rotor, 
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +58,7 @@ class BalancedMotion:
     span: float = SPAN
 
     @property
-    def on_one_line(self) -> "BalancedMotion":
+    def on_one_line(self) -> Self:
         """With balls that are all but in one line taken as if they were; itself where there are none.
 
         Itself too where they are all in one place: along the line they then leave the balance, and nothing of the first

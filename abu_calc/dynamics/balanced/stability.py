@@ -7,13 +7,12 @@ frequency; that does not suffice.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Final, Literal, TypeVar
+from typing import Final, Literal, Protocol, Self, TypeVar
 
 from abu_calc.dynamics.balanced.arrangements import Arrangement, rests
 from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import Rest, resting_state
 from abu_calc.dynamics.balanced.stationary import NotKnownError
-from abu_calc.dynamics.balanced.two_modes import TwoModes
 from abu_calc.dynamics.scene import Scene
 
 MARGIN: Final = 1e-9
@@ -22,7 +21,21 @@ MARGIN: Final = 1e-9
 UNDECIDED: Final = 10 * MARGIN
 """Within this of none, balls that stand all but on one line are taken to stand on it."""
 
-Motion = TypeVar("Motion", BalancedMotion, TwoModes)
+
+class Linear(Protocol):
+    """What is asked of a linear motion: see `BalancedMotion` and `TwoModes`."""
+
+    @property
+    def on_one_line(self) -> Self:
+        """With balls that are all but on one line taken as if they were."""
+        ...
+
+    def growth(self, speed: float) -> float:
+        """Growth rate of the slowest-dying disturbance [1/s]."""
+        ...
+
+
+Motion = TypeVar("Motion", bound=Linear)
 State = Literal["balanced", "race still", "arm alone"]
 
 
@@ -73,9 +86,7 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
     carried = state != "arm alone" or not scene.ball_masses
     stable = carried and growth < -MARGIN * scene.speed
     angles = motion.angles if carried else None
-    return Stability(
-        scene.speed, state, angles, eigenvalues, multipliers, growth, stable, None, left_out, len(found)
-    )
+    return Stability(scene.speed, state, angles, eigenvalues, multipliers, growth, stable, None, left_out, len(found))
 
 
 def worst(motions: tuple[BalancedMotion, ...], speed: float) -> BalancedMotion:

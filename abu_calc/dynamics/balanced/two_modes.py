@@ -14,7 +14,7 @@ The same as `linearised` finds for any support and any balls, in a fraction of t
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,11 +60,14 @@ class TwoModes:
     @property
     def shares(self) -> tuple[float, ...]:
         """g₊ and g₋; the latter is left out where all balls stand on one line."""
-        pair = (math.sqrt(self.count * (1 + self.likeness) / 2), math.sqrt(self.count * max(0.0, 1 - self.likeness) / 2))
+        pair = (
+            math.sqrt(self.count * (1 + self.likeness) / 2),
+            math.sqrt(self.count * max(0.0, 1 - self.likeness) / 2),
+        )
         return pair if self.likeness < 1 - ONE_LINE else pair[:1]
 
     @property
-    def on_one_line(self) -> "TwoModes":
+    def on_one_line(self) -> Self:
         """With balls that are all but on one line taken as if they were; itself where they are not."""
         near = 1 - self.likeness < WIDE_SPAN**2 and not self.in_one_place
         return replace(self, likeness=1.0) if near else self
@@ -151,7 +154,9 @@ class TwoModes:
 def _turned(matrix: Array, spin: Array, phases: Array) -> Array:
     """RᵀAR of a matrix of pairs along x and y, R = cos φ + spin · sin φ."""
     c, s = np.cos(phases)[:, None, None], np.sin(phases)[:, None, None]
-    return np.asarray(c * c * matrix - s * s * spin @ matrix @ spin + c * s * (matrix @ spin - spin @ matrix), dtype=float)
+    return np.asarray(
+        c * c * matrix - s * s * spin @ matrix @ spin + c * s * (matrix @ spin - spin @ matrix), dtype=float
+    )
 
 
 def two_modes(motion: BalancedMotion) -> TwoModes | None:
