@@ -90,9 +90,9 @@ def frequency_region(case: Case, ball_mass: float, added_mass: float) -> Frequen
     frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
     between, above = zones(frequencies)
     low, high = case.speed_range
+    in_between = between is not None and between[0] < low and high < between[1]
     speeds = {low, case.speed, high, *(low + (high - low) * k / PLACES for k in range(1, PLACES))}
-    possible = all(_recedes(case, speed, mass) for speed in speeds)
-    in_between = between is not None and between[0] < low < above
+    possible = (low > above or in_between) and all(_recedes(case, speed, mass) for speed in speeds)
     region: Region = (
         "supercritical"
         if case.speed > max(frequencies)
@@ -100,7 +100,7 @@ def frequency_region(case: Case, ball_mass: float, added_mass: float) -> Frequen
         if case.speed > min(frequencies)
         else "subcritical"
     )
-    least = between[0] if in_between and possible and between else above
+    least = between[0] if in_between and between else above
     gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)
     check = _check(possible, in_between, low, least)
     return FrequencyRegion(case.speed, frequencies, region, possible, gap, least, between, check)
