@@ -14,7 +14,9 @@ from abu_calc.units import GRAVITY
 Numbers = TypeVar("Numbers", float, Any)
 """One or an array of them."""
 
-_CHECKED = "as found by 64 isotropic and 32 anisotropic sets, 2–30 Hz, ζ 0.005–0.5, 2–8 balls, drag scanned: no counterexample"
+_CHECKED = (
+    "as found by 64 isotropic and 32 anisotropic sets, 2–30 Hz, ζ 0.005–0.5, 2–8 balls, drag scanned: no counterexample"
+)
 
 
 @formula(

@@ -105,9 +105,7 @@ def test_two_modes_are_all_of_the_motion(support: PlanarSupport) -> None:
     """Against the equations themselves, of every ball."""
     scale = 1.0 if len(support.names) == 2 else 300.0
     still = (0.0,) * len(support.names)
-    scene = replace(
-        scene_of(4, 0.3), support=support, speed=1.8 * scale, start_position=still, start_velocity=still
-    )
+    scene = replace(scene_of(4, 0.3), support=support, speed=1.8 * scale, start_position=still, start_velocity=still)
     for rest in rests(scene):
         whole = BalancedMotion(scene, rest.angles)
         two = two_modes(whole)
@@ -127,7 +125,7 @@ def searched(balls: int, share: float, gap: float) -> float:
     ]
     for _ in range(12):
         start = np.sort(rng.uniform(0, 2 * math.pi, balls))
-        found = minimize(lambda x: -abs(np.exp(2j * x).sum()) ** 2, start, constraints=held, method="SLSQP")
+        found = minimize(lambda x: -(abs(np.exp(2j * x).sum()) ** 2), start, constraints=held, method="SLSQP")
         if found.success and abs(np.exp(1j * found.x).sum() + share) < 1e-6:
             best = max(best, float(abs(np.exp(2j * found.x).mean())))
     return best
@@ -168,8 +166,10 @@ def test_crossings_tell_how_many_grow() -> None:
             assert (exact_growth(there, 1.0) > 0) is (growing > 0)
     unlike = scene_of(2, 0.3, stiffness=(1.0, 2.0))
     changes = [one.speed for one in boundaries(unlike, 0.9, 4.0)]
-    crossed = [one for one in crossings_of(unlike, 0.9, 4.0) if (one.growing_below == 0) is not (one.growing_above == 0)]
-    assert [one.speed for one in crossed] == pytest.approx(changes, rel=1e-6)
+    crossed = crossings_of(unlike, 0.9, 4.0)
+    assert [one.speed for one in crossed if not (one.growing_below and one.growing_above)] == pytest.approx(
+        changes, rel=1e-6
+    )
 
 
 def test_the_start_decides_where_balls_go() -> None:
