@@ -59,7 +59,7 @@ _ALL: Final = (
         "frequency", ("sizing.frequency:zones",),
     ),
     CheckCode(
-        "ABU103", "stable over the speed range",
+        "ABU103", "stable speed range",
         "Whether every small disturbance of the balanced state dies out, at every speed of machine.speed_range_rpm and "
         "in the worst arrangement of the balls that balances: by eigenvalues or Floquet multipliers, idle.",
         "At some speed one grows or stays; or there is no balanced state, since the balls cannot carry the imbalance.",

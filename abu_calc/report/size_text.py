@@ -102,10 +102,10 @@ def _stability(frequency: Frequency) -> str:
         return "Whether the balanced state is stable at idle is not known."
     word = "stable" if stable else "not stable"
     changes = ", ".join(f"{number(one.speed_rpm, 4)} rpm ({_above(one)} above)" for one in limits)
-    modes = ", ".join(f"{number(one.frequency_hz, 3)} Hz (ζ {number(one.damping_ratio, 2)})" for one in frequency.modes)
+    modes = (f"{number(one.frequency_hz, 3)} Hz (ζ {number(one.damping_ratio, 2)})" for one in frequency.modes)
     return (
         f"Balanced state at idle, by its eigenvalues, in the worst arrangement: {word} at the rated speed. Changes at "
-        f"{changes or 'no speed'}. The machine swings at {modes or 'no frequency'}."
+        f"{changes or 'no speed'}. The machine swings at {', '.join(dict.fromkeys(modes)) or 'no frequency'}."
     )
 
 
