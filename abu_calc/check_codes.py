@@ -209,9 +209,9 @@ _ALL: Final = (
     ),
     CheckCode(
         "ABU802", "stability of the balanced state",
-        "Whether every small disturbance of the balanced balls dies out.",
+        "Whether every small disturbance of the balanced balls dies out, in the worst arrangement that balances.",
         "One grows or stays; or there is no balanced state, since the balls cannot carry the imbalance. Not done where "
-        "the balanced state is not one of rest or not unique.",
+        "the balanced state is not one of rest or not unique, or the scene presses a wheel to its work.",
         "Leave the forbidden speeds (abu stability --speeds finds them), or change drag and damping.",
         "track", ("formulas.slow_motion:decay_rate",),
     ),

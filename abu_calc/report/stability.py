@@ -17,7 +17,10 @@ ONE_STATE = (
     "This speaks of one state, the balanced one, and of small disturbances. A start far away, or a run-up, may end "
     "elsewhere."
 )
-WHAT_TELLS = "What tells: `abu simulate --scene run-up` for a machine, a start at rest in a scene, and `abu size`."
+WHAT_TELLS = (
+    "What tells: `abu size`, or `abu simulate --scene run-up`; of a scene file, `abu simulate` with "
+    "[scene.effects.run_up]."
+)
 ON_A_GRID = (
     "They were looked for on a grid of speeds, refined where the growth rate bends or comes near zero, at up to some "
     "five hundred speeds: a gap far narrower than a hundredth of its speed may be missed."

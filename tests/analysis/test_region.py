@@ -52,7 +52,7 @@ def design_of(file: str, *changes: str) -> Design:
 
 
 def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
-    """The even fan is stable from 1739 rpm on, the worst arrangement from a little more; at 1700 it shook, simulated."""
+    """The even fan is stable from 1739 rpm on, the worst arrangement from a little more; at 1700 it shakes."""
     seen = abu("size", written(tmp_path), "--json")
     checks = {check["code"]: check for check in seen.document["checks"]}
     assert seen.status == 1 and seen.document["status"] == "fail"

@@ -88,7 +88,9 @@ def test_the_race_nearest_to_its_bound_is_told() -> None:
     scene, race = scene_of(balls=4), scene_of(balls=2, share=0.005).races[0]
     split = replace(scene, races=(replace(race, drag=0.3), race))
     assert hanging_bounds(split).resonance == pytest.approx(hanging_bounds(scene).resonance, rel=1e-9)
-    assert hanging_bounds(split).drag == race.drag and hanging_bounds(split).doubt() and not hanging_bounds(split).doubt(1)
+    assert (
+        hanging_bounds(split).drag == race.drag and hanging_bounds(split).doubt() and not hanging_bounds(split).doubt(1)
+    )
 
 
 def test_a_tilting_support_that_does_not_tilt_is_planar() -> None:
