@@ -52,11 +52,19 @@ _TORQUE_FORMULAS: Final = ("fits.creep:friction_torque",)
 _ALL: Final = (
     CheckCode(
         "ABU101", "frequency region",
-        "Whether balls can balance at every speed of machine.speed_range_rpm.",
-        "At some speed they go to the heavy side or stay restless: it is below the natural frequencies and the "
-        "finite-mass gap, and not in the zone between the two; or the support moves with the imbalance.",
+        "Whether light balls can balance at every speed of machine.speed_range_rpm.",
+        "At some speed they go to the heavy side: the support moves with the imbalance. That speed is below the "
+        "natural frequencies, and not in the zone between the two.",
         "Keep all speeds above the limit, or hold the machine more softly. Passing is necessary, not sufficient.",
-        "frequency", ("sizing.frequency:zones", "sizing.frequency:finite_mass_gap"),
+        "frequency", ("sizing.frequency:zones",),
+    ),
+    CheckCode(
+        "ABU103", "stable speed range",
+        "Whether every small disturbance of the balanced state dies out, at every speed of machine.speed_range_rpm and "
+        "in the worst arrangement of the balls that balances: by eigenvalues or Floquet multipliers, idle.",
+        "At some speed one grows or stays; or there is no balanced state, since the balls cannot carry the imbalance.",
+        "Keep all speeds above the boundary it names, or change drag and damping; or lighter balls.",
+        "frequency",
     ),
     CheckCode(
         "ABU102", "ball carry-over",
@@ -228,9 +236,9 @@ _ALL: Final = (
     ),
     CheckCode(
         "ABU802", "stability of the balanced state",
-        "Whether every small disturbance of the balanced balls dies out.",
+        "Whether every small disturbance of the balanced balls dies out, in the worst arrangement that balances.",
         "One grows or stays; or there is no balanced state, since the balls cannot carry the imbalance. Not done where "
-        "the balanced state is not one of rest or not unique.",
+        "the balanced state is not one of rest or not unique, or the scene presses a wheel to its work.",
         "Leave the forbidden speeds (abu stability --speeds finds them), or change drag and damping.",
         "track", ("formulas.slow_motion:decay_rate",),
     ),

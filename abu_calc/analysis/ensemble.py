@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any
 
+from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.analysis.ledger import chosen
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
@@ -121,15 +122,17 @@ class Ensemble:
 
 
 def simulate_members(
-    design: Design, doubtful: float = 0.0, accuracy: float = 0.01, progress: Progress = silent,
-    workers: Workers | None = None, shares: tuple[float, ...] = DRAGS,
+    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None,
+    shares: tuple[float, ...] = DRAGS, doubtful: float | None = None,
 ) -> Ensemble:  # fmt: skip
     """Every start once, at these shares of the drag given.
 
-    Those that decide a check run again at a tighter tolerance, and the worse of both counts.
-    `doubtful` [1/s]: the drag below which balls might hang, so that a slow run-up is tried, too. The outcome does not
+    Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
+    below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. The outcome does not
     depend on how many run side by side.
     """
+    if doubtful is None:
+        doubtful = hanging_bounds(design).largest or 0.0
     starts = list(members(design, doubtful, shares))
     found = _all(design, starts, accuracy, TOLERANCE, progress, workers)
     while undecided := [k for k in _deciding(found, design.case.drag) if not _confirmed(found[k])]:

@@ -25,26 +25,25 @@ class Proven:
 
 
 def proven(
-    design: Design, doubtful: float = 0.0, accuracy: float = 0.01, progress: Progress = silent,
-    workers: Workers | None = None,
-) -> Proven:  # fmt: skip
+    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None
+) -> Proven:
     """The best candidate if it passes from every start at the drag given, else the next one that does.
 
-    If none does, the best one, with the first change that would make it pass. `doubtful`: see `members`.
+    If none does, the best one, with the first change that would make it pass.
     """
     if not _carries(design):
         return Proven(design, None)
-    first = simulate_members(design, doubtful, accuracy, progress, workers)
+    first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first) or not design.frequency.balancing_possible:
         return Proven(design, first)
     for one in [each for each, _ in design.choice.runners_up if sound(design.case, each)][:MOST_OTHERS]:
         other = instead(design, one, "does not balance from every start")
         progress(f"idle: {_words(one)} instead")
-        found = simulate_members(other, doubtful, accuracy, silent, workers)
+        found = simulate_members(other, accuracy, silent, workers)
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
             return Proven(other, found, warnings=(text,))
-    return Proven(design, first, remedy(design, first, doubtful, accuracy, progress, workers))
+    return Proven(design, first, remedy(design, first, accuracy, progress, workers))
 
 
 def _carries(design: Design) -> bool:

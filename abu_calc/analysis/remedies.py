@@ -19,17 +19,15 @@ FASTER, DAMPED = 0.5, 2.0
 """Of the run-up's time, and of the suspension's damping."""
 
 
-def remedy(
-    design: Design, first: Ensemble, doubtful: float, accuracy: float, progress: Progress, workers: Workers | None
-) -> str:  # fmt: skip
+def remedy(design: Design, first: Ensemble, accuracy: float, progress: Progress, workers: Workers | None) -> str:
     """The first change with which every start at the drag given passes; else all that were tried without success.
 
-    `first`: the starts of the design as it is; `doubtful`: as in `members`.
+    `first`: the starts of the design as it is.
     """
     tried = []
     for name, other in changes(design, first):
         progress(f"idle: with {name}")
-        found = simulate_members(other, doubtful, accuracy, silent, workers, (1.0,))
+        found = simulate_members(other, accuracy, silent, workers, (1.0,))
         if passes(other, found):
             return f"Tried: with {name} all {found.members} starts pass."
         tried.append(name)

@@ -22,6 +22,12 @@ def stability(
         str | None,
         typer.Option("--speeds", metavar="LOW:HIGH", help="rpm; also find every speed where stability changes."),
     ] = None,
+    arrangement: Annotated[
+        str, typer.Option("--arrangement", help="Of more than two balls: worst that balances, fan (even), or start.")
+    ] = "worst",
+    crossings: Annotated[
+        bool, typer.Option("--crossings", help="With --speeds: every crossing of an eigenvalue.")
+    ] = False,
 ) -> Outcome:
     """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""
     from abu_calc.report.stability import stability_blocks
@@ -30,7 +36,7 @@ def stability(
     from abu_calc.studies.stability import stability as study
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
-    result = study(read_any(file, set_ or ()), scene, speeds_rpm=speeds)
+    result = study(read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings)
     return Outcome.of(result, lambda: stability_blocks(result), lambda: stability_screen(result))
 
 

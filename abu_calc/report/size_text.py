@@ -84,6 +84,7 @@ def _need(result: SizeResult) -> list[Block]:
         facts(result, "system_mass_kg", "effective_mass_kg"),
         facts(result.frequency, "speed_hz", "natural_frequencies_hz", "region", "finite_mass_gap"),
         Paragraph(_stability(result.frequency)),
+        Paragraph(_hanging(result)),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
               "required_capacity_compliant_g_mm"),
         Heading("Accuracy budget, displacements at the wheel"),
@@ -98,7 +99,24 @@ def _stability(frequency: Frequency) -> str:
         return "Whether the balanced state is stable at idle is not known."
     word = "stable" if stable else "not stable"
     changes = ", ".join(f"{number(one.speed_rpm, 4)} rpm ({_above(one)} above)" for one in limits)
-    return f"Balanced state at idle, by its eigenvalues: {word} at the rated speed. Changes at {changes or 'no speed'}."
+    modes = (f"{number(one.frequency_hz, 3)} Hz (ζ {number(one.damping_ratio, 2)})" for one in frequency.modes)
+    return (
+        f"Balanced state at idle, by its eigenvalues, in the worst arrangement: {word} at the rated speed. Changes at "
+        f"{changes or 'no speed'}. The machine swings at {', '.join(dict.fromkeys(modes)) or 'no frequency'}."
+    )
+
+
+def _hanging(result: SizeResult) -> str:
+    """The closed bound, with the margin of the drag."""
+    bound, drag = result.frequency.hanging_drag_per_s, result.model.drag_per_s
+    if bound is None:
+        return "Balls may hang at a resonance whatever their drag: nothing damps it."
+    if drag > bound:
+        return f"No balls hang above a drag of {number(bound, 3)} 1/s: {number(drag / bound, 3)} times that is given."
+    return (
+        f"Balls may hang, going round at a resonance or not at all, below a drag of {number(bound, 3)} 1/s; "
+        f"{number(drag, 3)} is given. That is a bound, no verdict: a slow run-up tells."
+    )
 
 
 def _above(boundary: StabilityBoundary) -> str:

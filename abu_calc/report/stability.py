@@ -6,12 +6,20 @@ from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
 from abu_calc.studies.design_records import StabilityBoundary
-from abu_calc.studies.stability import StabilityResult
+from abu_calc.studies.hanging import Hanging
+from abu_calc.studies.stability import Crossing, StabilityResult
 
 FORBIDDEN = (
     "A speed above the natural frequencies is necessary, not sufficient: balls of finite mass lose the balanced state "
-    "well above them, and light damping opens further gaps. Nothing is said of how far a disturbance may go: a start "
-    "far away may end elsewhere (`abu simulate`)."
+    "well above them, and light damping opens further gaps."
+)
+ONE_STATE = (
+    "This speaks of one state, the balanced one, and of small disturbances. A start far away, or a run-up, may end "
+    "elsewhere."
+)
+WHAT_TELLS = (
+    "What tells: `abu size`, or `abu simulate --scene run-up`; of a scene file, `abu simulate` with "
+    "[scene.effects.run_up]."
 )
 ON_A_GRID = (
     "They were looked for on a grid of speeds, refined where the growth rate bends or comes near zero, at up to some "
@@ -27,16 +35,46 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
         Heading(f"{result.title}: stability of the balanced state"),
         Paragraph(f"{word} at {value_of(result, 'speed_rpm')}: {check.message}.", check.status),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
+        *_hanging(result.hanging),
         *_values("Eigenvalues, 1/s", result.eigenvalues),
         *_values("Floquet multipliers of one revolution", result.floquet_multipliers),
         Heading("Speeds where stability changes"),
         *_boundaries(result),
+        *_crossings(result.crossings_rpm),
         *check_blocks(result.checks),
         *notices(result),
         Heading("Model"),
         Paragraph(FORBIDDEN),
         *provenance_blocks(result.provenance),
     )
+
+
+def _hanging(found: Hanging | None) -> list[Block]:
+    """What stands beside the balanced state."""
+    if found is None:
+        return [Paragraph(ONE_STATE)]
+    rows = tuple(
+        (one.state, "any" if one.drag_per_s is None else number(one.drag_per_s, 3),
+         "none" if one.margin is None else number(one.margin, 3))
+        for one in found.bounds
+    )  # fmt: skip
+    if not found.doubt:
+        word = f"No balls hang: the drag, {number(found.drag_per_s, 3)} 1/s, is above every bound."
+    else:
+        word = f"Balls may hang: the drag, {number(found.drag_per_s, 3)} 1/s, is not above every bound. {WHAT_TELLS}"
+    header = ("balls hang", "below, 1/s", "the drag over it")
+    table: list[Block] = [Grid(header, rows, frozenset({1, 2}))] if rows else []
+    return [Heading("Beside the balanced state"), Paragraph(ONE_STATE), Paragraph(word), *table]
+
+
+def _crossings(found: Sequence[Crossing] | None) -> list[Block]:
+    """A row for each."""
+    if found is None:
+        return []
+    rows = tuple((number(one.speed_rpm, 6), f"{one.growing_below}", f"{one.growing_above}") for one in found)
+    header = ("rpm", "growing below", "growing above")
+    title = Heading("Crossings of eigenvalues, of the arrangement judged")
+    return [title, Grid(header, rows, frozenset({0, 1, 2})) if rows else Paragraph("None.")]
 
 
 def _values(title: str, values: Sequence[tuple[float, float]] | None) -> list[Block]:

@@ -15,13 +15,14 @@ def _n(value: float | None) -> str:
 
 
 def frequency(result: "SizeResult") -> Lines:
-    """The finite-mass gap, and where the speed lies."""
+    """The finite-mass gap, where the speed lies, and the drag above which no balls hang."""
     found, one, model = result.frequency, result.autobalancer, result.model
     natural = ", ".join(map(_n, found.natural_frequencies_hz))
     return (
         f"(2m/(J·M))^(1/3) = (2 · {_n(one.ball_mass_g)} g / ({_n(model.inertia_factor)} · "
         f"{_n(result.effective_mass_kg)} kg))^(1/3) = {_n(found.finite_mass_gap)}",
         f"Ω/2π = {_n(found.speed_hz)} Hz, ω/2π = {natural} Hz: {found.region}",
+        f"no balls hang above h₀ = {_n(found.hanging_drag_per_s)} 1/s; given {_n(model.drag_per_s)} 1/s",
     )
 
 

@@ -29,7 +29,15 @@ class Step:
 STEPS: Final[Mapping[str, Step]] = {
     "frequency": Step(
         "Frequency region",
-        ("sizing.frequency:zones", "sizing.frequency:finite_mass_gap", "formulas.suspension:natural_frequency"),
+        (
+            "sizing.frequency:zones",
+            "sizing.frequency:finite_mass_gap",
+            "formulas.suspension:natural_frequency",
+            "formulas.hanging:resonance_drag",
+            "formulas.hanging:side_by_side",
+            "formulas.hanging:damped_drag",
+            "formulas.hanging:gravity_drag",
+        ),
         step_numbers.frequency,
     ),
     "imbalance": Step(

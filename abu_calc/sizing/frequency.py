@@ -22,6 +22,10 @@ BALL_SHARE = Range(
 )
 
 
+PLACES = 16
+"""Parts of a speed range that are looked at."""
+
+
 @dataclass(frozen=True)
 class FrequencyRegion:
     """Where the working speeds lie [rad/s]; `least_speed` is the lower end of the zone that the rated speed needs."""
@@ -42,10 +46,10 @@ class FrequencyRegion:
     "1",
     where=(
         "m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. More damping of the "
-        "balls narrows the gap."
+        "balls narrows the gap. No check rests on it: more balls, and both axes free, need more, up to (3nm/JM)^(1/3)."
     ),
     checked=(BALL_SHARE,),
-    assumed="light damping of balls and support; an estimate where m/M is above 0.1",
+    assumed="two balls, one free axis, light damping of balls and support; an estimate where m/M is above 0.1",
     source="derived from the averaged motion of two opposite balls; confirmed by integration of the full equations",
     printed="Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient",
 )
@@ -59,34 +63,36 @@ def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> flo
 
 
 @formula(
-    "Speeds at which balls balance, a zone between the natural frequencies (or none) and all above a speed",
+    "Speeds at which light balls balance, a zone between the natural frequencies and all above the larger",
     "1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0",
     "rad/s",
     where=(
-        "Two balls on an anisotropic support balance iff that holds, which is for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > "
-        "ω₂; the lower ends move up by the finite-mass gap, to ω/(1−gap). From a gap of 1 balls balance nowhere."
+        "That holds for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂. On any support, with its damping: Re[h_xx + h_yy] < 0, "
+        "h(Ω) the receptance: it moves against the imbalance."
     ),
-    assumed="undamped springs",
+    assumed="light balls; what balls of finite mass need, the eigenvalues tell (ABU103)",
     source="derived by averaging; the upper zone is Kladiev 1996, (7)",
     printed="the thesis knows only the upper zone",
 )
-def zones(frequencies: tuple[float, float], gap: float) -> tuple[tuple[float, float] | None, float]:
+def zones(frequencies: tuple[float, float]) -> tuple[tuple[float, float] | None, float]:
+    """
+    >>> zones((300.0, 700.0))[1], zones((300.0, 300.0))[0] is None
+    (700.0, True)
+    """
     low, high = sorted(frequencies)
-    if gap >= 1:
-        return None, float("inf")
-    between = (low / (1 - gap), ((low**2 + high**2) / 2) ** 0.5)
-    return (between if between[0] < between[1] else None), high / (1 - gap)
+    between = (low, ((low**2 + high**2) / 2) ** 0.5)
+    return (between if low < high else None), high
 
 
 def frequency_region(case: Case, ball_mass: float, added_mass: float) -> FrequencyRegion:
-    """Zones over the whole speed range, with the mass of the autobalancer added and the same stiffness."""
+    """Whether light balls balance over the whole speed range, with the mass of the autobalancer added."""
     mass = case.body.effective_mass(added_mass)
     frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
-    gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)
-    between, above = zones(frequencies, gap)
+    between, above = zones(frequencies)
     low, high = case.speed_range
     in_between = between is not None and between[0] < low and high < between[1]
-    possible = (low > above or in_between) and all(_recedes(case, speed, mass) for speed in (low, case.speed, high))
+    speeds = {low, case.speed, high, *(low + (high - low) * k / PLACES for k in range(1, PLACES))}
+    possible = (low > above or in_between) and all(_recedes(case, speed, mass) for speed in speeds)
     region: Region = (
         "supercritical"
         if case.speed > max(frequencies)
@@ -95,6 +101,7 @@ def frequency_region(case: Case, ball_mass: float, added_mass: float) -> Frequen
         else "subcritical"
     )
     least = between[0] if in_between and between else above
+    gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)
     check = _check(possible, in_between, low, least)
     return FrequencyRegion(case.speed, frequencies, region, possible, gap, least, between, check)
 
@@ -107,12 +114,12 @@ def _recedes(case: Case, speed: float, mass: float) -> bool:
 def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
     hertz = from_si(least, "hz")
     if possible:
-        message = "the lowest speed is above the natural frequencies and the finite-mass gap"
+        message = "the lowest speed is above the natural frequencies"
         if in_between:
-            message = "all speeds lie between the two natural frequencies: they balance there, but with little to spare"
-        message += "; necessary, not sufficient: the simulation must agree"
+            message = "speeds lie between the two natural frequencies: light balls balance there, with little to spare"
+        message += "; necessary, not sufficient: the eigenvalues must agree (ABU103)"
         remedy = None
     else:
-        message = "at some speed of the range the balls go to the heavy side or stay restless, and make things worse"
+        message = "at some speed of the range the support moves with the imbalance: balls go to the heavy side"
         remedy = f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm), or hold the machine more softly."
     return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least")

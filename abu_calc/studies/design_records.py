@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.analysis.region import TrueRegion
-from abu_calc.dynamics.balanced.stability import Boundary as SpeedLimit
+from abu_calc.dynamics.balanced.boundaries import Boundary as SpeedLimit
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
@@ -37,6 +37,14 @@ def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundar
 
 
 @record
+class Mode(Record):
+    """A free motion of the idle machine that swings, the mass of its balls on it."""
+
+    frequency_hz: Annotated[float, Quantity("frequency", "|λ|/2π")]
+    damping_ratio: Annotated[float, Quantity("damping ratio", "ζ", 3)]
+
+
+@record
 class Frequency(Record):
     """Where the working speeds lie, by the simple rule and by the eigenvalues."""
 
@@ -45,8 +53,15 @@ class Frequency(Record):
     region: Annotated[str, Quantity("region")]
     balancing_possible: Annotated[bool, Quantity("balancing possible")]
     finite_mass_gap: Annotated[float, Quantity("finite-mass gap", "(2m/JM)^⅓", 3)]
-    stable: Annotated[bool | None, Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed")]
+    stable: Annotated[
+        bool | None,
+        Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed, in the worst arrangement"),
+    ]
     stability_boundaries_rpm: tuple[StabilityBoundary, ...] | None
+    modes: tuple[Mode, ...]
+    hanging_drag_per_s: Annotated[
+        float | None, Quantity("drag above which no balls hang", "", 4, "null: no drag is enough")
+    ]
 
     @classmethod
     def of(cls, design: Design, region: TrueRegion) -> Self:
@@ -60,7 +75,10 @@ class Frequency(Record):
             finite_mass_gap=found.finite_mass_gap,
             stable=region.stable,
             stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
-        )
+            modes=tuple(Mode(frequency_hz=from_si(one.frequency, "hz"), damping_ratio=one.damping_ratio)
+                        for one in region.modes),
+            hanging_drag_per_s=finite(region.hanging.largest),
+        )  # fmt: skip
 
 
 @record

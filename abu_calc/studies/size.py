@@ -75,7 +75,7 @@ def size(
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
     checks = tuple(level_check(one, tried.ensemble) if one.code == "ABU401" else one for one in design.checks)
-    checks += ensemble_checks(design, tried.ensemble, tried.remedy)
+    checks += region.check, *ensemble_checks(design, tried.ensemble, tried.remedy)
     checks += tuple(not_simulated(failure.scene, failure.reason) for failure in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, runs)
@@ -83,7 +83,7 @@ def size(
     return SizeResult(
         title=tables.machine.name,
         checks=checks,
-        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *region.warnings, *remarks),
+        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,

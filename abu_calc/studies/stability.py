@@ -3,12 +3,17 @@
 from typing import Annotated, ClassVar, Final
 
 from abu_calc.checks import Check, verdict
-from abu_calc.dynamics.balanced.stability import Boundary, Stability, boundaries, critical_damping
+from abu_calc.dynamics.balanced.arrangements import ARRANGEMENTS, Arrangement
+from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries, crossings_of
+from abu_calc.dynamics.balanced.stability import Stability, critical_damping
 from abu_calc.dynamics.balanced.stability import stability as judged
+from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
-from abu_calc.studies.quantity import Quantity, record
+from abu_calc.studies.hanging import Hanging
+from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel
 from abu_calc.studies.simulated_scene import finite
@@ -27,6 +32,15 @@ Pairs = tuple[tuple[float, float], ...]
 
 
 @record
+class Crossing(Record):
+    """A speed at which eigenvalues or multipliers cross the edge of stability."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    growing_below: Annotated[int, Quantity("growing below it")]
+    growing_above: Annotated[int, Quantity("growing above it")]
+
+
+@record
 class StabilityResult(Result):
     """The balanced state of a scene at its speed; complex numbers as real and imaginary part."""
 
@@ -42,31 +56,48 @@ class StabilityResult(Result):
     floquet_multipliers: Annotated[Pairs | None, Quantity("Floquet multipliers of one revolution", "μ", 5)]
     critical_damping_N_s_per_m: Annotated[float | None, Quantity("damping against parametric resonance", "h_sh")]
     resting_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
+    arrangement: Annotated[str, Quantity("arrangement", "", 4, "asked for: worst, fan or start")]
+    arrangements_judged: Annotated[int, Quantity("arrangements judged")]
+    hanging: Hanging | None
     effects_left_out: Annotated[tuple[str, ...], Quantity("effects left out of the linear motion")]
     boundaries_rpm: tuple[StabilityBoundary, ...] | None
+    crossings_rpm: tuple[Crossing, ...] | None
     searched_rpm: tuple[float, float] | None
     """The range of speeds that boundaries were looked for in."""
 
 
 @checked
 def stability(
-    source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None
-) -> StabilityResult:
-    """Judge the balanced state of a scene by eigenvalues or Floquet multipliers.
+    source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None,
+    arrangement: str = "worst", crossings: bool = False,
+) -> StabilityResult:  # fmt: skip
+    """Judge the balanced state of a scene by eigenvalues or Floquet multipliers, and say whether balls may hang.
 
     `scene`: of a machine, see `SCENES`. With `speeds_rpm`, low and high, also every speed between them where stability
-    changes. Raises InputError, and NotTrustworthyError where multipliers do not settle.
+    changes; with `crossings` too, every speed where an eigenvalue crosses, though others grow already. `arrangement` of
+    more than two balls in a race: the "worst" of all that balance, the even "fan", or that to which they go from the
+    "start" angles. Raises InputError, and NotTrustworthyError where multipliers do not settle.
     """
     one_of("scene", scene, SCENES)
+    one_of("arrangement", arrangement, ARRANGEMENTS)
     _check_speeds(speeds_rpm)
-    subject = subject_of(source, scene, command="stability")
-    found = judged(subject.scene, subject.half_angle)
+    if crossings and speeds_rpm is None:
+        raise InputError(
+            "crossings are looked for in a range of speeds", place=Place(key="crossings"), found="no range",
+            allowed=SPEEDS, remedy="Give speeds_rpm too, --speeds LOW:HIGH.",
+        )  # fmt: skip
+    subject, way = (
+        subject_of(source, scene, command="stability"),
+        next(one for one in ARRANGEMENTS if one == arrangement),
+    )
+    pressed = grinds(subject.scene)
+    found = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
-    limits = _limits(subject, speeds_rpm) if speeds_rpm and found.reason is None else None
+    limits = _limits(subject, speeds_rpm, way) if speeds_rpm and found.reason is None else None
     return StabilityResult(
         title=subject.title,
-        checks=(_check(found),),
-        warnings=(*subject.warnings, *stability_warnings(found, subject.scene)),
+        checks=(_check(found, way, pressed=pressed),),
+        warnings=(*subject.warnings, *stability_warnings(found, subject.scene, way)),
         model=SceneModel.of(subject.scene),
         provenance=subject.provenance,
         speed_rpm=from_si(found.speed, "rpm"),
@@ -77,8 +108,12 @@ def stability(
         floquet_multipliers=_pairs(found.multipliers),
         critical_damping_N_s_per_m=critical_damping(subject.scene),
         resting_angles_deg=None if found.angles is None else tuple(map(wrapped_deg, found.angles)),
+        arrangement=arrangement,
+        arrangements_judged=found.arrangements,
+        hanging=Hanging.of(subject.scene, subject.half_angle),
         effects_left_out=found.left_out,
         boundaries_rpm=None if limits is None else stability_boundaries(limits),
+        crossings_rpm=_crossings(subject, speeds_rpm, way) if crossings and speeds_rpm and limits is not None else None,
         searched_rpm=speeds_rpm,
     )
 
@@ -90,26 +125,50 @@ def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
     raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=found, allowed=SPEEDS)
 
 
-def _limits(subject: Subject, speeds_rpm: tuple[float, float]) -> tuple[Boundary, ...]:
+def _limits(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Boundary, ...]:
     low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
-    return boundaries(subject.scene, low, high, subject.half_angle)
+    return boundaries(subject.scene, low, high, subject.half_angle, way)
+
+
+def _crossings(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Crossing, ...]:
+    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    return tuple(
+        Crossing(speed_rpm=from_si(one.speed, "rpm"), growing_below=one.growing_below, growing_above=one.growing_above)
+        for one in crossings_of(subject.scene, low, high, subject.half_angle, way)
+    )
+
+
+def grinds(scene: Scene) -> bool:
+    """Whether the scene presses a wheel to work in the plane: its balanced state is not that of an idle machine."""
+    return any(isinstance(effect, GrindingContact) and effect.contact != "face" for effect in scene.effects)
+
+
+def not_judged(scene: Scene) -> Stability:
+    """The answer for a scene that grinds."""
+    reason = (
+        "the scene presses the wheel to its work, and the idle balanced state is another one: no verdict is given on it"
+    )
+    left_out = tuple(effect.name for effect in scene.effects)
+    return Stability(scene.speed, None, None, None, None, None, None, reason, left_out)
 
 
 def _pairs(values: tuple[complex, ...] | None) -> Pairs | None:
     return None if values is None else tuple((value.real, value.imag) for value in values)
 
 
-def _check(found: Stability) -> Check:
+def _check(found: Stability, way: Arrangement, *, pressed: bool) -> Check:
     name = ("ABU802", "stability of the balanced state")
     if found.reason is not None:
-        return Check(*name, "not-done", found.reason, unit="1/s",
-                     remedy="A second race in another plane, or bearings alike along x and y.")  # fmt: skip
+        remedy = "A second race in another plane, or bearings alike along x and y." if way != "start" else None
+        if pressed:
+            remedy = "`abu simulate` shows it at work; without grinding_contact in its file the idle state is judged."
+        return Check(*name, "not-done", found.reason, unit="1/s", remedy=remedy)
     if found.angles is None:
         return Check(
             *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
             remedy="Heavier or more balls, a larger race, or a better balanced rotor.",
         )  # fmt: skip
-    message = "every small disturbance dies out"
+    message = "every small disturbance of the balanced state dies out"
     if not found.stable:
         message = "not every small disturbance dies out, although the balls could balance here"
     remedy = (

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Final
 
+from abu_calc.dynamics.balanced.arrangements import Arrangement
 from abu_calc.dynamics.balanced.stability import Stability
 from abu_calc.dynamics.scene import Scene
 
@@ -10,7 +11,7 @@ BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})
 """Effects that leave the balanced state as it is, to the first order."""
 
 
-def stability_warnings(found: Stability, scene: Scene) -> Iterator[str]:
+def stability_warnings(found: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
     """Each a sentence or two."""
     yield from _state_judged(found, scene)
     if found.multipliers is not None:
@@ -18,12 +19,8 @@ def stability_warnings(found: Stability, scene: Scene) -> Iterator[str]:
             "What is felt of the support changes as the rotor turns: Floquet multipliers of one revolution stand in "
             "place of eigenvalues."
         )
-    most = max((len(race.ball_masses) for race in scene.races), default=0)
-    if found.angles is not None and most > 2:
-        yield (
-            f"{most} balls of a race can balance in many arrangements; judged is the one spread about the light "
-            "side with even gaps between equal balls. The neutral motions from one arrangement to another do not count."
-        )
+    if found.angles is not None:
+        yield from _arrangements(found, scene, way)
     others = [name for name in found.left_out if name not in BALANCED_TO_FIRST_ORDER]
     if others:
         yield f"Left out of the linear motion, at steady speed: {', '.join(others)}."
@@ -43,3 +40,29 @@ def _state_judged(found: Stability, scene: Scene) -> Iterator[str]:
     if found.state == "arm alone":
         why = "the balls cannot carry the imbalance" if scene.ball_masses else "there are no balls"
         yield f"Judged is the forced motion of the arm alone with its imbalance: {why}."
+
+
+def _arrangements(found: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
+    """Of many that balance, which was judged."""
+    counts = [len(race.ball_masses) for race in scene.races]
+    most = max(counts, default=0)
+    if most <= 2:
+        return
+    told = {
+        "fan": "the one spread about the light side with even gaps between equal balls: others may be less stable",
+        "start": "the one to which balls go from their start angles, heavily damped and without size",
+        "worst": f"the least stable of {found.arrangements} that stand for all, the even fan among them",
+    }[way]
+    if way == "worst" and found.state == "race still":
+        told = "the one with even gaps: others are not known where the axis moves"
+    yield (
+        f"{most} balls of a race can balance in many arrangements; judged is {told}. The neutral motions from one to "
+        "another do not count."
+    )
+    if way == "worst" and (
+        sum(count > 2 for count in counts) > 1 or any(len(set(r.ball_masses)) > 1 for r in scene.races)
+    ):
+        yield (
+            "Not all arrangements were looked at: several races change together, from even to less even, and unequal "
+            "balls keep the order of the file."
+        )

@@ -46,7 +46,7 @@ def statuses(found: Design, ensemble: Ensemble) -> dict[str, str]:
 def judged(name: str, doubtful: float = 0.0, **changed: object) -> dict[str, str]:
     """A machine's checks by its starts."""
     found = design(name, **PINNED.get(name, {}), **changed)
-    return statuses(found, simulate_members(found, doubtful))
+    return statuses(found, simulate_members(found, doubtful=doubtful))
 
 
 @pytest.mark.parametrize("drag", [3.0, 4.0])
@@ -131,7 +131,7 @@ def test_drags_that_are_tried(given: float, only_more: bool, expected: list[floa
 
 def test_settling_counts_from_full_speed() -> None:
     """Of a slow run-up: at once, where the balls find their places on the way up."""
-    found = simulate_members(design("avtovaz-707-222"), ALL, shares=(3.0,))
+    found = simulate_members(design("avtovaz-707-222"), shares=(3.0,), doubtful=ALL)
     (slow,) = [one for one in found.outcomes if one.member.run_up == 4.0]
     assert slow.settling == 0.0
     assert slow.balanced

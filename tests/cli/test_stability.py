@@ -218,16 +218,70 @@ def test_size_tells_the_true_region() -> None:
     assert frequency["stable"] is True and one["stable_above"] and 130 < one["speed_rpm"] < 250
 
 
-@pytest.mark.parametrize("hertz", [2.5, 40.0])
-def test_where_the_true_region_contradicts_the_simple_rule(hertz: float) -> None:
-    """On a stiff, heavily damped suspension, whose phase lag makes the balls flutter; a warning says so."""
-    from abu_calc.analysis.region import true_region
-    from abu_calc.sizing import size
-    from abu_calc.spec.read import read_machine
+GRINDING = """\
+[scene.effects.grinding_contact]
+press_force_N = 45.0
+cutting_coefficient = 0.35
+contact = "compliant"
+contact_stiffness_N_per_m = 2.0
+"""
 
-    frequencies = f"suspension.natural_frequencies_hz=[{hertz}, {hertz * 1.5}]"
-    design = size(read_machine("avtovaz-707-222", [frequencies]).whole("size"))
-    region = true_region(design)
-    assert design.frequency.balancing_possible and region.boundaries is not None
-    assert region.stable is (hertz == 2.5)
-    assert [("finite-mass gap" in told) for told in region.warnings] == [True] * (hertz != 2.5)
+
+def test_no_verdict_on_an_idle_state_where_the_scene_grinds(tmp_path: Path) -> None:
+    file = written(tmp_path, SCENE + GRINDING)
+    seen = abu("stability", file, "--speeds", "1:190", "--json")
+    result, (check,) = seen.document["result"], seen.document["checks"]
+    assert seen.status == 1 and seen.document["status"] == check["status"] == "not-done"
+    assert result["stable"] is None and result["eigenvalues"] is None and result["boundaries_rpm"] is None
+    assert "presses the wheel" in check["message"] and "abu simulate" in check["remedy"]
+    face = written(tmp_path, SCENE + GRINDING.replace("compliant", "face").split("contact_stiffness")[0])
+    assert abu("stability", face, "--json").document["result"]["stable"] is True
+
+
+FOUR = ("--set", "scene.race[0].ball_masses_g=[50, 50, 50, 50]")
+TWO_AND_TWO = (*FOUR, "--set", "scene.race[0].start_angles_deg=[90, 90, -90, -90]")
+
+
+def test_which_arrangement_is_judged(scene: str) -> None:
+    """Two and two are less stable than the even fan; the worst is the default, and told."""
+    rates = {}
+    for way in ("worst", "fan", "start"):
+        document = abu("stability", scene, *TWO_AND_TWO, "--arrangement", way, "--json").document
+        assert document["result"]["arrangement"] == way and len(document["result"]["resting_angles_deg"]) == 4
+        rates[way] = document["result"]["growth_rate_per_s"]
+        assert any("arrangements" in told for told in document["warnings"])
+    plain = abu("stability", scene, *TWO_AND_TWO, "--json").document["result"]
+    assert plain["growth_rate_per_s"] == rates["worst"] >= max(rates.values())
+    seen = abu("stability", scene, "--arrangement", "best")
+    assert seen.status == 2 and "arrangement" in seen.err and "worst" in seen.err
+    bunched = ("--set", "scene.race[0].start_angles_deg=[0, 0, 0, 0]")
+    seen = abu("stability", scene, *FOUR, *bunched, "--arrangement", "start", "--json")
+    assert seen.document["status"] == "not-done" and seen.document["result"]["stable"] is None
+
+
+def test_every_crossing_on_request(scene: str) -> None:
+    masses = "scene.race[0].ball_masses_g=[50, 50]"
+    result = abu("stability", scene, "--set", masses, "--speeds", "1:190", "--crossings", "--json").document["result"]
+    crossed = {round(one["speed_rpm"] / RPM, 5): (one["growing_below"], one["growing_above"])
+               for one in result["crossings_rpm"]}  # fmt: skip
+    assert {1.02969, 1.09363, 1.88224} <= set(crossed)
+    assert crossed[1.88224] == (2, 0) and crossed[1.09363] == (0, 2)
+    assert abu("stability", scene, "--speeds", "1:190", "--json").document["result"]["crossings_rpm"] is None
+    seen = abu("stability", scene, "--crossings")
+    assert seen.status == 2 and "--speeds" in seen.err
+    assert "growing below" in abu("stability", scene, "--speeds", "1:190", "--crossings").out
+
+
+def test_it_speaks_of_one_state_and_of_balls_that_hang(scene: str) -> None:
+    """N = 0.1/1.1, ω = 1/√1.1, ζ = 0.01/√1.1: N ω²/(2ζ(Ω − ω)) by the equal axes."""
+    document = abu("stability", scene, "--json").document
+    hanging, w = document["result"]["hanging"], 1.1**-0.5
+    (bound,) = hanging["bounds"]
+    expected = (0.1 / 1.1) * w**2 / (2 * 0.01 * w * (2.0 - w))
+    assert bound["state"] == "at a resonance" and bound["drag_per_s"] == pytest.approx(expected, rel=1e-3)
+    assert hanging["doubt"] and bound["margin"] == pytest.approx(0.01 / bound["drag_per_s"])
+    text = " ".join(abu("stability", scene).out.split())
+    assert "speaks of one state" in text and "Balls may hang" in text and "--scene run-up" in text
+    drag = "scene.race[0].rolling_drag_per_s=6.0"
+    text = " ".join(abu("stability", scene, "--set", drag).out.split())
+    assert "No balls hang" in text and "Balls may hang" not in text

@@ -10,10 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from abu_calc.dynamics.balanced.boundaries import boundaries, crossings
 from abu_calc.dynamics.balanced.floquet import magnus, multipliers
 from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import resting_angles
-from abu_calc.dynamics.balanced.stability import boundaries, crossings, stability
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators import scipy_
@@ -125,7 +126,7 @@ def test_neutral_directions_do_not_count_without_drag_either() -> None:
 def test_multipliers_are_the_exponentials_of_eigenvalues() -> None:
     """Floquet theory on an isotropic support, where the answer is known."""
     scene = scene_of(1.5, 0.03, 0.02, 0.05, 0.07, 3)
-    found, motion = stability(scene), BalancedMotion(scene, resting_angles(scene))
+    found, motion = stability(scene, 0.0, "fan"), BalancedMotion(scene, resting_angles(scene))
     expected = [cmath.exp(v * scene.revolution) for v in found.eigenvalues]
     multipliers = motion.multipliers(scene.speed)
     np.testing.assert_allclose(sorted(np.abs(multipliers)), sorted(abs(v) for v in expected), rtol=1e-7)
@@ -196,7 +197,7 @@ def test_scanning_finds_no_change_that_was_missed(
     ball_mass: float, share: float, damping: float, drag: float, balls: int
 ) -> None:
     scene = scene_of(2.0, ball_mass, share * balls * ball_mass, damping, drag, balls)
-    found = boundaries(scene, 0.3, 6.0)
+    found = boundaries(scene, 0.3, 6.0, 0.0, "fan")
     motion = BalancedMotion(scene, resting_angles(scene))
     for low, high in pairwise([0.3, *(one.speed for one in found), 6.0]):
         inside = np.linspace(low, high, 22)[1:-1]

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from abu_calc.dynamics.balanced.boundaries import boundaries
 from abu_calc.dynamics.balanced.floquet import multipliers
 from abu_calc.dynamics.balanced.linearised import BalancedMotion
 from abu_calc.dynamics.balanced.resting import Rest, resting_state
-from abu_calc.dynamics.balanced.stability import boundaries, critical_damping, stability
+from abu_calc.dynamics.balanced.stability import critical_damping, stability
 from abu_calc.dynamics.balanced.stationary import NotKnownError
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
@@ -78,7 +79,7 @@ def monodromy(scene: Scene) -> np.ndarray:
 
 
 def found_multipliers(scene: Scene) -> np.ndarray:
-    found = stability(scene)
+    found = stability(scene, 0.0, "fan")
     values = (
         np.exp(np.array(found.eigenvalues) * scene.revolution) if found.eigenvalues else np.array(found.multipliers)
     )

@@ -266,7 +266,7 @@ def test_a_weak_pin_fails_with_its_result() -> None:
     [
         ([2.5, 2.5], [5800, 5800], "supercritical", True),
         ([120.0, 120.0], [5800, 5800], "subcritical", False),
-        ([90.0, 90.0], [5800, 5800], "supercritical", False),  # within the finite-mass gap
+        ([90.0, 90.0], [5800, 5800], "supercritical", True),  # for light balls; those of this machine fail ABU103
         ([30.0, 200.0], [5800, 5800], "between", True),
         ([30.0, 110.0], [5800, 5800], "between", False),  # above √((ω₁²+ω₂²)/2)
         ([2.5, 2.5], [100, 5800], "supercritical", False),

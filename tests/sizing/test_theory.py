@@ -145,7 +145,7 @@ def test_finite_mass_gap() -> None:
 @pytest.mark.parametrize(("speed", "balances"), [(200, False), (460, True), (620, False), (1000, True)])
 def test_zones_of_an_anisotropic_support(speed: float, balances: bool) -> None:
     """Simulated at ω = 300 and 700 rad/s: 200 no, 460 yes, 620 no, 1000 yes (small balls)."""
-    between, above = zones((300.0, 700.0), 0.05)
+    between, above = zones((300.0, 700.0))
     assert between is not None
     assert (between[0] < speed < between[1] or speed > above) is balances
 

@@ -13,7 +13,7 @@ Supports with an odd number of coordinates, and those that turn with the rotor, 
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,9 @@ NOTHING: Final = 1e-12
 SPAN: Final = 1e-9
 """Relative; balls nearer to one line than this are in one line."""
 
+WIDE_SPAN: Final = 1e-2
+"""The same where what brings them back is lost in rounding: it goes with the square."""
+
 FIRST_PHASES, MOST_PHASES = 8, 128
 SPEEDS: Final = (0.5, 1.0, 2.0)
 """Shares of the working speed at which A is taken: it is a polynomial of the second degree in the speed."""
@@ -52,6 +55,28 @@ class BalancedMotion:
     scene: Scene
     angles: tuple[float, ...]
     motion: tuple[complex, ...] = ()
+    span: float = SPAN
+
+    @property
+    def on_one_line(self) -> Self:
+        """With balls that are all but in one line taken as if they were; itself where there are none.
+
+        Itself too where they are all in one place: along the line they then leave the balance, and nothing of the first
+        order brings them back.
+        """
+        wider = replace(self, span=WIDE_SPAN)
+        return self if self.in_one_place or wider.states == self.states else wider
+
+    @property
+    def in_one_place(self) -> bool:
+        """Whether the balls of a race that has several carry all they can."""
+        first = 0
+        for race in self.scene.races:
+            theta, masses = np.array(self.angles[first : first + len(race.ball_masses)]), np.array(race.ball_masses)
+            first += len(masses)
+            if len(masses) > 1 and abs(masses @ np.exp(1j * theta)) > (1 - WIDE_SPAN**2) * masses.sum():
+                return True
+        return False
 
     @cached_property
     def coupled(self) -> tuple[Array, ...]:
@@ -65,7 +90,7 @@ class BalancedMotion:
             masses = np.array(race.ball_masses)
             theta = np.array(self.angles[first : first + len(masses)])
             rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self._turns else [])]
-            found.append(np.eye(len(masses)) if self.motion else _span(np.array(rows)))
+            found.append(np.eye(len(masses)) if self.motion else _span(np.array(rows), self.span))
             first += len(masses)
         return tuple(found)
 
@@ -81,7 +106,7 @@ class BalancedMotion:
         places = np.array([race.plane_offset for race in self.scene.races for _ in race.ball_masses])
         shares = places / (np.abs(places).max(initial=0.0) or 1.0)
         x, y = -static_moments * np.sin(theta), static_moments * np.cos(theta)
-        return _span(np.array((x, y, shares * x, shares * y)) @ self.basis)
+        return _span(np.array((x, y, shares * x, shares * y)) @ self.basis, self.span)
 
     @cached_property
     def scales(self) -> Array:
@@ -144,6 +169,18 @@ class BalancedMotion:
         if values is not None:
             return max((value.real for value in values), default=-math.inf)
         return growth_of(self.multipliers(speed), speed)
+
+    def growing(self, speed: float, least: float) -> int:
+        """How many eigenvalues or multipliers grow by more than `least` [1/s]."""
+        values = self.eigenvalues(speed)
+        if values is not None:
+            return sum(value.real > least for value in values)
+        return sum(growth_of((value,), speed) > least for value in self.multipliers(speed))
+
+    @property
+    def unit(self) -> float:
+        """The speed [rad/s] that those of `polynomial` are measured in."""
+        return self.scene.speed
 
     @property
     def _free(self) -> list[float]:
@@ -231,12 +268,12 @@ def growth_of(multipliers: tuple[complex, ...], speed: float) -> float:
     return math.log(largest) * speed / (2 * math.pi) if largest > 0 else -math.inf
 
 
-def _span(rows: Array) -> Array:
-    """Orthonormal columns that span the rows of a matrix."""
+def _span(rows: Array, least: float) -> Array:
+    """Orthonormal columns that span the rows of a matrix; less than a share `least` of it is none."""
     if 0 in rows.shape:
         return np.zeros((rows.shape[1], 0))
     _, sizes, directions = np.linalg.svd(rows)
-    return np.asarray(directions[: int((sizes > SPAN * np.abs(rows).sum()).sum())].T, dtype=float)
+    return np.asarray(directions[: int((sizes > least * np.abs(rows).sum()).sum())].T, dtype=float)
 
 
 def _diagonal(*blocks: Array) -> Array:

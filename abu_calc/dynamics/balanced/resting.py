@@ -60,7 +60,7 @@ def resting_state(scene: Scene, half_angle: float = 0.0) -> Rest | None:
         next(ahead)
         for k, race in races.items():
             found[k] = tuple(math.remainder(angle, 2 * math.pi) for angle in islice(ahead, len(race.ball_masses)))
-            if _narrowest(found[k]) < 2 * max(half_angle, _own_half_angle(scene, race)) - TOUCHING:
+            if narrowest_gap(found[k]) < needed_gap(scene, race, half_angle) - TOUCHING:
                 _refuse_other_splits(needed)
                 return None
     angles = tuple(angle for own in found.values() for angle in own)
@@ -82,12 +82,12 @@ def _refuse_other_splits(needed: dict[float, complex]) -> None:
         )
 
 
-def _own_half_angle(scene: Scene, race: Race) -> float:
-    """Half the angle between touching balls [rad]; balls have a size only where they can meet."""
-    return math.asin(race.ball_radius / race.pitch_radius) if scene.balls_meet else 0.0
+def needed_gap(scene: Scene, race: Race, half_angle: float) -> float:
+    """The angle between touching balls [rad], by what is given or by their radius where the scene lets them meet."""
+    return 2 * max(half_angle, math.asin(race.ball_radius / race.pitch_radius) if scene.balls_meet else 0.0)
 
 
-def _narrowest(angles: tuple[float, ...]) -> float:
+def narrowest_gap(angles: tuple[float, ...]) -> float:
     """The smallest gap between neighbours on the circle [rad]."""
     places = sorted(angle % (2 * math.pi) for angle in angles)
     return min((b - a for a, b in pairwise([*places, *(a + 2 * math.pi for a in places[:1])])), default=math.inf)
