@@ -11,7 +11,7 @@ scene.py          both together                                  trajectory.py  
 Rooms; each imports only those before it:
 
 supports/     one file a kind: it answers for itself      equations/    the one right-hand side, with the map of it
-switching/    modes: what sticks, what touches            effects/      one file an effect, and how they go together
+switching/    modes: what sticks, touches, stands         effects/      one file an effect, and how they go together
 tracing/      the equations in other languages            integrators/  the only files that know solvers
 slow/         averages, and the envelope by them          balanced/     states of rest, and whether they are stable
 """

@@ -138,6 +138,31 @@ transverse_motion = { groove_radius_mm = 9.0, ball_radius_mm = 4.0, axial_runout
 
 
 # supports and effects
+STALLED = """[scene]
+mass_kg = 4.0
+stiffness_N_per_m = [1000.0, 1000.0]
+damping_N_s_per_m = [60.0, 60.0]
+speed_rpm = 3000.0
+imbalance_g_mm = 100.0
+duration_s = 3.0
+[[scene.race]]
+pitch_radius_mm = 24.0
+ball_masses_g = [16.7, 16.7]
+rolling_drag_per_s = 20.0
+start_angles_deg = [90.0, -90.0]
+[scene.effects]
+motor = { stall_torque_N_m = 0.8, no_load_speed_rpm = 6000.0, rotor_inertia_kg_m2 = 2e-3 }
+grinding_contact = { contact = "face", press_force_N = 45.0, cutting_coefficient = 0.35, wheel_radius_mm = 75.0 }
+"""
+
+
+def test_a_motor_weaker_than_cutting_stands_and_is_not_driven_backward(tmp_path: Path) -> None:
+    """45 N · 0.35 · 75 mm = 1.18 N·m against 0.8 N·m at standstill."""
+    seen = abu("simulate", written(tmp_path, STALLED), "--json").document
+    assert seen["result"]["final"]["rotor_speed_rpm"] == pytest.approx(0.0, abs=1e-6)
+    assert any("stands on the work" in warning and "1.18 N·m" in warning for warning in seen["warnings"])
+
+
 def test_a_tilting_rotor_tells_tilts_and_bearings(tmp_path: Path) -> None:
     document = abu("simulate", written(tmp_path, TILTING), "--duration", "0.2", "--json").document
     final, model = document["result"]["final"], document["model"]

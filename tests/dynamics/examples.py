@@ -17,7 +17,7 @@ from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 
 CONTACT = GrindingContact(0.7, 0.35, "compliant", 2.0, -1, 0.1, 0.8, 1.1)
 EXAMPLES: dict[str, Effect] = {
-    "run_up": RunUp(3.0, 2.0),
+    "run_up": RunUp(3.0, 2.0, 0.7),
     "motor": Motor(2.0, 3.0, 6.0),
     "race_eccentricity": RaceEccentricity(0.05, 0.3),
     "transverse_motion": TransverseMotion(0.7, 0.1, 0.02),

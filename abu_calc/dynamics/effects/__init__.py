@@ -13,7 +13,7 @@ It WRITES
     Loads.own     bound; across; mates, leads; grip, free, hold: each SET BY ONE effect; a second one raises
 
 and ANSWERS, so that nobody asks for it by name: rotor, rotor_inertia, from_rest, run_down, least_duration,
-offset, falling, holding, placed, averaged, balls_meet, ball_states, rule.
+offset, falling, holding, placed, averaged, balls_meet, ball_states, switching, rule, whole_run.
 
 What is coupled by physics, and where:
     dry friction needs the normal force          it sets `grip` per normal force; the equations solve both together
@@ -22,6 +22,7 @@ What is coupled by physics, and where:
     balls in contact move and stick together     contact sets `mates`, `leads`; friction reads them from `Loads` when it
                                                  decides, and contact reads `hold`: one problem, `switching.touching`
     gravity and race eccentricity                the offset stands in `Motion`, since `move` comes before all `act`
+    a wheel stands on its work                   a constraint, `beside` that of a rigid contact: `switching.cutting`
     gravity shakes balls loose                   its weight reads `Circumstances.holding`
 
 ORDER: that of the registry. What moves the rotor and the races comes before what acts on the balls, what opens a

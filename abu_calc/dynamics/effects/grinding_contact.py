@@ -255,7 +255,7 @@ class GrindingContact(Effect):
     def normal_forces(self, equations: Laws, samples: Samples) -> Array:
         """N [N] at the samples of a run; 0 where wheel and work are apart, and negative where a rigid contact pulls.
 
-        Balls that stick by dry friction count as rolling.
+        With dry friction all balls count as sticking, which makes a difference of less than a per cent.
         """
         p, acting = equations.parameters, equations.in_mode(equations.first_modes)
         found = [equations.accelerations(np, t, y, acting) for t, y in zip(samples.t, samples.y.T, strict=True)]

@@ -1,1 +1,1 @@
-"""Modes, which balls stick, which touch: what is decided where a scene switches."""
+"""Modes, which balls stick, which touch, what a wheel does on its work: what is decided where a scene switches."""
