@@ -8,7 +8,8 @@ import numpy as np
 
 from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.checks import Check, coded, verdict
-from abu_calc.dynamics.balanced.boundaries import Boundary, Motion, excess_of, limits_of, quick
+from abu_calc.dynamics.balanced.boundaries import Boundary, excess_of, limits_of, quick
+from abu_calc.dynamics.balanced.crossings import Motion
 from abu_calc.dynamics.balanced.hanging import HangingBounds
 from abu_calc.dynamics.balanced.stability import MARGIN, judged
 from abu_calc.dynamics.scene import Scene

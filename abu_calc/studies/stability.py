@@ -4,7 +4,8 @@ from typing import Annotated, ClassVar, Final
 
 from abu_calc.checks import Check, verdict
 from abu_calc.dynamics.balanced.arrangements import ARRANGEMENTS, Arrangement
-from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries, crossings_of
+from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries
+from abu_calc.dynamics.balanced.crossings import crossings_of
 from abu_calc.dynamics.balanced.stability import Stability, critical_damping
 from abu_calc.dynamics.balanced.stability import stability as judged
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact

@@ -9,7 +9,8 @@ import pytest
 from scipy.optimize import minimize
 
 from abu_calc.dynamics.balanced.arrangements import likeness, rests, spread
-from abu_calc.dynamics.balanced.boundaries import boundaries, crossings_of
+from abu_calc.dynamics.balanced.boundaries import boundaries
+from abu_calc.dynamics.balanced.crossings import crossings_of
 from abu_calc.dynamics.balanced.linearised import BalancedMotion
 from abu_calc.dynamics.balanced.stability import judged, stability
 from abu_calc.dynamics.balanced.stationary import NotKnownError

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.balanced.boundaries import boundaries, crossings
+from abu_calc.dynamics.balanced.boundaries import boundaries
+from abu_calc.dynamics.balanced.crossings import crossings
 from abu_calc.dynamics.balanced.floquet import magnus, multipliers
 from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import resting_angles

@@ -1,0 +1,115 @@
+"""Eigenvalues that cross the edge of stability with the speed."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from abu_calc.dynamics.balanced.arrangements import Arrangement
+from abu_calc.dynamics.balanced.linearised import Array, BalancedMotion
+from abu_calc.dynamics.balanced.speeds import GRID, MANY, check_range, grid_of
+from abu_calc.dynamics.balanced.stability import MARGIN, judged, worst
+from abu_calc.dynamics.balanced.two_modes import TwoModes, two_modes
+from abu_calc.dynamics.scene import Scene
+
+MOST_STATES: Final = 16
+"""States for which all crossings can be solved for in a moment."""
+
+REAL: Final = 1e-4
+"""A solution for the speed whose imaginary part is a smaller share than this may be one of a close pair."""
+
+NARROW: Final = 1e-9
+"""Relative; speeds as near as this are one."""
+
+Motion = BalancedMotion | TwoModes
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A speed [rad/s] at which eigenvalues or multipliers cross the edge of stability; how many grow on either side."""
+
+    speed: float
+    growing_below: int
+    growing_above: int
+
+
+def crossings_of(
+    scene: Scene, low: float, high: float, half_angle: float = 0.0, arrangement: Arrangement = "worst"
+) -> tuple[Crossing, ...]:
+    """Every speed between at which the number of growing ones changes, of the arrangement that is worst at the scene's.
+
+    Isotropic support: all of them; elsewhere those between neighbours of a grid that differ. None where the axis
+    moves or nothing rests. Raises as `boundaries`.
+    """
+    check_range(low, high)
+    found = judged(scene, half_angle, arrangement)[1]
+    if not found or found[0].motion:
+        return ()
+    one = worst(found, scene.speed)
+    motion: Motion = two_modes(one) or one
+
+    def growing(speed: float) -> int:
+        return motion.growing(speed, MARGIN * speed)
+
+    exact = solvable(motion)
+    candidates = between(crossings(motion), low, high) if exact else grid_of(scene, low, high, GRID, MANY)
+    points = [(speed, growing(speed)) for speed in candidates]
+    return tuple(one for a, b in pairwise(points) for one in _halved(growing, a, b))
+
+
+def _halved(growing: Callable[[float], int], low: tuple[float, int], high: tuple[float, int]) -> Iterator[Crossing]:
+    """Every change of a number between two speeds where it differs."""
+    if low[1] == high[1]:
+        return
+    if high[0] - low[0] <= NARROW * high[0]:
+        yield Crossing(high[0], low[1], high[1])
+        return
+    speed = (low[0] + high[0]) / 2
+    middle = speed, growing(speed)
+    yield from _halved(growing, low, middle)
+    yield from _halved(growing, middle, high)
+
+
+def solvable(motion: Motion) -> bool:
+    """Whether all crossings can be solved for in a moment."""
+    return motion.isotropic and motion.states <= MOST_STATES
+
+
+def crossings(motion: Motion) -> list[float]:
+    """Speeds [rad/s] at which an eigenvalue may cross the imaginary axis, on an isotropic support; ascending.
+
+    Two eigenvalues then add up to zero, or one is zero: the bialternate product 2A ⊙ I, whose eigenvalues are λ_i + λ_j
+    (Fuller 1968), or A is singular. A = L₀ + L₁Ω + L₂Ω², so each is an eigenvalue problem for Ω. Between its solutions
+    stability cannot change; most of them change nothing.
+    """
+    parts = motion.polynomial()
+    found = [*_singular(parts), *_singular(np.array([_bialternate(part) for part in parts]))]
+    return sorted(x * motion.unit for x in found)
+
+
+def _bialternate(A: Array) -> Array:
+    """2A ⊙ I: A ⊗ I + I ⊗ A on the antisymmetric products of two states."""
+    size = len(A)
+    rows, columns = np.triu_indices(size, 1)
+    unit = np.eye(size)
+    product = np.kron(A, unit) + np.kron(unit, A)
+    picked = product[rows * size + columns]
+    return np.asarray(picked[:, rows * size + columns] - picked[:, columns * size + rows], dtype=float)
+
+
+def _singular(parts: Array) -> list[float]:
+    """Positive x at which P₀ + P₁x + P₂x² is singular, or all but."""
+    from scipy.linalg import eigvals
+
+    zero, unit = np.zeros_like(parts[0]), np.eye(len(parts[0]))
+    values = eigvals(np.block([[zero, unit], [-parts[0], -parts[1]]]), np.block([[unit, zero], [zero, parts[2]]]))
+    finite = values[np.isfinite(values)]
+    return [float(x.real) for x in finite if x.real > 0 and abs(x.imag) <= REAL * x.real]
+
+
+def between(speeds: Sequence[float], low: float, high: float) -> list[float]:
+    """The ends, and a speed between any two neighbours of `speeds` inside."""
+    inside = [low, *(speed for speed in speeds if low < speed < high), high]
+    return [low, *((a + b) / 2 for a, b in pairwise(inside)), high]
