@@ -14,11 +14,12 @@ if TYPE_CHECKING:
 
 GRID = 48
 """Displacements tried at first."""
-FINER = 24
-"""Displacements tried between the two that an end lies between, thrice: to 1e-5."""
+FINER = 96
+"""Displacements tried between the two that an end lies between, twice: to 1e-5."""
 SWEEPS = 12
 """Rounds in which each ball moves once."""
-SLACK = 1e-9
+SLACK, STILL = 1e-9, 1e-6
+"""On imbalances in m·R_p, and by how much a round may change them at the end."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ def worst_friction(count: int, moment: float, band: float, imbalance: float, rec
         return found
     for far in range(count + 1):
         split = _Split(count - far, far, -band / (receptance * moment), imbalance / moment)
-        if count > 2 and found.angles and not _possible(split, np.array([found.displacement / band]))[0]:
+        if count > 2 and found.angles and not _possible(split, np.array([found.displacement / band]), every=True)[0]:
             continue  # its interval ends before that of another split
         end = _end(split)
         if end is not None and (end * band > found.displacement or not found.angles):
@@ -79,27 +80,37 @@ def _end(split: _Split) -> float | None:
     """Where the interval that begins at b ends, of one ball on either side the last one; None: b is not in it."""
     import numpy as np
 
-    u, reach, last_one = split.imbalance, abs(split.pull), split.near == split.far == 1
+    u, reach = split.imbalance, abs(split.pull)
     narrow = [abs(abs(split.far - split.near) + sign * u) / reach for sign in (-1, 1)]
     most = 1.01 * max((u + split.near + split.far) / reach, 1.0)
     grid = np.unique([*np.geomspace(1.0, most, GRID), *(one for one in narrow if 1 < one < most)])
-    possible = _possible(split, grid)
-    if not (possible.any() if last_one else possible[0]):
+    first = 0
+    if split.near == split.far == 1:
+        first = int(max(np.flatnonzero(_possible(split, grid)), default=0))
+    inside = _before_impossible(split, grid[first:]) + first
+    if inside < first:
         return None
-    inside = int(np.flatnonzero(possible)[-1] if last_one else np.argmin(possible) - 1)
-    for _ in range(3):
+    for _ in range(2):
         grid = np.linspace(grid[inside], grid[inside + 1], FINER)
-        inside = int(np.argmin(_possible(split, grid)) - 1)
+        inside = max(_before_impossible(split, grid), 0)
     return float(grid[inside])
 
 
-def _possible(split: _Split, rho: "Reals") -> "NDArray[np.bool_]":
+def _before_impossible(split: _Split, grid: "Reals") -> int:
+    """Index before the first displacement that is not possible, each that seems so looked at again."""
+    import numpy as np
+
+    seems = np.flatnonzero(~_possible(split, grid))
+    return next((int(at) for at in seems if not _possible(split, grid[at : at + 1], every=True)[0]), len(grid) - 1) - 1
+
+
+def _possible(split: _Split, rho: "Reals", *, every: bool = False) -> "NDArray[np.bool_]":
     """Whether the imbalance lies between the least and the largest that the balls can carry where they rest."""
     import numpy as np
 
     possible = np.abs(_carried(split, rho, _farthest(split, rho))) >= split.imbalance - SLACK
     where = np.flatnonzero(possible)
-    least = np.abs(_carried(split, rho[where], _nearest(split, rho[where])))
+    least = np.abs(_carried(split, rho[where], _nearest(split, rho[where], every=every)))
     possible[where] = least <= split.imbalance + SLACK
     return np.asarray(possible)
 
@@ -127,37 +138,52 @@ def _farthest(split: _Split, rho: "Reals") -> "Reals":
     return np.repeat(np.stack([near[best], far[best] + np.pi], axis=-1), [split.near, split.far], axis=-1)
 
 
-def _nearest(split: _Split, rho: "Reals") -> "Reals":
-    """Angles of the balls that carry least: from the best beginning each in turn moves against the sum of the rest."""
+def _nearest(split: _Split, rho: "Reals", *, every: bool = True) -> "Reals":
+    """Angles of the balls that carry least: each ball in turn moves against the sum of the rest, from every beginning
+    or from the best.
+    """
+    import numpy as np
+
+    half, turns = np.arcsin(1 / rho), np.repeat([1.0, -1.0], [split.near, split.far])
+    near, far = _beginnings(split, rho)
+    if not every:
+        total = split.pull * rho + np.exp(1j * near).sum(axis=-1) - np.exp(1j * far).sum(axis=-1)
+        best = np.abs(total).argmin(axis=0), np.arange(len(rho))
+        near, far = near[best][None], far[best][None]
+    units = np.concatenate([np.exp(1j * near), -np.exp(1j * far)], axis=-1)
+    total = split.pull * rho + units.sum(axis=-1)
+    for _ in range(SWEEPS):
+        before = total
+        for ball, turn in enumerate(turns):
+            rest = total - units[..., ball]
+            units[..., ball] = turn * np.exp(1j * np.clip(np.angle(-turn * rest), -half, half))
+            total = rest + units[..., ball]
+        if np.abs(total - before).max(initial=0.0) < STILL:
+            break
+    least = units[np.abs(total).argmin(axis=0), np.arange(len(rho))]
+    return np.asarray(np.angle(turns * least) + np.where(turns > 0, 0.0, np.pi))
+
+
+def _beginnings(split: _Split, rho: "Reals") -> "tuple[Reals, Reals]":
+    """Angles of either group within its arc: each at the corners in all ways, or against such a sum of the other."""
     import numpy as np
 
     half, pull = np.arcsin(1 / rho), split.pull * rho
-    middles = np.repeat([0.0, np.pi], [split.near, split.far])
     near, far = _at_corners(split.near, half), _at_corners(split.far, half)
+    far_against = _against(pull + np.exp(1j * near).sum(axis=-1), split.far, half)
+    near_against = _against(np.exp(1j * far).sum(axis=-1) - pull, split.near, half)
+    both = np.repeat(near, len(far), axis=0), np.tile(far, (len(near), 1, 1))
+    return np.concatenate([both[0], near, near_against]), np.concatenate([both[1], far_against, far])
 
-    def opposed(rest: "Complexes", balls: int) -> "Reals":
-        return np.repeat(np.clip(np.angle(-rest), -half, half)[..., None], balls, axis=-1)
 
-    def sums(angles: "Reals") -> "Complexes":
-        return np.asarray(np.exp(1j * angles).sum(axis=-1))
+def _against(pulled: "Complexes", balls: int, half: "Reals") -> "Reals":
+    """Balls in the direction of what they are to cancel, fanned where together they would be too much."""
+    import numpy as np
 
-    cornered = np.stack([np.concatenate([one, other], axis=-1) for one in near for other in far])
-    far_along = np.concatenate([near, opposed(-(pull + sums(near)), split.far)], axis=-1)
-    near_along = np.concatenate([opposed(pull - sums(far), split.near), far], axis=-1)
-    beginnings = middles + np.concatenate([cornered, far_along, near_along])
-    best = np.abs(_carried(split, rho, beginnings)).argmin(axis=0)
-    angles: Reals = beginnings[best, np.arange(len(rho))]
-    total = _carried(split, rho, angles)
-    for _ in range(SWEEPS):
-        before = total
-        for ball, middle in enumerate(middles):
-            rest = total - np.exp(1j * angles[:, ball])
-            turned = np.angle(-rest * np.exp(-1j * middle))
-            angles[:, ball] = middle + np.clip(turned, -half, half)
-            total = rest + np.exp(1j * angles[:, ball])
-        if np.abs(total - before).max(initial=0.0) < SLACK:
-            break
-    return angles
+    odd = balls % 2
+    fan = np.arccos(np.clip((np.abs(pulled) - odd) / max(balls - odd, 1), 0.0, 1.0))
+    sides = np.array([0.0] * odd + [1.0, -1.0] * (balls // 2))
+    return np.asarray(np.clip(np.angle(pulled)[..., None] + fan[..., None] * sides, -half[:, None], half[:, None]))
 
 
 def _at_corners(balls: int, half: "Reals") -> "Reals":

@@ -93,9 +93,9 @@ def _running(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
     return (
         Advice("oil", f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
                "to 50 by slip, more when cold; state grade and volume"),
-        Advice("web and cover", "both must carry the wall, the cover without clearance: the lobes then leave "
-               f"{_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))}; a free ring would "
-               f"go oval by {_um(oval.free_ring)}"),
+        Advice("web and cover", "both must carry the wall, the cover without clearance: the race's two lobes then "
+               f"leave {_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))}; a free "
+               f"ring would go oval by {_um(oval.free_ring)}"),
         Advice("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
     )  # fmt: skip
 
