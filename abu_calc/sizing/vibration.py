@@ -202,19 +202,23 @@ def _level(case: Case, displacement: float) -> float:
     return displacement_level(displacement, case.speed, case.background_level)
 
 
-def vibration_checks(case: Case, idle: Vibration, levels: SpeedLevels | None) -> tuple[Check, ...]:
+def vibration_checks(case: Case, one: Candidate, idle: Vibration, levels: SpeedLevels | None) -> tuple[Check, ...]:
     """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None or levels is None:
         reason = "not known, since the balls cannot balance at these speeds"
         allowed = {"ABU401": limit, "ABU402": before}
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
-    lower = idle.lowered
+    remedy = None
+    if not idle.lowered:
+        remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
+        if one.budget.shortfall:
+            remedy = "What gives the balls enough capacity, see ABU201."
+    message = "with the autobalancer against without, idle"
     return (
         _level_check(case, levels),
-        coded("ABU402", verdict(lower), "with the autobalancer against without, idle", after, before, "dB",
-              None if lower else "The wheel is balanced better than balls can do: no autobalancer is needed."),
-    )  # fmt: skip
+        coded("ABU402", verdict(idle.lowered), message, after, before, "dB", remedy),
+    )
 
 
 def _level_check(case: Case, levels: SpeedLevels) -> Check:
