@@ -25,7 +25,7 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | Non
         reason = "the balls cannot carry the imbalance side by side"
         return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in JUDGED)
     return (
-        _balances(ensemble, remedy),
+        _balances(design, ensemble, remedy),
         _settles(design, ensemble, remedy),
         _none_hangs(ensemble, remedy),
     )
@@ -51,7 +51,7 @@ def level_check(closed: Check, ensemble: Ensemble | None) -> Check:
                  given.level, closed.limit, "dB", closed.remedy)  # fmt: skip
 
 
-def _balances(ensemble: Ensemble, remedy: str | None) -> Check:
+def _balances(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
     given = ensemble.given
     failing = [one for one in given if not one.balanced]
     worst = max(given, key=lambda one: one.imbalance, default=None)
@@ -61,6 +61,9 @@ def _balances(ensemble: Ensemble, remedy: str | None) -> Check:
         left += f"; not {_listed(failing)}"
     elif status == "warn":
         left += f"; not {_listed(one for one in ensemble.outcomes if not one.balanced)}"
+    moved = design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio)
+    if worst and worst.imbalance > moved:
+        left += "; the balls make it worse, they gather on the heavy side or hang"
     for one in ensemble.lost[:1]:
         left += f"; without an answer {_words(one.member.name, one.member.drag)}: {one.reason}"
     value, limit = (worst.imbalance, worst.allowed) if worst else (None, None)

@@ -1,6 +1,6 @@
 """`abu size MACHINE`: from one file about a machine to a sized and simulated design."""
 
-import importlib.util
+import os
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -12,7 +12,6 @@ from abu_calc.report.blocks import Block
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.parallel import Workers
     from abu_calc.studies.size import SizeResult
 
 
@@ -30,7 +29,7 @@ def size(
     from abu_calc.studies.size import size as study
 
     with progress(how) as tell:
-        result = study(read_machine(machine, set_ or ()), accuracy, tell, workers())
+        result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
     short = None if explain else lambda: _screen(result)
     return Outcome.of(result, lambda: _blocks(result, explain), short)
 
@@ -49,13 +48,6 @@ def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:
     from abu_calc.report.explain import explanation_blocks
 
     return size_blocks(result) + explanation_blocks(result)
-
-
-def workers() -> "Workers":
-    """Threads, or processes where no compiled code lets threads run side by side."""
-    from abu_calc.parallel import Workers, threads
-
-    return Workers(threads().count, processes=importlib.util.find_spec("llvmlite") is None)
 
 
 def register(app: typer.Typer) -> None:

@@ -59,7 +59,7 @@ def worst_friction(count: int, moment: float, band: float, imbalance: float, rec
 
     >>> worst = worst_friction(4, 4.084e-3 * 26e-3, 10.4e-6, 300e-6, -1 / 5.6)
     >>> round(1e6 * worst.displacement, 1)
-    25.9
+    25.5
     """
     import numpy as np
 

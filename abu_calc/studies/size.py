@@ -1,6 +1,6 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Final
 
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels
@@ -8,6 +8,7 @@ from abu_calc.analysis.machine import Run, simulated
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.parallel import Workers, threads
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
@@ -29,6 +30,7 @@ from abu_calc.studies.seat_records import SeatResult, seat_results
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
 from abu_calc.units import from_si
+from abu_calc.validity import Range
 
 
 @record
@@ -57,20 +59,25 @@ class SizeResult(Result):
     drawing: tuple[DrawingLine, ...]
 
 
+WORKERS: Final = Range("workers", 1, 1024, key="workers")
+
+
 @checked
 def size(
-    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None
+    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None
 ) -> SizeResult:
     """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
-    `workers`: how many starts run side by side; threads, one for each processor, unless told otherwise.
+    `workers`: how many starts run side by side, in processes where no compiled code lets threads do; the result does
+    not depend on it. None: threads alone, which scripts of any kind can start.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
+    WORKERS.check(1 if workers is None else workers)
     tables = machine.whole("size")
     with machine.located():
         sized = size_design(tables)
-        tried = proven(sized, accuracy=accuracy, progress=progress, workers=workers or threads())
+        tried = proven(sized, accuracy=accuracy, progress=progress, workers=_side_by_side(workers))
         design = tried.design
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
@@ -110,6 +117,10 @@ def size(
             for line in design.drawing
         ),
     )
+
+
+def _side_by_side(count: int | None) -> Workers:
+    return threads() if count is None else Workers(count, processes=not installed())
 
 
 def _other_drags(design: Design, run: Run) -> tuple[SettlingEstimate, ...] | None:

@@ -94,7 +94,7 @@ def test_a_wrong_argument_is_refused_by_its_name(study: Any, name: str, value: o
     assert error.place.key == name and allowed in str(error.allowed), error
 
 
-@pytest.mark.parametrize("arguments", [(), (MACHINE, 0.01, print, 1)], ids=["none", "too many"])
+@pytest.mark.parametrize("arguments", [(), (MACHINE, 0.01, print, 1, 1)], ids=["none", "too many"])
 def test_how_many_arguments_there_are_is_pythons_to_judge(arguments: tuple[Any, ...]) -> None:
     with pytest.raises(TypeError, match=r"size\(\)"):
         abu_calc.size(*arguments)
