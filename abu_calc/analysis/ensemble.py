@@ -17,15 +17,15 @@ from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.parallel import Workers, side_by_side
 from abu_calc.progress import Progress, silent
-from abu_calc.scenes.members import DRAGS, Member, members, scene_of_member
+from abu_calc.scenes.members import DRAGS, Member, full_speed_at, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
 
 TOLERANCE, TIGHTER = 2e-4, 0.1
 """Of the first run of a member, and by how much that of the run which confirms one that decides a check is tighter."""
 
-WORK = 300_000
-"""Evaluations of one run: some tenths of a second in compiled code. Machines that balance take a tenth of that."""
+WORK = 150_000
+"""Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth."""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
@@ -51,6 +51,7 @@ class Outcome:
     slip: float
     imbalance: float
     allowed: float
+    work: int = 0
     confirmed: bool = False
 
     @property
@@ -80,6 +81,7 @@ class Lost:
 
     member: Member
     reason: str
+    work: int = WORK
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,11 @@ class Ensemble:
     def members(self) -> int:
         """How many starts there are."""
         return len(self.outcomes) + len(self.lost)
+
+    @property
+    def work(self) -> int:
+        """Evaluations of all of them, in SciPy's."""
+        return sum(one.work for one in self.outcomes) + sum(one.work for one in self.lost)
 
     @property
     def given(self) -> tuple[Outcome, ...]:
@@ -150,7 +157,7 @@ def start_once(design: Design, member: Member, accuracy: float, tolerance: float
         equations = assemble(scene)
         choice = choose(equations, "auto", tolerance)
         run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(WORK))
-        return outcome_of(design, member, scene, evaluate(scene, run))
+        return replace(outcome_of(design, member, scene, evaluate(scene, run)), work=choice.work(run))
     except NotTrustworthyError as error:
         return Lost(member, str(error).splitlines()[0])
 
@@ -173,7 +180,7 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
     settling = response.settling_time
     return Outcome(
         member=member,
-        settling=None if settling is None else max(settling - member.run_up, 0.0),
+        settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),
         residual=response.axis_amplitude,
         level=level_at_loudest(design.case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=max(map(abs, response.final.ball_speeds), default=0.0) / speed,

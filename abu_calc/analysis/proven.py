@@ -10,8 +10,8 @@ from abu_calc.sizing import instead
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design
 
-MOST_OTHERS = 3
-"""Candidates that are tried when the best one does not pass."""
+MOST_OTHERS, MOST_WORK = 3, 600_000
+"""Candidates that are tried when the best one does not pass, and evaluations beyond which nothing more is tried."""
 
 
 @dataclass(frozen=True)
@@ -36,14 +36,18 @@ def proven(
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first) or not design.frequency.balancing_possible:
         return Proven(design, first)
+    spent = first.work
     for one in [each for each, _ in design.choice.runners_up if sound(design.case, each)][:MOST_OTHERS]:
+        if spent > MOST_WORK:
+            break
         other = instead(design, one, "does not balance from every start")
         progress(f"idle: {_words(one)} instead")
         found = simulate_members(other, accuracy, silent, workers)
+        spent += found.work
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
             return Proven(other, found, warnings=(text,))
-    return Proven(design, first, remedy(design, first, accuracy, progress, workers))
+    return Proven(design, first, remedy(design, first, MOST_WORK - spent, accuracy, progress, workers))
 
 
 def _carries(design: Design) -> bool:

@@ -19,18 +19,25 @@ FASTER, DAMPED = 0.5, 2.0
 """Of the run-up's time, and of the suspension's damping."""
 
 
-def remedy(design: Design, first: Ensemble, accuracy: float, progress: Progress, workers: Workers | None) -> str:
+def remedy(
+    design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: Workers | None
+) -> str | None:
     """The first change with which every start at the drag given passes; else all that were tried without success.
 
-    `first`: the starts of the design as it is.
+    `first`: the starts of the design as it is; `most`: evaluations that all trials may take, None where it is none.
     """
     tried = []
     for name, other in changes(design, first):
+        if most <= 0:
+            break
         progress(f"idle: with {name}")
         found = simulate_members(other, accuracy, silent, workers, (1.0,))
         if passes(other, found):
             return f"Tried: with {name} all {found.members} starts pass."
         tried.append(name)
+        most -= found.work
+    if not tried:
+        return None
     return f"Tried without success: {'; '.join(tried)}. Not tried: a pause at a lower speed after the run-up."
 
 

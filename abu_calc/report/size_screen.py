@@ -45,7 +45,8 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
     many = result.ensemble
     if many is None:
         return [BLANK, _table(result, Spread(result.vibration.level_after_db), Spread(None))]
-    told = many.level_db.worst, result.vibration.level_after_db
+    over_range = (one.level_after_db for one in result.vibration.by_speed or ())
+    told = many.level_db.worst, result.vibration.level_after_db, *over_range
     level = Spread(many.level_db.typical, max((one for one in told if one is not None), default=None))
     found = many.settling_time_s
     settling = Spread(found.typical, math.inf if found.worst is None else found.worst)

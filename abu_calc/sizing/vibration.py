@@ -214,6 +214,8 @@ def vibration_checks(case: Case, one: Candidate, idle: Vibration, levels: SpeedL
         remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
         if one.budget.shortfall:
             remedy = "What gives the balls enough capacity, see ABU201."
+        elif one.budget.rolling_friction > one.budget.race_eccentricity:
+            remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
     message = "with the autobalancer against without, idle"
     return (
         _level_check(case, levels),
