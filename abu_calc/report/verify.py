@@ -26,8 +26,9 @@ def verify_screen(result: VerifyResult) -> tuple[Block, ...]:
     title = f"{len(same)} of {many(len(result.files), 'file')} as expected"
     verdict = Paragraph(f"{'FAIL' if differ else 'PASS'}: {title}", result.status)
     names = [Paragraph(f"As expected: {', '.join(same[:MOST_NAMES])}{', …' if len(same) > MOST_NAMES else ''}.")]
-    last = [Paragraph("More: --full, every file; --update writes what is meant.")] if differ else []
+    last: list[Block] = [Paragraph("More: --full, every file; --update writes what is meant.")] if differ else []
     head: list[Block] = [verdict, *(names if same else [])]
+    last = [*warning_blocks(result.warnings), *last]
     return (*head, *cut(_blocks(result, set(differ)), LINES - height([*head, *last])), *last)
 
 

@@ -56,4 +56,4 @@ def test_verify_names_the_file(tmp_path: Path) -> None:
                     '[expected]\nstatus = "fail"\n', encoding="utf-8")  # fmt: skip
     seen = abu("verify", str(file), "--json")
     assert seen.document["warnings"][0].startswith(f"{file}: bearing[0].radial_load_kN = 800 (line 5) is unusual")
-    assert "! " in abu("verify", str(file)).out
+    assert "is unusual" in abu("verify", str(file)).out.replace("\n", " ")

@@ -26,12 +26,12 @@ class Plain:
     def __init__(self, functions: Program) -> None:
         self.program = functions
         self._go = _bound(_equations(functions.text))
-        self._parameters = [0.0] * functions.parameters
 
     def go(self, *given: np.ndarray) -> int:
         """`loop.go` on these arrays."""
         views: list[Any] = [one.reshape(-1).data for one in given]
-        views[PARAMETERS], views[LAYOUT] = self._parameters, views[LAYOUT].tolist()
+        # Its own: runs of one structure may go side by side; the loop fills it at its start.
+        views[PARAMETERS], views[LAYOUT] = [0.0] * self.program.parameters, views[LAYOUT].tolist()
         return int(self._go(*views))
 
 
