@@ -117,6 +117,12 @@ class Support(ABC):
     turns: ClassVar[bool] = False
     """Whether its motion turns the rotor and the races too. Then what the imbalance weighs in it varies, and half a
     turn of the rotor later it is not the same upside down."""
+
+    @property
+    def straight(self) -> bool:
+        """Whether it neither tilts nor turns what it holds."""
+        return not (self.couples or self.turns)
+
     bearings: tuple[float, ...] = ()
     """Places along the spindle [m] where motion is reported beside that of the axis."""
 

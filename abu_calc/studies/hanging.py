@@ -34,7 +34,7 @@ class Hanging(Record):
         """Of a scene with balls; `half_angle` [rad] of touching ones, 0 without size."""
         if not scene.ball_masses:
             return None
-        found = hanging_bounds(scene, half_angle)
+        found = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
         drags = zip(STATES, (found.resonance, found.damped, found.gravity), strict=True)
         return cls(
             drag_per_s=found.drag,

@@ -58,18 +58,17 @@ class HangingBounds:
 
 
 def hanging_bounds(
-    scene: Scene, half_angle: float = 0.0, speeds: tuple[float, float] | None = None, *, horizontal: bool | None = None
+    scene: Scene, half_angle: float = 0.0, speeds: tuple[float, float] | None = None, *, horizontal: bool = False
 ) -> HangingBounds:
     """Those of a scene, the worst of the speeds [rad/s], by default of its own.
 
-    `half_angle` β of touching balls, 0 without size; `horizontal`: whether weight acts in the plane, by default whether
-    the scene has gravity. Range: balls that go round alike in all races, small motions of the support.
+    `half_angle` β of touching balls, 0 without size; `horizontal`: whether weight acts in the plane. Range: balls that
+    go round alike in all races, small motions of the support.
     """
     low, high = speeds or (scene.speed, scene.speed)
-    weight = scene.effect("gravity") is not None if horizontal is None else horizontal
     races = [race for race in scene.races if race.ball_masses]
     grid = dict.fromkeys(np.geomspace(low, high, SPEEDS).tolist() if high > low else (low,))
-    found = [_bounds(scene, race, half_angle, speed, weight=weight) for race in races for speed in grid]
+    found = [_bounds(scene, race, half_angle, speed, weight=horizontal) for race in races for speed in grid]
     none = HangingBounds(0.0, 0.0, 0.0, 0.0, 0.0)
     return max(found, key=lambda one: one.largest / max(one.drag, 1e-300), default=none)
 

@@ -167,7 +167,7 @@ def two_modes(motion: BalancedMotion) -> TwoModes | None:
         return None
     support = scene.support.small_motion(scene.speed).carrying(scene.balls)
     masses, size = scene.ball_masses, len(support.mass)
-    if len(scene.races) != 1 or not masses or min(masses) < max(masses) or scene.support.turns or scene.support.couples:
+    if len(scene.races) != 1 or not masses or min(masses) < max(masses) or not scene.support.straight:
         return None
     spin = np.kron(np.eye(size // 2), QUARTER)
     if size % 2 or np.any(support.frame @ spin != QUARTER @ support.frame):
