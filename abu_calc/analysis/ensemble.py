@@ -27,6 +27,9 @@ TOLERANCE, TIGHTER = 2e-4, 0.1
 WORK = 150_000
 """Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth."""
 
+MANY = 8
+"""Balls beyond which fewer evaluations are allowed, as each takes longer."""
+
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
@@ -156,7 +159,8 @@ def start_once(design: Design, member: Member, accuracy: float, tolerance: float
     try:
         equations = assemble(scene)
         choice = choose(equations, "auto", tolerance)
-        run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(WORK))
+        most = WORK * MANY // max(MANY, len(scene.ball_masses))
+        run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(most))
         return replace(outcome_of(design, member, scene, evaluate(scene, run)), work=choice.work(run))
     except NotTrustworthyError as error:
         return Lost(member, str(error).splitlines()[0])
