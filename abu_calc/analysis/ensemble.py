@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Any
 
+from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.analysis.ledger import chosen
 from abu_calc.analysis.response import Response, evaluate, needed_times
@@ -14,7 +15,6 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.errors import NotTrustworthyError
-from abu_calc.formulas.motion import SETTLED
 from abu_calc.parallel import Workers, side_by_side
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.members import DRAGS, Member, full_speed_at, members, scene_of_member
@@ -32,12 +32,6 @@ MANY = 8
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
-
-HALF = 0.5
-"""Of the imbalance, that friction may leave."""
-
-SLIPPING = 0.05
-"""Of the rotor's speed: balls whose mean speed against the race stays above hang."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +59,7 @@ class Outcome:
     @property
     def balanced(self) -> bool:
         """Whether the balls are at rest in their race, and what they leave is allowed [kg m]."""
-        return not self.hanging and self.imbalance <= self.allowed
+        return balances(self.imbalance, self.allowed, self.slip)
 
     @property
     def time(self) -> float:
@@ -80,11 +74,11 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Lost:
-    """A start that gave no number to be trusted, and why."""
+    """A start that gave no number to be trusted, and why; `work`: the evaluations it was allowed."""
 
     member: Member
     reason: str
-    work: int = WORK
+    work: int
 
 
 @dataclass(frozen=True)
@@ -156,14 +150,14 @@ def simulate_members(
 def start_once(design: Design, member: Member, accuracy: float, tolerance: float) -> Outcome | Lost:
     """One start, by one run."""
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    most = WORK * MANY // max(MANY, len(scene.ball_masses))
     try:
         equations = assemble(scene)
         choice = choose(equations, "auto", tolerance)
-        most = WORK * MANY // max(MANY, len(scene.ball_masses))
         run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(most))
         return replace(outcome_of(design, member, scene, evaluate(scene, run)), work=choice.work(run))
     except NotTrustworthyError as error:
-        return Lost(member, str(error).splitlines()[0])
+        return Lost(member, str(error).splitlines()[0], most)
 
 
 def _all(
@@ -187,22 +181,10 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),
         residual=response.axis_amplitude,
         level=level_at_loudest(design.case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
-        slip=max(map(abs, response.final.ball_speeds), default=0.0) / speed,
+        slip=slip(response, speed),
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, scene.imbalance),
     )
-
-
-def allowed_imbalance(design: Design, moved: float) -> float:
-    """What may be left [kg m]: a tenth of the imbalance, and what eccentricity and dry friction leave in any case.
-
-    Friction at its worst arrangement, but with that no more than half the imbalance: less would be no balancing.
-    """
-    one = design.autobalancer
-    mass, budget = one.requirement.effective_mass, one.budget
-    tenth = SETTLED * max(moved, 0.01 * one.static_moment) + mass * budget.race_eccentricity
-    worst = max(each.rolling_friction for each in design.worst)
-    return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
 
 
 def _deciding(found: Sequence[Outcome | Lost], drag: float) -> set[int]:
@@ -218,7 +200,7 @@ def _confirmed(one: Outcome | Lost) -> bool:
 
 
 def _worse(loose: Outcome | Lost, tight: Outcome | Lost) -> Outcome | Lost:
-    """The worse of two runs of a start: where they differ, less than any error decides, and both may happen."""
+    """The tighter of two runs of a start; where they end differently the worse: less than any error decides there."""
     if isinstance(loose, Lost) or isinstance(tight, Lost):
         return tight if isinstance(tight, Lost) else loose
     if (loose.hanging, loose.balanced) == (tight.hanging, tight.balanced):

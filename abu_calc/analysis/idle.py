@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable
 
+from abu_calc.analysis.balanced import balanced_well
 from abu_calc.analysis.ensemble import Ensemble, Outcome
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.sizing.design import Design
@@ -13,9 +14,6 @@ WORK = 300_000
 stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
 
 JUDGED = "ABU701", "ABU702", "ABU704"
-
-HARDLY = 0.01
-"""Of what all balls in one place would cause: imbalance below is counted as this much in settling, too."""
 
 
 def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | None = None) -> tuple[Check, ...]:
@@ -76,7 +74,7 @@ def _balances(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
 def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
     limit = design.case.table.limits.settling_time_s
     status = _grade(ensemble, lambda one: one.time <= limit)
-    if status == "fail" and _balanced_well(design) and all(one.balanced for one in ensemble.given):
+    if status == "fail" and balanced_well(design) and all(one.balanced for one in ensemble.given):
         message = "the wheel is balanced so well that balls creep to their places; none leaves more than is allowed"
         return coded("ABU702", "warn", message, None, limit, "s")
     late = max(ensemble.given, key=lambda one: one.time, default=None)
@@ -86,15 +84,9 @@ def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
         when = "never" if math.isinf(latest.time) else f"{latest.time:.3g} s"
         message += f"; {_named(latest)}: {when}"
     if any(one.member.run_up for one in ensemble.given):
-        message += "; in a run-up counted from full speed on"
+        message += "; of a run-up only the time at full speed counts"
     value = None if late is None or math.isinf(late.time) else late.time
     return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)
-
-
-def _balanced_well(design: Design) -> bool:
-    """Whether the imbalance is so small beside the balls that they hardly feel it."""
-    one = design.autobalancer
-    return design.imbalance.value * abs(one.requirement.plane_ratio) < HARDLY * one.static_moment
 
 
 def _none_hangs(ensemble: Ensemble, remedy: str | None) -> Check:

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Final
 
-from abu_calc.analysis.ensemble import SLIPPING, allowed_imbalance
+from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.response import Response
 from abu_calc.check_codes import CHECK_CODES
 from abu_calc.checks import Check, coded, overall, verdict
@@ -81,10 +81,10 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
         reason = "the balls cannot carry the imbalance side by side"
         return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in ("ABU701", "ABU702"))
     left, allowed, time = response.residual_imbalance, allowed_imbalance(design, moved), response.settling_time
-    slips = max(map(abs, response.final.ball_speeds), default=0.0) > SLIPPING * abs(response.final.speed)
-    balanced = left <= allowed and not slips
+    slipping = slip(response, abs(response.final.speed) or design.case.speed)
+    balanced = balances(left, allowed, slipping)
     message = "imbalance left: the balls end opposite the imbalance"
-    if slips:
+    if slipping > SLIPPING:
         message = "imbalance left: the balls hang, they keep going round behind the rotor"
     elif not balanced:
         word = "make it worse, they gather on the heavy side" if left > moved else "help, but do not balance"

@@ -10,8 +10,8 @@ from abu_calc.progress import Progress, silent
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp
 
-DRAGS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
-"""Drags [1/s] of oils and greases, of which those nearest to the drag given are tried."""
+OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
+"""Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
 MOST_DRAGS, NEAR = 5, 1.2
 """How many are tried, and the factor within which another drag is none."""
 
@@ -46,7 +46,7 @@ def changes(design: Design, first: Ensemble) -> Iterator[tuple[str, Design]]:
     case, table = design.case, design.case.table
     for drag in other_drags(case.drag, only_more=bool(first.hanging)):
         yield f"autobalancer.rolling_drag_per_s = {drag:.3g}", replace(design, case=replace(case, drag=drag))
-    if table.run_up and all(one.member.run_up for one in first.given if not one.balanced):
+    if table.run_up and not table.motor and all(one.member.run_up for one in first.given if not one.balanced):
         time = FASTER * table.run_up.time_s
         faster = table.model_copy(update={"run_up": RunUp(time_s=time)})
         yield f"run_up.time_s = {time:.3g}", replace(design, case=replace(case, table=faster))
@@ -58,7 +58,7 @@ def changes(design: Design, first: Ensemble) -> Iterator[tuple[str, Design]]:
 
 def other_drags(given: float, *, only_more: bool) -> list[float]:
     """The nearest first; more drag alone where balls hang."""
-    others = [drag for drag in DRAGS if drag > NEAR * given or (drag < given / NEAR and not only_more)]
+    others = [drag for drag in OILS if drag > NEAR * given or (drag < given / NEAR and not only_more)]
     return sorted(others, key=lambda drag: max(drag / given, given / drag) if given else drag)[:MOST_DRAGS]
 
 

@@ -26,7 +26,8 @@ def stability(
         str, typer.Option("--arrangement", help="Of more than two balls: worst that balances, fan (even), or start.")
     ] = "worst",
     crossings: Annotated[
-        bool, typer.Option("--crossings", help="With --speeds: every crossing of an eigenvalue.")
+        bool,
+        typer.Option("--crossings", help="Also every crossing of an eigenvalue."),
     ] = False,
 ) -> Outcome:
     """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""

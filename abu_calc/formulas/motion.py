@@ -11,6 +11,9 @@ ACCURACY: Final = Range("accuracy", 1e-8, 0.5, key="accuracy")
 SETTLED: Final = 0.1
 """Share of the rotor's own imbalance below which what balls leave of it counts as settled, and as balanced."""
 
+HARDLY: Final = 0.01
+"""Of what all balls in one place would cause: imbalance below counts as this much."""
+
 EQUATIONS = register(Formula(
     "formulas.motion:equations",
     "The one set of equations of motion, composed of a support, races of balls, and the effects of a scene",

@@ -37,21 +37,24 @@ def one_screen(
     room = LINES - height([*about, *last])
     kept = min(2 + height(warnings), LEAST) if warnings else 0
     taken = room - kept - min(1 + height(body), LEAST)
-    told = _fitted([reason(alike) for alike in groups], list(map(len, groups)), taken, "check")
+    told = _fitted([reason(alike) for alike in groups], [[one.code for one in alike] for alike in groups], taken)
     room -= height(told)
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
-    rest = _fitted(warnings, [1] * len(warnings), room - height([BLANK, *shown]) - 2, "warning")
+    rest = _fitted(warnings, [], room - height([BLANK, *shown]) - 2)
     below: list[Block] = [Heading("Warnings"), *rest] if rest else []
     return (*about, *told, *parted, *below, *last)
 
 
-def _fitted(lines: Sequence[Paragraph], counts: Sequence[int], room: int, name: str) -> list[Paragraph]:
-    """As many as there is room for, the rest as a count; `counts`: of how many things each tells."""
+def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:
+    """As many as there is room for, the rest as a count; `codes`: of the checks that each tells, none: of warnings."""
     if height(lines) <= room:
         return list(lines)
     fit = max(bisect_right(range(len(lines)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
-    return [*lines[:fit], Paragraph(f"And {many(sum(counts[fit:]), f'more {name}')}: --full.")] if lines else []
+    left = [code for each in codes[fit:] for code in each]
+    more = many(len(left), "more check") if codes else many(len(lines) - fit, "more warning")
+    named = f" ({', '.join(dict.fromkeys(left))})" if left else ""
+    return [*lines[:fit], Paragraph(f"And {more}{named}: --full.")] if lines else []
 
 
 def cut(blocks: Sequence[Block], room: int) -> list[Block]:

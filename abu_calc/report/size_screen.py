@@ -57,7 +57,7 @@ def _starts(many: EnsembleResult) -> str:
     """How many starts there were, and which was worst."""
     text = f"Of {many.members} starts, with the drag given, a third and three times of it, {many.balanced} balance"
     worst = many.worst_member
-    return f"{text}; worst: {worst.start}, drag {number(worst.drag_per_s, 3)} 1/s." if worst else f"{text}."
+    return f"{text}; the worst of all: {worst.start}, drag {number(worst.drag_per_s, 3)} 1/s." if worst else f"{text}."
 
 
 def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:

@@ -121,5 +121,8 @@ def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
         remedy = None
     else:
         message = "at some speed of the range the support moves with the imbalance: balls go to the heavy side"
-        remedy = f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm), or hold the machine more softly."
+        remedy = (
+            f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm) and above what ABU103 asks, or hold the "
+            "machine more softly."
+        )
     return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least")

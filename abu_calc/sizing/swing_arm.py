@@ -1,7 +1,7 @@
 """Step 9: bounds for a machine on a swing arm (Kovalenko 2010, corrected)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.formulas.swing_arm import (
@@ -51,8 +51,21 @@ def swing_arm_bounds(case: Case, table: SwingArm, imbalance: float, added_mass: 
     return SwingArmBounds(
         limit, stiffness_limit(arm, lowest, exact), worst, natural, damping,
         growth_rate(arm, imbalance, natural), angle,
-        _checks(arm, min(limit, stiffness_limit(arm, lowest, exact)), damping, angle),
+        _doubted(_checks(arm, min(limit, stiffness_limit(arm, lowest, exact)), damping, angle), table.borrowed()),
     )  # fmt: skip
+
+
+def _doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check, ...]:
+    """What passes by another machine's data alone warns."""
+    if not borrowed:
+        return checks
+    reason, remedy = "; rests on example data", f"Give [swing_arm] its own {', '.join(borrowed)}."
+    return tuple(
+        replace(check, status="warn", message=check.message + reason, remedy=remedy)
+        if check.status == "pass"
+        else check
+        for check in checks
+    )
 
 
 def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:

@@ -233,6 +233,11 @@ def _level_check(case: Case, levels: SpeedLevels) -> Check:
         there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
         message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
     remedy = "Smaller race eccentricity, a harder and cleaner race, larger balls."
+    if case.background_level is not None and case.background_level >= limit:
+        remedy = (
+            f"The background alone is {case.background_level:.4g} dB: no autobalancer lowers it. A quieter machine, or "
+            "another limits.vibration_level_db."
+        )
     return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", None if kept and safe else remedy)
 
 

@@ -29,6 +29,9 @@ FASTEST_RPM: Final = 1e6
 SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
 """The range of speeds that can be asked for, in words."""
 
+SLOWEST, FASTEST = 0.1, 2.0
+"""Of the scene's own speed: where crossings are looked for unless a range is given."""
+
 Pairs = tuple[tuple[float, float], ...]
 
 
@@ -75,22 +78,21 @@ def stability(
     """Judge the balanced state of a scene by eigenvalues or Floquet multipliers, and say whether balls may hang.
 
     `scene`: of a machine, see `SCENES`. With `speeds_rpm`, low and high, also every speed between them where stability
-    changes; with `crossings` too, every speed where an eigenvalue crosses, though others grow already. `arrangement` of
-    more than two balls in a race: the "worst" of all that balance, the even "fan", or that to which they go from the
-    "start" angles. Raises InputError, and NotTrustworthyError where multipliers do not settle.
+    changes; with `crossings` too, every speed where an eigenvalue crosses, though others grow already, without a range
+    from a tenth to twice the scene's speed. `arrangement` of more than two balls in a race: the "worst" of all that
+    balance, the even "fan", or that to which they go from the "start" angles. Raises InputError, and
+    NotTrustworthyError where multipliers do not settle.
     """
     one_of("scene", scene, SCENES)
     one_of("arrangement", arrangement, ARRANGEMENTS)
     _check_speeds(speeds_rpm)
-    if crossings and speeds_rpm is None:
-        raise InputError(
-            "crossings are looked for in a range of speeds", place=Place(key="crossings"), found="no range",
-            allowed=SPEEDS, remedy="Give speeds_rpm too, --speeds LOW:HIGH.",
-        )  # fmt: skip
     subject, way = (
         subject_of(source, scene, command="stability"),
         next(one for one in ARRANGEMENTS if one == arrangement),
     )
+    if crossings and speeds_rpm is None:
+        rated = from_si(subject.scene.speed, "rpm")
+        speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
     pressed = grinds(subject.scene)
     found = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.

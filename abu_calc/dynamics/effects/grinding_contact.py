@@ -265,7 +265,7 @@ class GrindingContact(Effect):
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """How long a rigid contact pulls; whether a compliant one parts in the last twentieth of the run; a stop."""
-        stops = self._stops(equations, samples)
+        stops = (*self._drives(equations.scene), *self._stops(equations, samples))
         if self.contact == "face":
             return stops
         if self.contact == "rigid":
@@ -276,6 +276,15 @@ class GrindingContact(Effect):
             return stops
         doubt = "; nothing damps their contact, so how far they bounce may depend on the start"
         return (f"wheel and work part again and again{REMEDY}{doubt}", *stops)
+
+    def _drives(self, scene: Circumstances) -> tuple[str, ...]:
+        """That friction of the printed sign drives a rotor whose speed the scene leaves to torques."""
+        if self.drag <= 0 or not self.wheel_radius or not scene.rotor.rows:
+            return ()
+        return (
+            "with rotation_sense = 1 the work drives the rotor, as printed in Kladiev 1996; a wheel that cuts is "
+            "braked: rotation_sense = -1",
+        )
 
     def _stops(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """That cutting has stopped the rotor before anything switched its motor off."""

@@ -10,6 +10,7 @@ from abu_calc.dynamics.equations.build import parameters_of
 from abu_calc.dynamics.motion import Array, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.scene import Scene
+from abu_calc.formulas.motion import HARDLY
 
 Rhs = Callable[[Any, Any, Any, Acting], Array]
 
@@ -108,7 +109,7 @@ def scales_of(scene: Scene) -> tuple[list[float], float]:
     balls = sum(scene.ball_masses)
     mass = scene.support.felt_mass + balls
     largest = max((race.pitch_radius for race in scene.races), default=0.0)
-    reach = max(scene.imbalance, 0.01 * scene.static_moment, 1e-9 * mass * largest) / mass
+    reach = max(scene.imbalance, HARDLY * scene.static_moment, 1e-9 * mass * largest) / mass
     rate = scene.speed * math.sqrt(balls / (2 * mass)) if balls else scene.speed
     # A coordinate that moves the race by less than its own amount may move more; one that does not, like the race.
     return [reach / share if share > 0 else reach for share in scene.support.shares(scene.races)], rate

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.circumstances import Circumstances
 from abu_calc.dynamics.support import Support, undamped_resonance
+from abu_calc.formulas.motion import HARDLY
 
 RESONANCE = 1e-12
 """Share that stiffness and inertia leave of each other where only rounding parts a speed from an undamped resonance."""
@@ -39,7 +40,7 @@ def unbalanced_amplitude(scene: Circumstances, imbalance: float | None = None) -
 
 def reference_imbalance(scene: Circumstances) -> float:
     """max(m₀e, 1 % of Σ m R_p) [kg m]: what a residual imbalance is small against."""
-    return max(scene.imbalance, 0.01 * scene.static_moment)
+    return max(scene.imbalance, HARDLY * scene.static_moment)
 
 
 def weighing_amplitude(scene: Circumstances) -> float:
