@@ -89,7 +89,7 @@ def _boundaries(result: StabilityResult) -> list[Block]:
     if result.boundaries_rpm is None:
         return [Paragraph("Not asked for: --speeds LOW:HIGH finds them.")]
     searched = "{:g}:{:g}".format(*result.searched_rpm or ())
-    found = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched} rpm.")
+    found = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched.replace(':', ' to ')} rpm.")
     solved_for = result.state == "balanced" and result.eigenvalues
     return [found] if solved_for else [found, Paragraph(ON_A_GRID)]
 

@@ -197,7 +197,7 @@ def test_starts_at_the_drag_given_fail_and_others_warn(changed: dict[str, float 
 
 def test_a_start_without_an_answer_is_not_done() -> None:
     """At the drag given; at another it warns; beside one that fails it changes nothing."""
-    lost = (Lost(Member("spread", 10.0), "too much work"),)
+    lost = (Lost(Member("spread", 10.0), "too much work", 1),)
     assert checked(outcome(), lost=lost)["ABU701"] == "not-done"
     assert checked(outcome(), lost=(replace(lost[0], member=Member("spread", 30.0)),))["ABU701"] == "warn"
     assert checked(outcome(imbalance=1.0), lost=lost)["ABU701"] == "fail"
