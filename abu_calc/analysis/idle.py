@@ -32,15 +32,22 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | Non
     )
 
 
-def level_check(closed: Check, ensemble: Ensemble | None) -> Check:
-    """The check of the idle level with what the starts show beside the closed form; the worse of both stands."""
+def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = None) -> Check:
+    """The check of the idle level with what the starts show beside the closed form; the worse of both stands.
+
+    `remedy`: what was tried.
+    """
     if ensemble is None or closed.status == "not-done" or closed.limit is None or closed.value is None:
         return closed
     given, worst = _loudest(ensemble.given), _loudest(ensemble.outcomes)
     if given is None or worst is None:
         return closed
     if given.level > closed.limit and given.level > closed.value:
-        remedy = "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
+        remedy = (
+            closed.remedy
+            or remedy
+            or "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
+        )
         message = f"simulated, the loudest start is {_named(given)}"
         return coded("ABU401", "fail", message, given.level, closed.limit, "dB", remedy)
     if closed.status == "pass" and worst.level > closed.limit:

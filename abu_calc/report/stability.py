@@ -88,8 +88,8 @@ def _values(title: str, values: Sequence[tuple[float, float]] | None) -> list[Bl
 def _boundaries(result: StabilityResult) -> list[Block]:
     if result.boundaries_rpm is None:
         return [Paragraph("Not asked for: --speeds LOW:HIGH finds them.")]
-    searched = "{:g}:{:g}".format(*result.searched_rpm or ())
-    found = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched.replace(':', ' to ')} rpm.")
+    searched = "{:g} to {:g}".format(*result.searched_rpm or ())
+    found = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched} rpm.")
     solved_for = result.state == "balanced" and result.eigenvalues
     return [found] if solved_for else [found, Paragraph(ON_A_GRID)]
 

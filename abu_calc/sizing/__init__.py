@@ -13,8 +13,9 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing import drawing
 from abu_calc.sizing.frequency import frequency_region
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.level_check import vibration_checks
 from abu_calc.sizing.track import track, track_checks
-from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks
+from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels
 from abu_calc.sizing.worst import worst_residuals
 from abu_calc.spec.machine import MachineFile
 
@@ -58,7 +59,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
         frequency.check,
         *candidate_checks(case, best),
         *track_checks(case, best, race),
-        *vibration_checks(case, best, idle, levels),
+        *vibration_checks(case, imbalance.value, best, idle, levels),
         *power_checks(case),
         *(arm.checks if arm else ()),
         *(check for bearing in seats for check in bearing.checks),

@@ -31,7 +31,7 @@ def _budget(one: Candidate) -> Check:
     return coded("ABU202", verdict(budget.within), "race eccentricity, dry friction and an oval race, expected, "
         f"against what the limit permits at {speed}", from_si(budget.residual, "um"), from_si(budget.permitted, "um"),
         "µm",
-        None if budget.within else "Smaller race eccentricity, a harder and cleaner race, or larger balls.",
+        None if budget.within else "What was tried for the level, see ABU401.",
     )  # fmt: skip
 
 

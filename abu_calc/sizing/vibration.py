@@ -5,7 +5,6 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.balls import Candidate
@@ -13,7 +12,6 @@ from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_s
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.worst import WorstResidual
-from abu_calc.units import from_si
 
 CURVE_STEPS = 6
 """Of the speed range, in the curve of level against speed."""
@@ -200,46 +198,3 @@ def level_at_loudest(case: Case, one: Candidate, displacement: float) -> float:
 
 def _level(case: Case, displacement: float) -> float:
     return displacement_level(displacement, case.speed, case.background_level)
-
-
-def vibration_checks(case: Case, one: Candidate, idle: Vibration, levels: SpeedLevels | None) -> tuple[Check, ...]:
-    """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
-    limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
-    if after is None or levels is None:
-        reason = "not known, since the balls cannot balance at these speeds"
-        allowed = {"ABU401": limit, "ABU402": before}
-        return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
-    remedy = None
-    if not idle.lowered:
-        remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
-        if one.budget.shortfall:
-            remedy = "What gives the balls enough capacity, see ABU201."
-        elif one.budget.rolling_friction > one.budget.race_eccentricity:
-            remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
-    message = "with the autobalancer against without, idle"
-    return (
-        _level_check(case, levels),
-        coded("ABU402", verdict(idle.lowered), message, after, before, "dB", remedy),
-    )
-
-
-def _level_check(case: Case, levels: SpeedLevels) -> Check:
-    """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
-    limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
-    kept, safe = highest.after <= limit, arranged.after <= limit
-    of_range = "" if len(levels.by_speed) == 1 else ", the worst of the range"
-    message = f"expected with the autobalancer at the worst handle, at {_rpm(highest)}{of_range}"
-    if kept and not safe:
-        there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
-        message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
-    remedy = "Smaller race eccentricity, a harder and cleaner race, larger balls."
-    if case.background_level is not None and case.background_level >= limit:
-        remedy = (
-            f"The background alone is {case.background_level:.4g} dB: no autobalancer lowers it. A quieter machine, or "
-            "another limits.vibration_level_db."
-        )
-    return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", None if kept and safe else remedy)
-
-
-def _rpm(level: LevelAtSpeed) -> str:
-    return f"{from_si(level.speed, 'rpm'):.6g} rpm"

@@ -81,7 +81,9 @@ def size(
         design = tried.design
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
-    checks = tuple(level_check(one, tried.ensemble) if one.code == "ABU401" else one for one in design.checks)
+    checks = tuple(
+        level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else one for one in design.checks
+    )
     checks += region.check, *ensemble_checks(design, tried.ensemble, tried.remedy)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     checks += tuple(not_simulated(failure.scene, failure.reason, answered=answered) for failure in failures)

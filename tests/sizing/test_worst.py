@@ -1,6 +1,7 @@
 """What is judged where it is worst: over the speed range, at friction's worst arrangement, with an oval race."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -169,3 +170,28 @@ def test_an_oval_race_counts_in_the_budget() -> None:
     parts = one.budget.race_eccentricity, one.budget.rolling_friction, 2 * one.roundness.lobes
     assert one.budget.residual == pytest.approx(math.hypot(*parts))
     assert one.budget.race_ovality == pytest.approx(2 * one.roundness.lobes) and one.roundness.lobes > 0
+
+
+# Remedies.
+@pytest.mark.parametrize(("limit", "status"), [(112.0, "warn"), (106.0, "fail"), (104.5, "fail")])
+def test_a_truer_race_shows_what_the_remedy_promised(limit: float, status: str) -> None:
+    check = _check(_ranged(limit), "ABU401")
+    promised = re.search(r"gives ([\d.]+) dB", check.remedy or "")
+    assert check.status == status and promised and float(promised[1]) <= limit
+    changes = {f"autobalancer__{key}": float(value) for key, value in re.findall(r"(\w+_mm) = ([\d.]+)", check.remedy)}
+    assert changes
+    truer = size(
+        machine(
+            machine__speed_rpm=5000, machine__speed_range_rpm=[2500, 12000], wheel__imbalance_g_mm=100.0, **PINNED,
+            **changes, limits={"vibration_level_db": limit},
+        )
+    ).speed_levels  # fmt: skip
+    assert truer is not None
+    shown = truer.highest.after if status == "fail" else truer.arranged.after
+    assert shown == pytest.approx(float(promised[1]), abs=0.06)
+
+
+def test_what_no_race_can_reach_is_said() -> None:
+    assert "Tried without success" in (_check(_ranged(80.0), "ABU401").remedy or "")
+    loud = size(machine(machine__background_level_db=112.0, limits={"vibration_level_db": 110.0}))
+    assert "background alone is 112 dB" in (_check(loud, "ABU401").remedy or "")
