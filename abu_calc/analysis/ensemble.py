@@ -24,8 +24,9 @@ from abu_calc.sizing.vibration import level_at_loudest
 TOLERANCE, TIGHTER = 2e-4, 0.1
 """Of the first run of a member, and by how much that of the run which confirms one that decides a check is tighter."""
 
-WORK = 150_000
-"""Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth."""
+WORK, MOST_LOST = 150_000, 3
+"""Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth.
+And how many starts at the drag given may be without an answer until no others are tried."""
 
 MANY = 8
 """Balls beyond which fewer evaluations are allowed, as each takes longer."""
@@ -138,7 +139,7 @@ def simulate_members(
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
     starts = list(members(design, doubtful, shares))
-    found = _all(design, starts, accuracy, TOLERANCE, progress, workers)
+    found = _found(design, starts, accuracy, progress, workers)
     while undecided := [k for k in _deciding(found, design.case.drag) if not _confirmed(found[k])]:
         again = _all(design, [found[k].member for k in undecided], accuracy, TIGHTER * TOLERANCE, silent, workers)
         for k, one in zip(undecided, again, strict=True):
@@ -160,14 +161,28 @@ def start_once(design: Design, member: Member, accuracy: float, tolerance: float
         return Lost(member, str(error).splitlines()[0], most)
 
 
+def _found(
+    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: Workers | None
+) -> list[Outcome | Lost]:
+    """All starts, those at the drag given first; the others only where these have answers."""
+    first = [one for one in starts if one.drag == design.case.drag]
+    others = [one for one in starts if one.drag != design.case.drag]
+    found = _all(design, first, accuracy, TOLERANCE, progress, workers, (0, len(starts)))
+    if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
+        return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one in others)]
+    return found + _all(design, others, accuracy, TOLERANCE, progress, workers, (len(first), len(starts)))
+
+
 def _all(
     design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress,
-    workers: Workers | None,
+    workers: Workers | None, counted: tuple[int, int] = (0, 0),
 ) -> list[Outcome | Lost]:  # fmt: skip
+    """Each once; `counted`: how many came before, and of how many in all."""
+    before, total = counted
     tasks = [(design, one, accuracy, tolerance) for one in starts]
 
     def told(done: int) -> None:
-        progress(f"idle: {done} of {len(tasks)} starts")
+        progress(f"idle: {before + done} of {total} starts")
 
     return side_by_side(start_once, tasks, workers, told)
 

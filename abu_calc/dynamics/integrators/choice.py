@@ -9,7 +9,7 @@ from typing import Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.estimates import START, Seconds, seconds
+from abu_calc.dynamics.integrators.estimates import START, Seconds, held_by_decay, seconds
 from abu_calc.dynamics.integrators.run import Array, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
@@ -50,7 +50,8 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
     """The integrator for a scene, `wanted` being auto, scipy, plain, compiled or heyoka; its library is loaded.
 
     auto takes what is done first, by `estimates`, compilation counted in: SciPy; heyoka; the loop through scenes that
-    switch, compiled or as plain Python. Stiff equations go to SciPy's Radau unless another is asked for.
+    switch, compiled or as plain Python. Stiff equations go to SciPy's Radau unless another is asked for, or
+    compiled code bears their short steps.
     `progress` gets what one waits for. Raises InputError for other words, and for what is not installed or cannot trace
     an effect.
     """
@@ -66,11 +67,24 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
         if missing := untraceable(equations):
             raise InputError(f"plain code cannot be written for this scene: {missing[0]}", remedy=missing[1])
         return _plain("asked for")
-    if scipy_.is_stiff(equations):
+    if decay := scipy_.stiff_decay(equations):
+        if wanted == "auto" and _bears(equations, tolerance, decay):
+            return _compiled("stiff equations that switch: short steps in compiled code are done sooner than long ones")
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")
     if wanted == "scipy":
         return _scipy("scipy-dop853", "asked for")
     return _quickest(equations, seconds(equations, tolerance), progress)
+
+
+def _bears(equations: Equations, tolerance: float, decay: float) -> bool:
+    """Whether the compiled loop goes through a stiff scene that switches sooner than an implicit method."""
+    from abu_calc.dynamics.integrators.compiled import waiting
+
+    about = seconds(equations, tolerance)
+    if not about.switches or untraceable(equations) or waiting.unfit(equations):
+        return False
+    own = about.compiled + held_by_decay(equations, decay) + waiting.waiting(equations)
+    return own < about.scipy and waiting.load(equations)
 
 
 def _quickest(equations: Equations, about: Seconds, progress: Progress) -> Choice:

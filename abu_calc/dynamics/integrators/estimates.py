@@ -33,6 +33,9 @@ SHAKEN, LOOSE = 2.0, 0.2
 """Events per revolution and ball in a scene that switches, with gravity across the race, which stops and starts balls
 twice in each revolution, and without."""
 
+STABLE, STEP = 3.3, 7
+"""Step times decay that Dormand-Prince 5 bears, and evaluations of one of its steps."""
+
 START = 0.25
 """Time [s] heyoka takes to be imported (0.05 to 0.13) and to load compiled code from disk (0.02 to 0.1), and some more:
 what it gains has to be worth the compilation of the very first run (0.3 to 1)."""
@@ -69,6 +72,12 @@ def seconds(equations: Equations, tolerance: float) -> Seconds:
         compiled=COMPILED * plain + general * asked,
         switches=switches,
     )
+
+
+def held_by_decay(equations: Equations, decay: float) -> float:
+    """Time [s] of the compiled loop's steps where stability, h·decay below 3.3 of Dormand-Prince 5, rules them."""
+    steps = RUNS * equations.scene.duration * decay / STABLE
+    return steps * STEP * COMPILED * (PLAIN + PLAIN_BALL * len(equations.scene.ball_masses))
 
 
 def asks_python(equations: Equations) -> bool:

@@ -47,12 +47,13 @@ def load() -> None:
     importlib.import_module("scipy.integrate")
 
 
-def is_stiff(equations: Equations) -> bool:
-    """Whether the spectrum at the start calls for an implicit method."""
+def stiff_decay(equations: Equations) -> float | None:
+    """The fastest decay at the start [1/s] where it calls for an implicit method; None: it does not."""
     state, modes = starting(equations)
     values = np.linalg.eigvals(jacobian(equations, 0.0, state, modes))
     fastest = max(float(np.abs(values.imag).max()), equations.scene.speed)
-    return bool(-values.real.min() > STIFF * fastest)
+    decay = float(-values.real.min())
+    return decay if decay > STIFF * fastest else None
 
 
 def integrate(
