@@ -109,6 +109,8 @@ def _possible(split: _Split, rho: "Reals", *, every: bool = False) -> "NDArray[n
     import numpy as np
 
     possible = np.abs(_carried(split, rho, _farthest(split, rho))) >= split.imbalance - SLACK
+    # What all balls together cannot make up for needs no arrangement.
+    possible &= abs(split.pull) * rho - split.near - split.far <= split.imbalance + SLACK
     where = np.flatnonzero(possible)
     least = np.abs(_carried(split, rho[where], _nearest(split, rho[where], every=every)))
     possible[where] = least <= split.imbalance + SLACK
