@@ -4,11 +4,13 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
+from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 Edge = Literal["leading", "middle", "trailing"]
 
 LOW: Final = 0.3
@@ -90,13 +92,13 @@ def _upward(mark: Array) -> tuple[Array, bool]:
     return signal / height, bool(high - low < ROUNDED * height + 3 * noise)
 
 
-def _begins_at_the_mark(signal: Array, rises: NDArray[np.intp], falls: NDArray[np.intp]) -> bool:
+def _begins_at_the_mark(signal: Array, rises: Indices, falls: Indices) -> bool:
     """Whether the record begins with a pulse, and with its first sample: it was started by the mark."""
     length = int(np.median(falls[:, 1] - rises[:, 1]))
     return bool(signal[0] > HIGH) and int(np.argmax(signal < LOW)) == length
 
 
-def _edges(signal: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _edges(signal: Array) -> tuple[Indices, Indices]:
     """Of every whole pulse the last sample before and the first after its rise, and likewise of its fall."""
     high, low = signal > HIGH, signal < LOW
     places = np.arange(len(signal))
@@ -115,7 +117,7 @@ def _edges(signal: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     )
 
 
-def _crossings(time: Array, signal: Array, before: NDArray[np.intp], after: NDArray[np.intp]) -> Array:
+def _crossings(time: Array, signal: Array, before: Indices, after: Indices) -> Array:
     """Times at half height, by the straight line through the samples of each edge."""
     found = []
     for first, last in zip(before, after, strict=True):
@@ -126,7 +128,7 @@ def _crossings(time: Array, signal: Array, before: NDArray[np.intp], after: NDAr
     return np.array(found)
 
 
-def _between_samples(time: Array, before: NDArray[np.intp], after: NDArray[np.intp], *, first: bool) -> tuple[Array, float]:
+def _between_samples(time: Array, before: Indices, after: Indices, *, first: bool) -> tuple[Array, float]:
     """Times of edges that each fall between two samples, and by how much they may be off: all tell more than one.
 
     Even revolutions leave only so much room for all edges to lie between their samples: its middle. Sampling in
@@ -148,7 +150,7 @@ def smooth(times: Array) -> Array:
     where = 2 * counts / max(len(times) - 1, 1) - 1
     best, least = times, np.inf
     for degree in range(1, min(6, len(times) - 2) + 1):
-        told = np.polynomial.polynomial.polyval(where, np.polynomial.polynomial.polyfit(where, times, degree))
+        told = np.asarray(polynomial.polyval(where, polynomial.polyfit(where, times, degree)), dtype=np.float64)
         error = float(np.mean((times - told) ** 2)) + (1e-9 * float(np.ptp(times))) ** 2
         worth = len(times) * np.log(error) + 2 * degree * np.log(len(times))
         if worth < least:

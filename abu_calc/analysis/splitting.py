@@ -1,4 +1,4 @@
-"""What to do in a plane: take metal off at the heavy spot, put it on opposite, or split it over the places there are."""
+"""What to do in a plane: take metal off at the heavy spot, put it on opposite, or split it over places."""
 
 import cmath
 import math

@@ -1,14 +1,14 @@
 """How far the answer of two planes may be off: each number that went in moved by its standard deviation.
 
-    Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2, variance Σ Δ_i²; the errors of all numbers are independent
+Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2, variance Σ Δ_i²; the errors of all numbers are independent
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from abu_calc.analysis.two_planes import Balancing, Method, RunOnRig, Solution, motion_of, solved
+from abu_calc.analysis.two_planes import Balancing, Method, RunOnRig, Solution, Weight, motion_of, solved
 from abu_calc.formulas.two_planes import Matrix, Pair
 
 LENGTHS: Final = ("a", "b", "c", "d")
@@ -74,23 +74,32 @@ def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
 
 
 def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
-    for k in (0, 1):
-        far = [run.amplitudes[j] * sigma.amplitude * (j == k) for j in (0, 1)]
-        turn = [sigma.phase * (j == k) for j in (0, 1)]
-        yield "readings", *(
-            replace(run, amplitudes=(run.amplitudes[0] + s * far[0], run.amplitudes[1] + s * far[1])) for s in (1, -1)
-        )
-        yield "readings", *(
-            replace(run, phases=(run.phases[0] + s * turn[0], run.phases[1] + s * turn[1])) for s in (1, -1)
-        )
-    yield "speed", *(replace(run, speed=run.speed * (1 + s * sigma.speed)) for s in (1, -1))
+    (A, B), (alpha, beta) = run.amplitudes, run.phases
+
+    def both(cause: str, moved: Callable[[float], RunOnRig]) -> tuple[str, RunOnRig, RunOnRig]:
+        return cause, moved(1.0), moved(-1.0)
+
+    yield both("readings", lambda s: replace(run, amplitudes=(A * (1 + s * sigma.amplitude), B)))
+    yield both("readings", lambda s: replace(run, amplitudes=(A, B * (1 + s * sigma.amplitude))))
+    yield both("readings", lambda s: replace(run, phases=(alpha + s * sigma.phase, beta)))
+    yield both("readings", lambda s: replace(run, phases=(alpha, beta + s * sigma.phase)))
+    yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed)))
     for index, weight in enumerate(run.weights):
-        rest = (run.weights[:index], run.weights[index + 1 :])
-        for moved in (
-            [replace(weight, mass=weight.mass * (1 + s * sigma.placed_mass)) for s in (1, -1)],
-            [replace(weight, angle=weight.angle + s * sigma.placed_angle) for s in (1, -1)],
-        ):
-            yield "trial masses", *(replace(run, weights=(*rest[0], one, *rest[1])) for one in moved)
+        for moved in (_heavier(weight, sigma), _turned(weight, sigma)):
+            high, low = (_with_weight(run, index, one) for one in moved)
+            yield "trial masses", high, low
+
+
+def _heavier(weight: Weight, sigma: Deviations) -> list[Weight]:
+    return [replace(weight, mass=weight.mass * (1 + s * sigma.placed_mass)) for s in (1, -1)]
+
+
+def _turned(weight: Weight, sigma: Deviations) -> list[Weight]:
+    return [replace(weight, angle=weight.angle + s * sigma.placed_angle) for s in (1, -1)]
+
+
+def _with_weight(run: RunOnRig, index: int, weight: Weight) -> RunOnRig:
+    return replace(run, weights=(*run.weights[:index], weight, *run.weights[index + 1 :]))
 
 
 def _with_run(case: Balancing, index: int, run: RunOnRig) -> Balancing:

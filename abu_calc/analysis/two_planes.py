@@ -131,7 +131,7 @@ def method_of(case: Balancing) -> Method:
         "the trial runs do not tell the planes apart",
         place=Place(key="run"),
         found=f"{len(case.runs)} runs" + (f", none with a trial in the {missing[0]} plane" if missing else ""),
-        allowed="three runs at least: one without a trial, one with a trial in each plane, or others that differ as much",
+        allowed="three runs at least: one without a trial and one with a trial in each plane, or others as different",
         remedy="add runs, or [rig] with its data",
     )
 

@@ -18,6 +18,7 @@ COMMANDS = (
     "check-fit",
     "simulate",
     "stability",
+    "balance",
     "effects",
     "accuracy",
     "verify",

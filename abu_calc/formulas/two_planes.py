@@ -1,8 +1,8 @@
 """A roll on two supports that move to and fro: what its imbalances in two planes do to them, and back.
 
-An imbalance of mass q at radius R, its heavy spot the angle φ behind the zero mark, is the complex number Q = q·R·e^{−iφ}:
-it pulls along the sensors with the real part of Q·Ω²·e^{iΩt}, t from the passage of the mark. A motion A·cos(Ωt − α) is
-X = A·e^{−iα} likewise.
+An imbalance of mass q at radius R, its heavy spot the angle φ behind the zero mark, is the complex number
+Q = q·R·e^{−iφ}: it pulls along the sensors with the real part of Q·Ω²·e^{iΩt}, t from the passage of the mark. A motion
+A·cos(Ωt − α) is X = A·e^{−iα} likewise.
 """
 
 import cmath
@@ -159,15 +159,16 @@ def influence(roll: RollOnRig, speed: float) -> Matrix:
     ),
 )
 def displacement(quantity: str, amplitude: float, phase: float, speed: float) -> complex:
-    return cmath.rect(amplitude, -phase) / DERIVATIVE[quantity](speed)
+    return cmath.rect(amplitude, -phase) / reading_factor(quantity, speed)
 
 
-DERIVATIVE: Final = {
-    "displacement": lambda speed: 1.0,
-    "velocity": lambda speed: 1j * speed,
-    "acceleration": lambda speed: -(speed**2),
-}
-"""A reading over the displacement."""
+def reading_factor(quantity: str, speed: float) -> complex:
+    """A reading over the displacement: 1, iΩ, −Ω²."""
+    return complex((1j * speed) ** ORDERS[quantity])
+
+
+ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
+"""How many times a quantity is differentiated."""
 
 
 @formula(
@@ -175,8 +176,8 @@ DERIVATIVE: Final = {
     "φ1 = arctan((D2·c + D4)/(D1·c + D3)), q1 = (D1·c + D3)/(R1·(b+c)·cos φ1)",
     "rad, kg",
     where=(
-        "D1, D3 the sum and the moment of A_j·cos α_j by k11 … k22, D2, D4 those of A_j·sin α_j; plane 2 with b and minus. "
-        "For comparison: reports show where it points."
+        "D1, D3 the sum and the moment of A_j·cos α_j by k11 … k22, D2, D4 those of A_j·sin α_j; plane 2 with b and "
+        "minus. For comparison: reports show where it points."
     ),
     source="Didukh 2010, (3)–(6)",
     printed="as here; what is wrong with it stands at the two formulas before",
@@ -216,8 +217,8 @@ def condition_number(matrix: Matrix) -> float:
     "ω = (π/L)²·√(E·I·L/m), I = m²/(4π·ρ²·L²)",
     "rad/s",
     where=(
-        "E = 206 GPa, ρ = 7850 kg/m³. Held without moment at both ends. A tube of that mass bends later, a roll with much "
-        "mass that does not stiffen it earlier."
+        "E = 206 GPa, ρ = 7850 kg/m³. Held without moment at both ends. A tube of that mass bends later, a roll with "
+        "much mass that does not stiffen it earlier."
     ),
     assumed="steel, the mass even along the roll",
     source="Euler and Bernoulli's beam",

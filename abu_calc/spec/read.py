@@ -26,6 +26,11 @@ class Machine(Reading):
 
     tables: "MachineFile | BearingFile"
 
+    @property
+    def title(self) -> str:
+        """The machine's name."""
+        return self.tables.machine.name
+
     def changed(self, values: Mapping[str, object]) -> "Machine":
         """The machine with entries of its file replaced, by key path: `changed({"wheel.mass_kg": 0.5})`.
 

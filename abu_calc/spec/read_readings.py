@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from abu_calc.errors import InputError, Place
 from abu_calc.spec import presets
 from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
 from abu_calc.spec.kinds import refuse_others
@@ -20,6 +21,11 @@ class Readings(Reading):
     """A file of readings; `tables` are what stands in it, in the units people wrote."""
 
     tables: ReadingsFile
+
+    @property
+    def title(self) -> str:
+        """The roll's name."""
+        return self.tables.rotor.name
 
     def changed(self, values: Mapping[str, object]) -> "Readings":
         """The readings with entries of their file replaced, by key path: `changed({"rig.damping_ratio": 0.01})`.
@@ -48,4 +54,12 @@ def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> R
     """The readings of a document that is open already; raises as `read_readings` does."""
     refuse_others(document, "readings")
     tables, reading = validate(document, overrides, ReadingsFile, lambda _: ReadingsFile)
-    return Readings(**vars(reading), tables=tables)
+    found = Readings(**vars(reading), tables=tables)
+    with found.located():
+        for index, run in enumerate(tables.run):
+            if run.file is not None and not (path := found.beside(run.file)).is_file():
+                raise InputError(
+                    "the record is not there", place=Place(key=f"run[{index}].file"), found=str(path),
+                    remedy="put the file beside this one, or write its whole path",
+                )  # fmt: skip
+    return found

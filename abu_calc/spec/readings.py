@@ -18,7 +18,8 @@ SupportMass = Annotated[float, Field(ge=0, le=1e6, json_schema_extra=usual(0.05,
 SupportStiffness = Annotated[float, Field(gt=0, le=1e12, json_schema_extra=usual(1000, 1e9))]
 Length = Annotated[float, Field(ge=0, le=100)]
 Radius = Annotated[float, Field(gt=0, le=1e5, json_schema_extra=usual(5, 5000))]
-Places = Annotated[tuple[Annotated[float, Field(ge=-360, le=360)], ...], Field(strict=False, min_length=2, max_length=72)]
+Place = Annotated[float, Field(ge=-360, le=360)]
+Places = Annotated[tuple[Place, ...], Field(strict=False, min_length=2, max_length=72)]
 
 LENGTHS: Final = (
     "left_end_to_left_plane_m",
@@ -137,8 +138,8 @@ class Rotor(Table):
     )
     first_bending_speed_rpm: float | None = Field(
         default=None,
-        description="Lowest speed at which the roll itself bends [rpm]; {range}. Without it: that of a solid steel bar of "
-        "its mass and length.",
+        description="Lowest speed at which the roll itself bends [rpm]; {range}. Without it: that of a solid steel bar "
+        "of its mass and length.",
         examples=[9000.0],
         gt=0,
         le=1e7,

@@ -90,15 +90,16 @@ class Run(Table):
         examples=["displacement"],
     )
     left: Reading | None = Field(
-        default=None, description="Left support, x = A·cos(ωt − phase), t from the passage of the zero mark at its sensor."
+        default=None,
+        description="Left support, x = A·cos(ωt − phase), t from the passage of the zero mark at its sensor.",
     )
     right: Reading | None = Field(
         default=None, description="Right support, likewise.", examples=[{"amplitude": 0.031642, "phase_deg": 152.7485}]
     )
     file: str | None = Field(
         default=None,
-        description="Instead of left and right: a recorded run, CSV with the columns time (s), left, right (in the unit "
-        "of quantity) and mark (pulses, either polarity), beside this file.",
+        description="Instead of left and right: a recorded run, CSV with the columns time (s), left, right (in the "
+        "unit of quantity) and mark (pulses, either polarity), beside this file.",
         examples=["run1.csv"],
         min_length=1,
     )

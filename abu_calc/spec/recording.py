@@ -34,7 +34,9 @@ def read_recording(path: Path) -> Recording:
 
     Points or, between semicolons, commas as decimal signs. Raises InputError with file, line and remedy.
     """
-    rows = [(line, row) for line, row in enumerate(_text(path).splitlines(), 1) if row.strip() and row.strip()[0] != "#"]
+    rows = [
+        (line, row) for line, row in enumerate(_text(path).splitlines(), 1) if row.strip() and row.strip()[0] != "#"
+    ]
     if not rows:
         raise InputError("the record is empty", place=Place(str(path)), allowed=REMEDY)
     separator = next((sign for sign in ";\t," if sign in rows[0][1]), None)
@@ -73,7 +75,9 @@ def _columns(first: list[str], path: Path, line: int) -> tuple[tuple[int, ...], 
     names = [name.lower() for name in first]
     found = [[k for k, name in enumerate(names) if _is(name, column)] for column in COLUMNS]
     if any(len(each) != 1 for each in found):
-        raise InputError("columns are not told apart by their names", place=place, found=", ".join(first), allowed=REMEDY)
+        raise InputError(
+            "columns are not told apart by their names", place=place, found=", ".join(first), allowed=REMEDY
+        )
     time = names[found[0][0]]
     return tuple(each[0] for each in found), 1e-3 if re.search(r"[_ (\[]ms\b", time) else 1.0, 1
 

@@ -79,7 +79,9 @@ def _key(model: type[Table], key: str, field: FieldInfo, *, live: bool) -> str:
 def _inline(model: type[Table], example: object) -> str:
     """A table in one line: its example, or those of the keys it must have."""
     held = example if isinstance(example, dict) else {}
-    keys = held or {key: field.examples[0] for key, field in model.model_fields.items() if field.is_required() and field.examples}
+    keys = held or {
+        key: field.examples[0] for key, field in model.model_fields.items() if field.is_required() and field.examples
+    }
     return "{ " + ", ".join(f"{key} = {shown(value)}" for key, value in keys.items()) + " }"
 
 
