@@ -16,6 +16,8 @@ Edge = Literal["leading", "middle", "trailing"]
 LOW: Final = 0.3
 HIGH: Final = 0.7
 """Of a pulse's height: it begins beyond HIGH and ends below LOW, so that noise makes none."""
+ALIKE: Final = 0.1
+"""Part of a revolution by which the mark must be longer up than down, or down than up."""
 CLEAR: Final = 6.0
 """Least height of a pulse over the noise between pulses."""
 BOTH_WAYS: Final = 0.5
@@ -67,7 +69,13 @@ LONGER: Final = "record several revolutions, with a mark that gives one pulse in
 def _upward(mark: Array) -> tuple[Array, bool]:
     """The mark as pulses from 0 up to 1, whatever its polarity, and whether they are square."""
     middle = (mark.max() + mark.min()) / 2
-    sign = 1.0 if np.mean(mark > middle) <= 0.5 else -1.0
+    share = float(np.mean(mark > middle))
+    if abs(share - 0.5) < ALIKE:
+        raise InputError(
+            "the mark is as long up as down, so that either edge may be its passage", found=f"{share:.0%} up",
+            allowed=f"below {0.5 - ALIKE:.0%} or above {0.5 + ALIKE:.0%}", remedy="a shorter mark",
+        )  # fmt: skip
+    sign = 1.0 if share < 0.5 else -1.0
     up = sign * (mark - middle) > 0
     if not up.any():
         raise InputError("the mark has no pulses", found=f"{mark.min():g} throughout", remedy=LONGER)

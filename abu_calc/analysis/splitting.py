@@ -30,8 +30,8 @@ def correction(mass: float, angle: float, removable: float | None, places: Seque
     """
     if places is None:
         if removable is None or mass <= removable:
-            return (Share("remove", mass, angle % math.tau),)
-        return (Share("add", mass, (angle + math.pi) % math.tau),)
+            return (Share("remove", mass, turned(angle)),)
+        return (Share("add", mass, turned(angle + math.pi)),)
     options = [found for pair in combinations(places, 2) if (found := _split(mass, angle, *pair)) is not None]
 
     def worth(shares: tuple[Share, ...]) -> tuple[bool, bool, float]:
@@ -43,6 +43,16 @@ def correction(mass: float, angle: float, removable: float | None, places: Seque
         )
 
     return min(options, key=worth)
+
+
+def turned(angle: float) -> float:
+    """An angle from 0 to 2π, the latter not reached.
+
+    >>> turned(-1e-70), turned(7.0) < 1
+    (0.0, True)
+    """
+    found = angle % math.tau
+    return 0.0 if found == math.tau else found
 
 
 def removed(shares: Sequence[Share]) -> float:
@@ -57,7 +67,7 @@ def _split(mass: float, angle: float, first: float, second: float) -> tuple[Shar
         return None
     parts = mass * math.sin(second - angle) / across, mass * math.sin(angle - first) / across
     shares = [
-        Share("remove" if part > 0 else "add", abs(part), place % math.tau)
+        Share("remove" if part > 0 else "add", abs(part), turned(place))
         for part, place in zip(parts, (first, second), strict=True)
         if abs(part) > NOTHING * mass
     ]

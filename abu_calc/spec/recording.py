@@ -95,6 +95,8 @@ def _is_number(cell: str) -> bool:
 
 
 def _table(rows: list[tuple[int, str]], separator: str | None, columns: tuple[int, ...], path: Path) -> Array:
+    if not rows:
+        raise InputError("the record has no samples", place=Place(str(path)), allowed=REMEDY)
     text = io.StringIO("\n".join(row for _, row in rows))
     try:
         return np.loadtxt(text, delimiter=separator, usecols=columns, ndmin=2, dtype=np.float64)
@@ -112,8 +114,6 @@ def _table(rows: list[tuple[int, str]], separator: str | None, columns: tuple[in
 
 def _check(table: Array, rows: list[tuple[int, str]], path: Path) -> None:
     """Every number finite, time ascending."""
-    if len(table) == 0:
-        raise InputError("the record has no samples", place=Place(str(path)), allowed=REMEDY)
     wrong = np.flatnonzero(~np.isfinite(table).all(axis=1))
     if wrong.size:
         line, row = rows[int(wrong[0])]

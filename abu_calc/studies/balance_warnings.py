@@ -49,9 +49,9 @@ def _printed(found: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
     off, times = ("on the wrong side", "Ω²") if run.quantity == "acceleration" else ("90° off", "Ω")
     name = "accelerations" if run.quantity == "acceleration" else "velocities"
     yield (
-        f"The formula as printed (Didukh 2010, (3)–(6)) takes readings for displacements: with these {name} it would "
-        f"take metal off at {at[0]:.1f}° on the left and {at[1]:.1f}° on the right, {off}, and {times} times too much. Here "
-        "they are converted first."
+        "The formula as printed (Didukh 2010, (3)–(6)) takes readings for displacements: "
+        f"with these {name} it would take metal off at {at[0]:.1f}° on the left and {at[1]:.1f}° on the right, {off}, "
+        f"and {times} times too much. Here they are converted first."
     )
 
 
