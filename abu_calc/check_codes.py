@@ -263,8 +263,8 @@ _ALL: Final = (
     CheckCode(
         "ABU1001", "planes told apart",
         "Whether the two sensors tell the two planes apart, at the speeds of the runs.",
-        "The condition number of the way from imbalances to readings is above 100: errors of a reading may grow by "
-        "that. Warns above 10; above 1000 no number is given.",
+        "The condition number of the way from imbalances to readings is above 30: errors of a reading may grow by "
+        "that. Warns above 10; above 300 no number is given.",
         "Planes farther apart, a speed farther from the natural frequencies, other trial masses.",
         "balance", ("formulas.two_planes:condition_number",),
     ),

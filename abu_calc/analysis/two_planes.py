@@ -30,8 +30,8 @@ ONE_SPEED: Final = 0.01
 """Relative difference of speeds up to which influence coefficients are one set."""
 TELLS_APART: Final = 1e-6
 """Least singular value of the trials, over the largest, with which they tell both planes and the rest apart."""
-WORST_CONDITION: Final = 1000.0
-"""Beyond it errors of a thousandth are as large as the answer: no number is given."""
+WORST_CONDITION: Final = 300.0
+"""Beyond it errors of a third of a percent are as large as the answer: no number is given."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from abu_calc.checks import Check, coded, verdict
 from abu_calc.formulas.two_planes import bar_bending_speed, condition_number, natural_frequencies
 from abu_calc.units import from_si
 
-CONDITION: Final = (10.0, 100.0)
+CONDITION: Final = (10.0, 30.0)
 """Condition numbers: a warning from the first on, failed above the second."""
 OFF_RESONANCE: Final = (0.3, 0.1)
 """Relative distance of the speed from a natural frequency: a warning below the first, failed below the second."""

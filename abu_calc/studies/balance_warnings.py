@@ -58,7 +58,7 @@ def _printed(found: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
 def _directions(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
     for name, one in zip(("left", "right"), planes, strict=True):
         if one.mass_g and one.angle_uncertainty_deg > UNTOLD:
-            yield f"The {name} plane has less imbalance than its errors: its angle is not known, leave it as it is."
+            yield f"In the {name} plane errors are about as large as the imbalance: its angle is not known."
 
 
 def _within_grade(planes: Sequence[PlaneCorrection]) -> Iterator[str]:

@@ -215,7 +215,7 @@ def test_planes_close_together_are_flagged_and_then_refused(tmp_path: Path) -> N
     assert check(balanced(0.02, 0.02).document, "ABU1001")["status"] in ("warn", "fail")
     far = balanced(0.5, 0.6)
     assert check(far.document, "ABU1001")["status"] == "pass" and far.status == 0
-    close = balanced(0.002, 0.002)
+    close = balanced(0.001, 0.001)
     assert close.status == 3 and close.document["result"] is None and re.search(r"\d", close.err)
 
 

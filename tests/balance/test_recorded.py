@@ -106,7 +106,7 @@ def test_records_that_tell_nothing_are_refused() -> None:
     record = made()
     t, rng = record.time, np.random.default_rng(1)
     assert "no pulses" in refused(with_mark(np.zeros_like(t)))
-    assert "noise" in refused(with_mark(rng.standard_normal(t.size) + 3 * (t * 49.3 % 1 < 0.02)))
+    assert "noise" in refused(with_mark(rng.random(t.size) + 1.2 * (t * 49.3 % 1 < 0.02)))
     turn = t * 49.3 % 1
     assert "both sides" in refused(with_mark((turn < 0.02) * 1.0 - (turn > 0.98) * 1.0))
     assert "as long up as down" in refused(with_mark((turn < 0.5) * 1.0))
