@@ -39,7 +39,8 @@ ROUGH: Final = 0.3
 class Tone:
     """What one sensor shows at the speed of rotation, in its unit: A·cos(θ − phase).
 
-    `noise`: standard error of the amplitude by what the fit leaves; `change`: of A over the record, relative;
+    `noise`: standard error of the amplitude by what the fit leaves; `change`: of amplitude and phase
+    together over the record, as a vector, relative;
     `share`: of the motion about its mean (rms) that it makes.
     """
 
@@ -180,8 +181,7 @@ def _tone(terms: Array, found: Array, values: Array, revolutions: int) -> Tone:
     left = values - terms @ found
     amplitude = math.hypot(found[0], found[1])
     spread = float(np.std(values - np.polyval(np.polyfit(terms[:, 3], values, 1), terms[:, 3])))
-    changes = complex(found[5], -found[6]) if revolutions >= TREND_FROM else 0j
-    change = 2 * (changes * complex(found[0], found[1])).real / amplitude**2 if amplitude else 0.0
+    change = math.hypot(found[5], found[6]) * 2 / amplitude if revolutions >= TREND_FROM and amplitude else 0.0
     noise = float(np.std(left)) * math.sqrt(2 / len(values))
     share = min(1.0, amplitude / math.sqrt(2) / spread) if spread > 0 else 0.0
     return Tone(amplitude, math.atan2(found[1], found[0]), noise, change, share)

@@ -28,6 +28,8 @@ def correction(mass: float, angle: float, removable: float | None, places: Seque
     Metal is taken off where there is enough (`removable`, of the plane), else put on opposite. With places, two of them
     carry it: the pair that takes off no more than may be, puts on as little as may be, and takes the least in all.
     """
+    if mass == 0:
+        return ()
     if places is None:
         if removable is None or mass <= removable:
             return (Share("remove", mass, turned(angle)),)

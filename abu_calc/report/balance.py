@@ -82,7 +82,7 @@ def _orders(result: BalanceResult) -> list[str]:
 
 
 def _share(one: Share) -> str:
-    return f"{number(one.mass_g)} g at {one.angle_deg:.1f}°"
+    return _at(one.mass_g, one.angle_deg)
 
 
 def _planes(result: BalanceResult) -> Grid:
@@ -103,7 +103,7 @@ def _planes(result: BalanceResult) -> Grid:
 
 
 def _at(mass: float, angle: float) -> str:
-    return f"{number(mass)} g at {angle:.1f}°"
+    return f"{number(mass)} g at {round(angle, 1) % 360:.1f}°"
 
 
 def _uncertain(plane: PlaneCorrection) -> str:

@@ -74,6 +74,8 @@ def _columns(first: list[str], path: Path, line: int) -> tuple[tuple[int, ...], 
         return tuple(range(len(COLUMNS))), 1.0, 0
     names = [name.lower() for name in first]
     found = [[k for k, name in enumerate(names) if _is(name, column)] for column in COLUMNS]
+    if len(names) == len(COLUMNS) and not any(found[1:]):
+        found = [[k] for k in range(len(COLUMNS))]  # names of another language: in the order asked for
     if any(len(each) != 1 for each in found):
         raise InputError(
             "columns are not told apart by their names", place=place, found=", ".join(first), allowed=REMEDY

@@ -152,7 +152,10 @@ def record_warnings(taken: Taken) -> list[str]:
         )
     for name, tone in (("left", found.left), ("right", found.right)):
         if abs(tone.change) > CHANGE:
-            lines.append(f"{file}: the {name} amplitude changes by {100 * tone.change:+.0f} % over the record.")
+            lines.append(
+                f"{file}: amplitude and phase on the {name} change by {100 * tone.change:.0f} % over the record: "
+                "something else may turn at nearly this speed, or the run was not steady."
+            )
         if tone.share < SHARE:
             lines.append(
                 f"{file}: of what the {name} sensor shows only {100 * tone.share:.0f} % turns with the rotor; its "

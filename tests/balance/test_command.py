@@ -3,6 +3,8 @@
 import json
 import math
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from abu_calc.report.balance_drawing import drawing
 from abu_calc.studies.balance_records import PlaneCorrection
 from tests.balance.rig import BARE_ROTOR, RIG, ROTOR, Simulated, Workshop, trial, turned, written
 from tests.cli.runner import Seen, abu
+from tests.house.structure import ROOT
 
 PRESET = "sapropel-screw-rig"
 
@@ -84,6 +87,20 @@ def test_init_validate_schema_verify_presets_and_explain_know_the_kind(tmp_path:
     assert PRESET in abu("presets").out and abu("presets", PRESET).out == text
     assert "wrong side" in " ".join(abu("explain", "balance").out.split())
     assert abu("verify", PRESET).status == 0
+
+
+def test_it_needs_no_scipy() -> None:
+    lines = ("import sys", "from abu_calc.cli.app import run", f"run(['balance', '{PRESET}', '-q'])")
+    code = "; ".join((*lines, "print('scipy' in sys.modules)"))
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+
+
+def test_other_commands_send_readings_to_balance() -> None:
+    for command in ("size", "simulate", "stability", "check-fit"):
+        seen = abu(command, PRESET)
+        assert seen.status == 2 and "`abu balance` takes it" in seen.err
+    assert "`abu size` takes it" in abu("balance", "msh-230").err
 
 
 # Remove, add, split
@@ -217,6 +234,17 @@ def test_planes_close_together_are_flagged_and_then_refused(tmp_path: Path) -> N
     assert check(far.document, "ABU1001")["status"] == "pass" and far.status == 0
     close = balanced(0.001, 0.001)
     assert close.status == 3 and close.document["result"] is None and re.search(r"\d", close.err)
+
+
+def test_a_roll_that_bends_shows_in_runs_of_two_speeds(tmp_path: Path) -> None:
+    """Imbalance grows as 1/(1 − (Ω/Ω_b)²) toward a bending speed of 6000 rpm."""
+    shops = []
+    for rpm in (1800.0, 3000.0):
+        more = 1 / (1 - (rpm / 6000) ** 2)
+        shops.append(Workshop(speed_rpm=rpm, masses=(12 * more, 7 * more)))
+    seen = abu("balance", written(tmp_path, RIG, ROTOR, *(shop.run() for shop in shops)), "--json")
+    found = check(seen.document, "ABU1006")
+    assert found["status"] in ("warn", "fail") and found["value"] > 3 and "bends" in found["remedy"]
 
 
 def test_a_roll_that_bends_is_flagged_with_the_ratio(tmp_path: Path) -> None:
