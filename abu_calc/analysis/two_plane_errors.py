@@ -75,14 +75,21 @@ def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
 
 def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
     (A, B), (alpha, beta) = run.amplitudes, run.phases
+    dA, dB = (math.hypot(one * sigma.amplitude, noise) for one, noise in zip(run.amplitudes, run.noise, strict=True))
+    turn = [
+        math.hypot(sigma.phase, noise / one if one else 0.0)
+        for one, noise in zip(run.amplitudes, run.noise, strict=True)
+    ]
+    shift = run.unsure / math.sqrt(3)
 
     def both(cause: str, moved: Callable[[float], RunOnRig]) -> tuple[str, RunOnRig, RunOnRig]:
         return cause, moved(1.0), moved(-1.0)
 
-    yield both("readings", lambda s: replace(run, amplitudes=(A * (1 + s * sigma.amplitude), B)))
-    yield both("readings", lambda s: replace(run, amplitudes=(A, B * (1 + s * sigma.amplitude))))
-    yield both("readings", lambda s: replace(run, phases=(alpha + s * sigma.phase, beta)))
-    yield both("readings", lambda s: replace(run, phases=(alpha, beta + s * sigma.phase)))
+    yield both("readings", lambda s: replace(run, amplitudes=(A + s * dA, B)))
+    yield both("readings", lambda s: replace(run, amplitudes=(A, B + s * dB)))
+    yield both("readings", lambda s: replace(run, phases=(alpha + s * turn[0], beta)))
+    yield both("readings", lambda s: replace(run, phases=(alpha, beta + s * turn[1])))
+    yield both("readings", lambda s: replace(run, phases=(alpha + s * shift, beta + s * shift)))
     yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed)))
     for index, weight in enumerate(run.weights):
         for moved in (_heavier(weight, sigma), _turned(weight, sigma)):

@@ -61,6 +61,10 @@ class RunOnRig:
     phases: tuple[float, float]
     sensor: float = 0.0
     weights: tuple[Weight, ...] = ()
+    noise: tuple[float, float] = (0.0, 0.0)
+    """Standard errors of the amplitudes that a record shows of itself (SI)."""
+    unsure: float = 0.0
+    """Most that all phases of a record may be off together [rad]."""
 
     @property
     def motion(self) -> Pair:

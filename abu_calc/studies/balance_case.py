@@ -84,6 +84,7 @@ def _recorded(
     made = RunOnRig(
         found.speed, run.quantity, (to_si(tones[0].amplitude, unit), to_si(tones[1].amplitude, unit)),
         (tones[0].phase, tones[1].phase), sensor, weights,
+        (to_si(tones[0].noise, unit), to_si(tones[1].noise, unit)), found.unsure,
     )  # fmt: skip
     return Taken(made, found, run.file, hashlib.sha256(path.read_bytes()).hexdigest())
 

@@ -145,6 +145,29 @@ def test_a_simulated_run_goes_the_whole_way(tmp_path: Path) -> None:
     assert any("lasts 5." in line for line in result.warnings)
 
 
+def test_a_noisy_record_makes_the_answer_less_sure(tmp_path: Path) -> None:
+    """Its noise counts beside [errors]; half of the motion's size over 16 000 samples, without other errors."""
+    shop = Workshop()
+    t = np.arange(0, 1.6, 1e-4)
+    angle = shop.speed * 1.001 * t + 0.3
+    rng = np.random.default_rng(9)
+    sides = [A * np.cos(angle - math.radians(phase)) for A, phase in shop.read()]
+    noise = [0.5 * np.abs(side).max() * rng.standard_normal(t.size) for side in sides]
+    run = '[[run]]\nquantity = "displacement"\nfile = "run1.csv"\n'
+    errors = "[errors]\n" + "\n".join(
+        f"{key} = 0" for key in ("amplitude_percent", "phase_deg", "speed_percent", "support_mass_percent",
+                                 "stiffness_percent", "damping_ratio", "rotor_mass_percent", "inertia_percent",
+                                 "length_mm", "placed_mass_percent", "placed_angle_deg")
+    )  # fmt: skip
+    found = []
+    for share in (0.0, 1.0):
+        columns = {"left": sides[0] + share * noise[0], "right": sides[1] + share * noise[1]}
+        csv(tmp_path, {"time": t, **columns, "mark": (angle % math.tau < 0.1) * 1.0})
+        found.append(abu_calc.balance(written(tmp_path, RIG, ROTOR, run, errors)).left.mass_uncertainty_g)
+    assert found[0] < 1e-3 * 12
+    assert found[1] == pytest.approx(12 * 0.5 * math.sqrt(2 / t.size), rel=0.25)
+
+
 @pytest.mark.parametrize(
     ("header", "sign", "comma"),
     [("time,left,right,mark", ",", False), ("mark;right;left;t_s", ";", True), ("", "\t", False), ("", " ", False),
