@@ -22,7 +22,9 @@ from abu_calc.formulas.two_planes import (
     displacement,
     imbalances,
     influence,
+    natural_frequencies,
 )
+from abu_calc.units import from_si
 
 Method = Literal["rig data", "trial masses"]
 
@@ -153,7 +155,7 @@ def _by_rig(case: Balancing) -> Solution:
         raise InputError("the rig is not known", place=Place(key="rig"))
     influences = tuple(influence(roll, run.speed) for run in case.runs)
     for each in influences:
-        _refuse_singular(each)
+        _refuse_singular(each, said_of_resonance(case))
     found = np.mean(
         [np.subtract(imbalances(roll, run.speed, run.motion), run.placed) for run in case.runs], axis=0
     )  # fmt: skip
@@ -176,14 +178,29 @@ def _matrix(values: "np.ndarray[tuple[int, int], np.dtype[np.complex128]]") -> M
     return (p, q), (r, s)
 
 
-def _refuse_singular(matrix: Matrix) -> None:
+def _refuse_singular(matrix: Matrix, why: str = "") -> None:
     found = condition_number(matrix)
     if not found <= WORST_CONDITION:
         raise NotTrustworthyError(
-            f"the two planes can hardly be told apart by the two sensors: the condition number is {found:.3g}, at most "
-            f"{WORST_CONDITION:g} is accepted. Planes farther apart, a speed farther from the natural frequencies, or "
-            "trial masses that move the sensors differently"
+            f"the sensors hardly tell the two planes apart: the condition number is {found:.3g}, at most "
+            f"{WORST_CONDITION:g} is accepted.{why}\n  Another speed, planes farther apart, or other trial masses."
         )
+
+
+def near_resonance(case: Balancing) -> tuple[float, float] | None:
+    """The least relative distance of a run's speed from a natural frequency, and that frequency [rad/s]."""
+    if case.roll is None:
+        return None
+    natural = natural_frequencies(case.roll)
+    return min((abs(run.speed / one - 1), one) for run in case.runs for one in natural)
+
+
+def said_of_resonance(case: Balancing) -> str:
+    """The same as a sentence, for messages; empty where the rig is not known."""
+    near = near_resonance(case)
+    if near is None:
+        return ""
+    return f" The speed is {100 * near[0]:.2g} % off the natural frequency of {from_si(near[1], 'hz'):.2f} Hz."
 
 
 def _solution(method: Method, Q: Pair, influences: Sequence[Matrix], runs: Sequence[RunOnRig]) -> Solution:

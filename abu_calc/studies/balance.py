@@ -20,7 +20,16 @@ from abu_calc.analysis.two_plane_errors import (
     radial,
     size,
 )
-from abu_calc.analysis.two_planes import ONE_SPEED, Balancing, RunOnRig, Solution, method_of, motion_of, solved
+from abu_calc.analysis.two_planes import (
+    ONE_SPEED,
+    Balancing,
+    RunOnRig,
+    Solution,
+    method_of,
+    motion_of,
+    said_of_resonance,
+    solved,
+)
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.two_planes import (
     Matrix,
@@ -35,7 +44,7 @@ from abu_calc.spec.read_readings import Readings, read_readings
 from abu_calc.spec.readings import ReadingsFile
 from abu_calc.standards.balance import permissible_imbalance
 from abu_calc.studies.balance_case import UNITS, Taken, balancing, deviations, taken_runs, unit_of_readings
-from abu_calc.studies.balance_checks import HOPELESS, Found, balance_checks, off_resonance
+from abu_calc.studies.balance_checks import HOPELESS, Found, balance_checks
 from abu_calc.studies.balance_records import (
     BalanceModel,
     Complex,
@@ -133,13 +142,9 @@ def balance(source: Readings | str | os.PathLike[str]) -> BalanceResult:
 
 
 def _hopeless(case: Balancing, share: float) -> str:
-    near = off_resonance(case)
-    why = ""
-    if near is not None:
-        why = f" The speed is {100 * near[0]:.1f} % off the natural frequency of {from_si(near[1], 'hz'):.2f} Hz."
     return (
-        f"the errors given would leave {100 * share:.0f} % of the vibration after the correction, so that none "
-        f"can be trusted.{why} Another speed, smaller errors, or trial masses"
+        f"the errors given would leave {100 * share:.0f} % of the vibration after the correction: none can be trusted."
+        f"{said_of_resonance(case)}\n  Another speed, smaller errors, or trial masses."
     )
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.analysis.splitting import Share, removed
-from abu_calc.analysis.two_planes import Balancing, Solution
+from abu_calc.analysis.two_planes import Balancing, Solution, near_resonance
 from abu_calc.checks import Check, coded, verdict
-from abu_calc.formulas.two_planes import bar_bending_speed, condition_number, natural_frequencies
+from abu_calc.formulas.two_planes import bar_bending_speed, condition_number
 from abu_calc.units import from_si
 
 CONDITION: Final = (10.0, 30.0)
@@ -59,16 +59,8 @@ def _planes(found: Found) -> Check:
     )  # fmt: skip
 
 
-def off_resonance(case: Balancing) -> tuple[float, float] | None:
-    """The least relative distance of a run's speed from a natural frequency, and that frequency [rad/s]."""
-    if case.roll is None:
-        return None
-    natural = natural_frequencies(case.roll)
-    return min((abs(run.speed / one - 1), one) for run in case.runs for one in natural)
-
-
 def _natural_frequencies(found: Found) -> Iterator[Check]:
-    nearest = off_resonance(found.case)
+    nearest = near_resonance(found.case)
     if nearest is None:
         return
     value, one = nearest

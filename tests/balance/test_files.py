@@ -142,6 +142,13 @@ WRONG = [
     ('"G6.3"', '"G6"', "tolerance.balance_grade", "G6.3"),
     ("amplitude_percent = 2.0", "amplitude_percent = -2.0", "errors.amplitude_percent", "at least 0"),
     ("[tolerance]", "[limits]", "limits", "unknown table"),
+    (
+        'trial = [{ plane = "left", mass_g = 10.0, angle_deg = 0.0, radius_mm = 100.0 }]',
+        "trial = [5]",
+        "run[0].trial[0]",
+        "table",
+    ),
+    ("left = { amplitude = 0.038109, phase_deg = 18.7489 }", "left = 0.038", "run[0].left", "a table is expected"),
 ]
 
 
