@@ -1,13 +1,13 @@
 """What is asked of readings, rig and roll before a correction is trusted, each with the number that says so."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 from typing import Final
 
-from abu_calc.analysis.splitting import Share, removed
-from abu_calc.analysis.two_planes import Balancing, Solution, near_resonance
+from abu_calc.analysis.splitting import removed
+from abu_calc.analysis.two_planes import near_resonance
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.formulas.two_planes import bar_bending_speed, condition_number
+from abu_calc.studies.balance_found import Found
 from abu_calc.units import from_si
 
 CONDITION: Final = (10.0, 30.0)
@@ -18,29 +18,10 @@ RIGID: Final = (0.5, 0.7)
 """Speed over the roll's bending speed, likewise; an assumed bending speed warns from the second on."""
 SURE: Final = (0.1, 0.5)
 """Vibration expected to be left, of that before."""
-HOPELESS: Final = 1.0
-"""From here on the correction may do more harm than good: no number is given."""
 AGREE: Final = (3.0, 6.0)
 """Misfit of runs in standard deviations."""
 TELLS: Final = (0.3, 0.05)
 """What a trial mass moves at least, of the largest reading."""
-
-
-@dataclass(frozen=True)
-class Found:
-    """What checks look at; `rest`: of each plane the imbalance expected to be left and the permitted one [kg m]."""
-
-    case: Balancing
-    solution: Solution
-    rest_share: float
-    disagreement: float | None
-    rest: Sequence[tuple[float, float | None]]
-    service_speed: float
-    bending_speed: float | None
-    shares: Sequence[Sequence[Share]]
-    removable: float | None
-    farther: tuple[float, float] | None
-    """A speed farther from the natural frequencies that was tried [rad/s], and what would be left there."""
 
 
 def balance_checks(found: Found) -> tuple[Check, ...]:

@@ -6,7 +6,7 @@ from typing import Final
 from abu_calc.formulas.two_planes import influence
 from abu_calc.spec.readings import ReadingsFile
 from abu_calc.studies.balance_case import Taken, record_warnings
-from abu_calc.studies.balance_checks import Found
+from abu_calc.studies.balance_found import Found
 from abu_calc.studies.balance_records import PlaneCorrection
 from abu_calc.units import from_si
 
