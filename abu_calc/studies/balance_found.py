@@ -16,7 +16,7 @@ from abu_calc.analysis.two_plane_errors import (
     placing,
     size,
 )
-from abu_calc.analysis.two_planes import Balancing, Solution, method_of, motion_of, said_of_resonance, solved
+from abu_calc.analysis.two_planes import Balancing, Method, Solution, method_of, motion_of, said_of_resonance, solved
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.two_planes import Pair, Signed, influence, natural_frequencies, printed_answer
 from abu_calc.spec.readings import ReadingsFile
@@ -60,32 +60,51 @@ class Found:
 def find(file: ReadingsFile, taken: Sequence[Taken]) -> Found:
     """The answer of a file. Raises InputError, and NotTrustworthyError where errors would be larger than it."""
     case, sigma = balancing(file, tuple(taken)), deviations(file.errors)
-    solution = solved(case, method_of(case))
-    by = changes(case, solution.method, sigma)
-    spread = [*(change.imbalance for change in by), *placing(solution.imbalance, sigma)]
-    share = _rest_share(solution, spread)
-    if share > HOPELESS:
-        raise NotTrustworthyError(_hopeless(case, share))
+    answer = _answer(case, method_of(case), sigma)
     service, radii = _service_speed(file, case), _radii(file)
     permitted = _permitted(file, service)
     limit = _or_none(file.rotor.max_removable_g, "g")
     return Found(
         case=case,
         sigma=sigma,
-        solution=solution,
-        by=by,
-        spread=spread,
-        rest_share=share,
-        disagreement=disagreement(solution, by),
-        rest=[(size(pair[plane] for pair in spread), permitted[plane]) for plane in (0, 1)],
+        solution=answer.solution,
+        by=answer.by,
+        spread=answer.spread,
+        rest_share=answer.rest_share,
+        disagreement=disagreement(answer.solution, answer.by),
+        rest=[(size(pair[plane] for pair in answer.spread), permitted[plane]) for plane in (0, 1)],
         service_speed=service,
         bending_speed=_or_none(file.rotor.first_bending_speed_rpm, "rpm"),
         radii=radii,
-        shares=[_shares(file, plane, solution.imbalance[plane], radii[plane], limit) for plane in (0, 1)],
+        shares=[_shares(file, plane, answer.solution.imbalance[plane], radii[plane], limit) for plane in (0, 1)],
         removable=limit,
-        farther=_farther(case, solution, sigma),
+        farther=_farther(case, answer.solution, sigma),
         printed=_printed(case, radii),
     )
+
+
+@dataclass(frozen=True)
+class _Answer:
+    solution: Solution
+    by: Sequence[Change]
+    spread: Spread
+    rest_share: float
+
+
+def _answer(case: Balancing, method: Method, sigma: Deviations) -> _Answer:
+    """By this method; by the rig's data where trial masses tell too little and these are known."""
+    try:
+        solution = solved(case, method)
+        by = changes(case, method, sigma)
+        spread = [*(change.imbalance for change in by), *placing(solution.imbalance, sigma)]
+        share = _rest_share(solution, spread)
+        if share > HOPELESS:
+            raise NotTrustworthyError(_hopeless(case, share))
+    except NotTrustworthyError:
+        if method == "rig data" or case.roll is None:
+            raise
+        return _answer(case, "rig data", sigma)
+    return _Answer(solution, by, spread, share)
 
 
 def _or_none(value: float | None, unit: str) -> float | None:

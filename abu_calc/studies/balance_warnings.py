@@ -73,8 +73,8 @@ def _rig_and_trials(found: Found) -> Iterator[str]:
     if found.solution.method == "rig data":
         if any(run.weights for run in found.case.runs):
             yield (
-                "The trial runs do not suffice for influence coefficients (one in each plane and one without, at one "
-                "speed): their masses are taken into account, and the rig's data used."
+                "The trial runs do not suffice for influence coefficients (one without and one in each plane, at one "
+                "speed, with masses that tell): their masses are taken into account, and the rig's data used."
             )
         return
     measured, told = found.solution.influences[0], influence(roll, found.case.runs[0].speed)

@@ -274,6 +274,10 @@ def test_trial_masses_that_move_nothing_fail(tmp_path: Path) -> None:
     assert seen.status in (1, 3)
     if seen.status == 1:
         assert check(seen.document, "ABU1007")["status"] == "fail"
+    tiny = [shop.run(), *(shop.put_on(k, 1e-3, 0.0).run(trial(k, 1e-3, 0.0)) for k in (0, 1))]
+    assert abu("balance", written(tmp_path, BARE_ROTOR, *tiny)).status == 3
+    known = abu("balance", written(tmp_path, RIG, ROTOR, *tiny), "--json").document
+    assert known["result"]["method"] == "rig data" and any("masses that tell" in line for line in known["warnings"])
     heavy = [shop.run(), *(shop.put_on(k, 20.0, 0.0).run(trial(k, 20.0, 0.0)) for k in (0, 1))]
     good = abu("balance", written(tmp_path, BARE_ROTOR, *heavy), "--json")
     assert good.status == 0 and check(good.document, "ABU1007")["status"] == "pass"
