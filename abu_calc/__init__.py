@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     from abu_calc.dynamics.supports.planar import planar
     from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
     from abu_calc.spec.read import Machine, read
+    from abu_calc.spec.read_readings import Readings, read_readings
     from abu_calc.spec.read_scene import SceneDescription, read_scene
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
+    from abu_calc.studies.balance import BalanceResult, balance
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
     from abu_calc.studies.simulate import SimulateResult, simulate
@@ -36,8 +38,10 @@ _ROOMS: Final = {
     "dynamics.supports.planar": ("planar",),
     "errors": ("AbuError", "InputError", "NotTrustworthyError", "OutputError", "RangeError"),
     "spec.read": ("Machine", "read"),
+    "spec.read_readings": ("Readings", "read_readings"),
     "spec.read_scene": ("SceneDescription", "read_scene"),
     "studies.accuracy": ("AccuracyResult", "accuracy"),
+    "studies.balance": ("BalanceResult", "balance"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
     "studies.effects": ("EffectsResult", "effects"),
     "studies.simulate": ("SimulateResult", "simulate"),
@@ -50,6 +54,7 @@ _ROOMS: Final = {
 __all__ = [
     "AbuError",
     "AccuracyResult",
+    "BalanceResult",
     "Check",
     "CheckFitResult",
     "EffectsResult",
@@ -59,6 +64,7 @@ __all__ = [
     "OutputError",
     "Race",
     "RangeError",
+    "Readings",
     "Scene",
     "SceneDescription",
     "SimulateResult",
@@ -67,10 +73,12 @@ __all__ = [
     "VerifyResult",
     "__version__",
     "accuracy",
+    "balance",
     "check_fit",
     "effects",
     "planar",
     "read",
+    "read_readings",
     "read_scene",
     "simulate",
     "size",

@@ -1,7 +1,7 @@
 """What each check code means, as data: what is asked, what fails it, what to do; `abu explain ABU203` shows it.
 
 1xx speeds, 2xx the autobalancer, 3xx strength, 4xx vibration and power, 5xx swing arm, 6xx bearing seats, 7xx what a
-simulation shows of a design, 8xx how far a computation can be trusted, 9xx files.
+simulation shows of a design, 8xx how far a computation can be trusted, 9xx files, 10xx balancing on a rig.
 """
 
 from collections.abc import Mapping
@@ -259,6 +259,62 @@ _ALL: Final = (
         "Whether the results of a file are those of its table [expected]; the check bears the name of the file.",
         "A value differs by more than its tolerance.",
         "If the change is meant, write it with abu verify --update.",
+    ),
+    CheckCode(
+        "ABU1001", "planes told apart",
+        "Whether the two sensors tell the two planes apart, at the speeds of the runs.",
+        "The condition number of the way from imbalances to readings is above 30: errors of a reading may grow by "
+        "that. Warns above 10; above 300 no number is given.",
+        "Planes farther apart, a speed farther from the natural frequencies, other trial masses.",
+        "balance", ("formulas.two_planes:condition_number",),
+    ),
+    CheckCode(
+        "ABU1002", "speed off the rig's natural frequencies",
+        "Whether the runs are far from where small errors of rig and damping turn the phase.",
+        "A speed is within a tenth of a natural frequency of roll and supports. Warns within three tenths, and where "
+        "trial masses make data of the rig needless.",
+        "Another speed: the check names what it would leave. Or trial masses.",
+        "balance", ("formulas.two_planes:natural_frequencies",),
+    ),
+    CheckCode(
+        "ABU1003", "rigid roll",
+        "Whether the roll stays straight at the speeds of runs and service, as two planes ask for.",
+        "The highest speed is above 0.7 of rotor.first_bending_speed_rpm, assumed; warns above half. Without that key "
+        "it warns above 0.7 of what a solid steel bar of the same mass and length would have.",
+        "More planes, at more speeds (ISO 21940-12); or a lower speed.",
+        "balance", ("formulas.two_planes:bar_bending_speed",),
+    ),
+    CheckCode(
+        "ABU1004", "correction surer than its errors",
+        "Whether what readings, rig and the correction itself may be off, [errors], leaves little of the vibration.",
+        "They leave more than half of it; above a tenth it warns. Where they leave all, no number is given.",
+        "A second run after the correction; better readings; another speed.",
+        "balance", ("formulas.two_planes:imbalances",),
+    ),
+    CheckCode(
+        "ABU1005", "permitted residual imbalance",
+        "Whether the imbalance to be expected after the correction is what tolerance.balance_grade permits, in each "
+        "plane.",
+        "It is above. Warns where twice it is.",
+        "A second run after the correction.", "balance", ("standards.balance:permissible_imbalance",),
+    ),
+    CheckCode(
+        "ABU1006", "runs agree",
+        "Whether several runs tell the same imbalance, as well as their errors let them.",
+        "A reading is off by more than six standard deviations; above three it warns.",
+        "Look for what changed between the runs; or the roll bends, or data of the rig are wrong.", "balance",
+    ),
+    CheckCode(
+        "ABU1007", "trial masses tell",
+        "Whether the trial masses move the sensors enough to tell influence coefficients.",
+        "The weaker one moves them by less than a twentieth of the largest reading; below three tenths it warns.",
+        "Heavier trial masses.", "balance",
+    ),
+    CheckCode(
+        "ABU1008", "metal to take off",
+        "Whether what is to be taken off in a plane is there, by rotor.max_removable_g.",
+        "The places given leave no way with less. Where any place will do, mass is put on opposite instead.",
+        "More places, so that mass can be put on opposite.", "balance",
     ),
 )  # fmt: skip
 

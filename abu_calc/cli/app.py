@@ -18,6 +18,7 @@ COMMANDS = (
     "check-fit",
     "simulate",
     "stability",
+    "balance",
     "effects",
     "accuracy",
     "verify",
@@ -110,7 +111,8 @@ def run(arguments: list[str]) -> int:
 PLAIN = str.maketrans(
     {"µ": "u", "×": "x", "·": "*", "Ø": "dia ", "√": "sqrt", "…": "...", "→": "->", "−": "-", "–": "-", "±": "+-",
      "≤": "<=", "≥": ">=", "°": " deg", "²": "^2", "³": "^3", "Ω": "Omega", "ω": "omega", "Δ": "Delta", "ε": "eps",
-     "β": "beta", "ρ": "rho", "σ": "sigma", "κ": "kappa", "θ": "theta", "γ": "gamma", "π": "pi", "₀": "0"}
+     "β": "beta", "ρ": "rho", "σ": "sigma", "κ": "kappa", "θ": "theta",
+     "α": "alpha", "φ": "phi", "γ": "gamma", "π": "pi", "₀": "0"}
 )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""`abu init [--preset NAME|--scene] FILE`: write a commented machine or scene file to start from."""
+"""`abu init [--preset NAME|--scene|--readings] FILE`: write a commented file to start from."""
 
 from pathlib import Path
 from typing import Annotated
@@ -17,17 +17,28 @@ def init(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The file to write, ending in .toml.")],
     preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset instead.")] = None,
     scene: Annotated[bool, typer.Option("--scene", help="Write a scene file, for `abu simulate`.")] = False,
+    readings: Annotated[
+        bool, typer.Option("--readings", help="Write a file of readings on a balancing rig, for `abu balance`.")
+    ] = False,
 ) -> Outcome:
     """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
     from abu_calc.report.files import check_target, write
-    from abu_calc.spec.read import read_machine
-    from abu_calc.spec.template import scene_template, template
+    from abu_calc.spec.kinds import BY_NAME, kind_of
+    from abu_calc.spec.read_file import read_file
 
     check_target(file, force=how.force, suffixes=(".toml",))
-    if scene and preset is not None:
-        raise InputError("--scene and --preset exclude each other", remedy="Presets are machines.")
-    write(file, read_machine(preset).text if preset is not None else scene_template() if scene else template())
-    next_step = Paragraph(f"{file} is written. Edit it, then: abu {'simulate' if scene else 'size'} {file}", "pass")
+    asked = [name for name, wanted in (("scene", scene), ("readings", readings)) if wanted]
+    if len(asked) + (preset is not None) > 1:
+        options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
+        raise InputError(f"{' and '.join(options)} exclude each other", remedy="A preset is of the kind it is.")
+    if preset is not None:
+        copied = read_file(preset)
+        kind, text = kind_of(copied.document.content), copied.text
+    else:
+        kind = BY_NAME[asked[0] if asked else "machine"]
+        text = kind.call("template")
+    write(file, text)
+    next_step = Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")
     return Outcome("init", {"file": str(file), "preset": preset}, (next_step,))
 
 

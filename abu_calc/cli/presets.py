@@ -10,18 +10,18 @@ from abu_calc.report.outcome import Outcome
 
 
 def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Print this preset.")] = None) -> Outcome:
-    """List the machine files that come with abu-calc, or print one."""
+    """List the files that come with abu-calc, or print one."""
     from abu_calc.spec.presets import names
-    from abu_calc.spec.read import read_machine
+    from abu_calc.spec.read_file import read_file
 
     if name is not None:
-        text = read_machine(name).text
+        text = read_file(name).text
         return Outcome("presets", {"name": name, "text": text}, (), plain=text)
-    listed = [{"name": each, "machine": read_machine(each).tables.machine.name} for each in names()]
+    listed = [{"name": each, "machine": read_file(each).title} for each in names()]
     blocks = (
         Heading("Presets"),
-        Grid(("name", "machine"), tuple((each["name"], each["machine"]) for each in listed)),
-        Paragraph("A preset's name serves wherever a machine file is asked for: abu size avtovaz-707-222"),
+        Grid(("name", "machine or roll"), tuple((each["name"], each["machine"]) for each in listed)),
+        Paragraph("A preset's name serves wherever a file of its kind is asked for: abu size avtovaz-707-222"),
     )
     return Outcome("presets", {"presets": listed}, blocks)
 

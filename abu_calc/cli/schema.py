@@ -1,4 +1,4 @@
-"""`abu schema [machine|scene|result]`: the JSON Schema of the files, for editors, and of results, for programs."""
+"""`abu schema [machine|scene|readings|result]`: the JSON Schema of files, for editors, or of results, for programs."""
 
 from typing import Annotated, Any
 
@@ -8,15 +8,16 @@ from abu_calc.cli.command import add_command
 from abu_calc.errors import InputError
 from abu_calc.report.outcome import Outcome, to_json
 
-KINDS = ("machine", "scene", "result")
+KINDS = ("machine", "scene", "readings", "result")
 
 
 def schema(
     kind: Annotated[
-        str, typer.Argument(metavar="[machine|scene|result]", help="Which kind of file, or what --json prints.")
+        str,
+        typer.Argument(metavar="[machine|scene|readings|result]", help="Which kind of file, or what --json prints."),
     ] = "machine",
 ) -> Outcome:
-    """Print the JSON Schema of machine or scene files (draft 4, as editors take it), or of results (2020-12)."""
+    """Print the JSON Schema of a kind of files (draft 4, as editors take it), or of results (2020-12)."""
     if kind not in KINDS:
         raise InputError("no schema of this kind", found=kind, allowed=", ".join(KINDS))
     found = _schema(kind)
@@ -28,9 +29,10 @@ def _schema(kind: str) -> dict[str, Any]:
         from abu_calc.report.result_schema import result_schema
 
         return result_schema()
-    from abu_calc.spec.schema import machine_schema, scene_schema
+    from abu_calc.spec.kinds import BY_NAME
 
-    return scene_schema() if kind == "scene" else machine_schema()
+    found: dict[str, Any] = BY_NAME[kind].call("schema")
+    return found
 
 
 def register(app: typer.Typer) -> None:

@@ -11,16 +11,18 @@ from abu_calc.report.outcome import Outcome
 
 
 def validate(
-    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine or scene files, or names of presets.")],
+    files: Annotated[
+        list[str], typer.Argument(metavar="FILE...", help="Files of machines, scenes or readings, or names of presets.")
+    ],
 ) -> Outcome:
-    """Check machine and scene files: keys, types, ranges, rules between keys, usual ranges. Computes nothing."""
+    """Check files: keys, types, ranges, rules between keys, usual ranges. Computes nothing."""
 
-    from abu_calc.spec.read_scene import read_any
+    from abu_calc.spec.read_file import read_file
 
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
-            loaded = read_any(file)
+            loaded = read_file(file)
         except InputError as error:
             faults.append(error)
             continue

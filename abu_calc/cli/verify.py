@@ -1,4 +1,4 @@
-"""`abu verify [FILE|FOLDER …]`: hold machine files to the results they expect."""
+"""`abu verify [FILE|FOLDER …]`: hold files of machines and readings to the results they expect."""
 
 import tomllib
 from pathlib import Path
@@ -15,13 +15,14 @@ from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.progress import Progress
-    from abu_calc.spec.read import Machine
+    from abu_calc.spec.document import Reading
 
 
 def verify(
     how: Delivery,
     files: Annotated[
-        list[str] | None, typer.Argument(metavar="[FILE|FOLDER]...", help="Machine files, folders of them, or presets.")
+        list[str] | None,
+        typer.Argument(metavar="[FILE|FOLDER]...", help="Files of machines or readings, folders, or presets."),
     ] = None,
     update: Annotated[
         bool, typer.Option("--update", help="Write the results into the files instead; comments are kept.")
@@ -30,23 +31,24 @@ def verify(
     """Recompute files that have [expected] and compare; without files, the presets."""
     from abu_calc.report.verify import verify_blocks, verify_screen
     from abu_calc.spec.bearing_file import expected_values
-    from abu_calc.spec.read import read_machine
+    from abu_calc.spec.read_file import read_file
+    from abu_calc.studies.verify import expectations
     from abu_calc.studies.verify import verify as study
 
     named = _named(files)
-    machines = [read_machine(file) for file in named]
+    machines = [read_file(file) for file in named]
     with progress(how) as tell:
         if update:
             return _updated(machines, tell)
         # A file named itself must expect something; one found in a folder, or a preset, may pass.
-        asked = [each for each in machines if expected_values(each.tables) or each.file in (files or ())]
+        asked = [each for each in machines if expected_values(expectations(each)) or each.file in (files or ())]
         if not asked:
             raise InputError("no file here has [expected]", found=", ".join(named), remedy="Write it with --update.")
         result = study(asked, tell)
     return Outcome.of(result, lambda: verify_blocks(result), lambda: verify_screen(result))
 
 
-def _updated(machines: "list[Machine]", tell: "Progress") -> Outcome:
+def _updated(machines: "list[Reading]", tell: "Progress") -> Outcome:
     """All files with their present values written into [expected]."""
     results, blocks = [], []
     for index, machine in enumerate(machines, 1):
@@ -57,7 +59,7 @@ def _updated(machines: "list[Machine]", tell: "Progress") -> Outcome:
     return Outcome("verify", {"files": results}, tuple(blocks))
 
 
-def _update(machine: "Machine") -> int:
+def _update(machine: "Reading") -> int:
     """Write the values into the file's [expected], its comments and layout kept; how many."""
     import tomlkit
 
@@ -81,7 +83,7 @@ def _update(machine: "Machine") -> int:
 
 
 def _named(files: list[str] | None) -> list[str]:
-    """Files as given, folders as the machine files in them, nothing as all presets."""
+    """Files as given, folders as the files in them that expect something, nothing as all presets."""
     from abu_calc.spec.presets import names
 
     if not files:
@@ -91,7 +93,7 @@ def _named(files: list[str] | None) -> list[str]:
         if Path(file).is_dir():
             inside = sorted(str(path) for path in Path(file).glob("*.toml") if _may_expect(path))
             if not inside:
-                raise InputError("no machine file with [expected] in this folder", place=Place(file))
+                raise InputError("no file with [expected] in this folder", place=Place(file))
             found += inside
         else:
             found.append(file)
@@ -99,12 +101,16 @@ def _named(files: list[str] | None) -> list[str]:
 
 
 def _may_expect(path: Path) -> bool:
-    """Whether a file in a folder is a machine's and expects something; one that cannot be read is not passed over."""
+    """Whether a file in a folder is of a kind that can expect something and does; one that cannot be read is not passed
+    over.
+    """
+    from abu_calc.spec.kinds import kind_of
+
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
         return True
-    return "machine" in tables and "expected" in tables
+    return "expected" in tables and kind_of(tables).name != "scene" and bool({"machine", "rotor"} & tables.keys())
 
 
 def register(app: typer.Typer) -> None:

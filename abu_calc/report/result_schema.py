@@ -6,6 +6,7 @@ from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, 
 
 from abu_calc.checks import Check, Status
 from abu_calc.studies.accuracy import AccuracyResult
+from abu_calc.studies.balance import BalanceResult
 from abu_calc.studies.check_fit import CheckFitResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
 from abu_calc.studies.quantity import Quantity, Record, hints, quantities
@@ -20,7 +21,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
     SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, KnownEffectsResult, AccuracyResult,
-    VerifyResult,
+    BalanceResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}

@@ -155,6 +155,21 @@ STEPS: Final[Mapping[str, Step]] = {
         ),
         step_numbers.swing_arm,
     ),
+    "balance": Step(
+        "Balancing in two planes (`abu balance`)",
+        (
+            "formulas.two_planes:displacement",
+            "formulas.two_planes:kernels",
+            "formulas.two_planes:imbalances",
+            "formulas.two_planes:support_damping",
+            "formulas.two_planes:natural_frequencies",
+            "formulas.two_planes:influence",
+            "formulas.two_planes:condition_number",
+            "formulas.two_planes:bar_bending_speed",
+            "formulas.two_planes:printed_answer",
+        ),
+        lambda result: None,
+    ),
     "simulation": Step(
         "Simulation",
         ("formulas.motion:equations", "formulas.motion:settling_time", "formulas.motion:simulate"),

@@ -53,6 +53,11 @@ class Reading:
     warnings: tuple[str, ...]
 
     @property
+    def title(self) -> str:
+        """The name of what it is about, as reports print it."""
+        return Path(self.file).name
+
+    @property
     def lines(self) -> Mapping[str, int]:
         """Key path → line."""
         from abu_calc.spec.lines import key_lines

@@ -250,7 +250,7 @@ def _no_table(finding: _Finding) -> _Words:
     if not finding.key:
         return "a table is expected", None, None
     name = header(finding.root, finding.path)
-    single = not is_array(table_at(finding.root, finding.path[:-1]) or finding.root, finding.key)
+    single = not is_array(finding.table, finding.key)
     if single and isinstance(finding.value, list):
         return "a single table is expected", None, f"write {name}, with one bracket, and only once"
     return "a table is expected", None, f"write {name} on a line of its own, and its keys below"

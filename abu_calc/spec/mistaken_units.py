@@ -14,6 +14,7 @@ MISTAKEN: Final[dict[str | None, dict[str, float]]] = {
     "hz": {"rpm": math.pi / 30, "rad/s": 1.0},
     "kg": {"g": 1e-3, "lb": 0.45359237, "t": 1e3},
     "mm": {"m": 1.0, "cm": 1e-2, "inch": 0.0254, "µm": 1e-6},
+    "m": {"mm": 1e-3, "cm": 1e-2, "inch": 0.0254},
     "um": {"mm": 1e-3, "m": 1.0},
     "g_mm": {"g·m": 1e-3, "kg·mm": 1e-3, "g·cm": 1e-5, "kg·m": 1.0, "mg·mm": 1e-9},
     "N": {"kN": 1e3, "kgf": GRAVITY},

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from abu_calc.errors import InputError, Place
 from abu_calc.spec.bearing_file import BearingFile
 from abu_calc.spec.document import LARGEST_FILE, Document, Reading, named, open_document, parsed_overrides, validate
+from abu_calc.spec.kinds import refuse_others
 
 if TYPE_CHECKING:
     from abu_calc.spec.machine import MachineFile
@@ -24,6 +25,11 @@ class Machine(Reading):
     """
 
     tables: "MachineFile | BearingFile"
+
+    @property
+    def title(self) -> str:
+        """The machine's name."""
+        return self.tables.machine.name
 
     def changed(self, values: Mapping[str, object]) -> "Machine":
         """The machine with entries of its file replaced, by key path: `changed({"wheel.mass_kg": 0.5})`.
@@ -61,7 +67,7 @@ def read_machine(source: str, overrides: Sequence[str] = ()) -> Machine:
 
 def machine_from(document: Document, overrides: "Sequence[Override]" = ()) -> Machine:
     """The machine of a document that is open already; raises as `read_machine` does."""
-    _refuse_other_files(document.content, document.file)
+    refuse_others(document, "machine")
     # Only overrides ask what keys are known, so that a file of bearings alone loads no more than it needs.
     known = _whole() if overrides else BearingFile
     tables, reading = validate(document, overrides, known, _model)
@@ -76,14 +82,6 @@ def _whole() -> "type[MachineFile]":
     from abu_calc.spec.machine import MachineFile
 
     return MachineFile
-
-
-def _refuse_other_files(document: Mapping[str, object], source: str) -> None:
-    """A scene or a set of readings is a good file, only not a machine's."""
-    for table, kind in (("scene", "a scene"), ("rig", "readings of a rig")):
-        if table in document and "machine" not in document:
-            remedy = "`abu simulate` takes scenes" if table == "scene" else None
-            raise InputError(f"this file holds {kind}, not a machine", place=Place(source, key=table), remedy=remedy)
 
 
 def _bearings_alone(document: Mapping[str, object]) -> bool:

@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from abu_calc.errors import InputError, Place
 from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
+from abu_calc.spec.kinds import kind_of, refuse_others
 from abu_calc.spec.read import Machine, machine_from
 from abu_calc.spec.scene import SceneFile, SceneTable
 
@@ -27,7 +27,7 @@ class SceneDescription(Reading):
         """
         from abu_calc.spec.overrides import following, overrides_of
 
-        return _scene_from(self.document, following(self.overrides, overrides_of(values), SceneFile))
+        return scene_from(self.document, following(self.overrides, overrides_of(values), SceneFile))
 
 
 def read_scene(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> SceneDescription:
@@ -35,24 +35,19 @@ def read_scene(source: str | os.PathLike[str], overrides: Sequence[str] = ()) ->
 
     Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
     """
-    document = open_document(named(source))
-    if not _holds_scene(document):
-        for table, kind in (("machine", "a machine"), ("rig", "readings of a rig")):
-            if table in document.content:
-                raise InputError(f"this file holds {kind}, not a scene", place=Place(document.file, key=table))
-    return _scene_from(document, parsed_overrides(overrides))
+    return scene_from(open_document(named(source)), parsed_overrides(overrides))
 
 
 def read_any(source: str, overrides: Sequence[str] = ()) -> Machine | SceneDescription:
     """Reads a scene file, or a machine file, or a machine preset by its name: whichever it is."""
     document, replaced = open_document(source), parsed_overrides(overrides)
-    return _scene_from(document, replaced) if _holds_scene(document) else machine_from(document, replaced)
+    if kind_of(document.content).name == "scene":
+        return scene_from(document, replaced)
+    return machine_from(document, replaced)
 
 
-def _holds_scene(document: Document) -> bool:
-    return "scene" in document.content and "machine" not in document.content
-
-
-def _scene_from(document: Document, overrides: "Sequence[Override]") -> SceneDescription:
+def scene_from(document: Document, overrides: "Sequence[Override]" = ()) -> SceneDescription:
+    """The scene of a document that is open already; raises as `read_scene` does."""
+    refuse_others(document, "scene")
     file, reading = validate(document, overrides, SceneFile, lambda _: SceneFile)
     return SceneDescription(**vars(reading), scene=file.scene)

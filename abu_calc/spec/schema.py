@@ -5,6 +5,7 @@ from typing import Any, Final
 from pydantic.json_schema import models_json_schema
 
 from abu_calc.spec.machine import BearingFile, MachineFile
+from abu_calc.spec.readings import ReadingsFile
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.table import Table
 
@@ -25,6 +26,11 @@ def machine_schema() -> dict[str, Any]:
 def scene_schema() -> dict[str, Any]:
     """The schema of scene files."""
     return _schema("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}
+
+
+def readings_schema() -> dict[str, Any]:
+    """The schema of files of readings."""
+    return _schema("readings", ReadingsFile) | {"allOf": [{"$ref": f"#/definitions/{ReadingsFile.__name__}"}]}
 
 
 def _schema(kind: str, *models: type[Table]) -> dict[str, Any]:

@@ -22,6 +22,9 @@ class Table(BaseModel):
     shown_in_template: ClassVar[frozenset[str]] = frozenset()
     """Keys without a default that a new file should nevertheless show live."""
 
+    inline: ClassVar[bool] = False
+    """Whether a new file writes it in one line, `key = { … }`."""
+
     example_defaults: ClassVar[frozenset[str]] = frozenset()
     """Keys whose default is an example's, or a guess, and never that of the machine at hand."""
 

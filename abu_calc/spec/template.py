@@ -6,6 +6,7 @@ from typing import Final
 from pydantic.fields import FieldInfo
 
 from abu_calc.spec.machine import MachineFile
+from abu_calc.spec.readings import ReadingsFile
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.table import Table, is_array, subtable
 from abu_calc.spec.text import key_path, shown
@@ -30,6 +31,11 @@ def scene_template() -> str:
     return _text("scene", SceneFile)
 
 
+def readings_template() -> str:
+    """The text of a complete file of readings, likewise."""
+    return _text("readings", ReadingsFile)
+
+
 def _text(kind: str, model: type[Table]) -> str:
     return "\n".join([*_comment(HEAD.format(kind=kind)), *_tables(model, (), live=True)]) + "\n"
 
@@ -40,6 +46,8 @@ def _tables(model: type[Table], path: tuple[str, ...], *, live: bool) -> list[st
         inner = subtable(model, key)
         array = is_array(model, key)
         shows = live and (field.is_required() or key in model.shown_in_template or key == "limits")
+        if inner and inner.inline:
+            continue
         if inner:
             rows += _table(inner, (*path, key), live=shows, array=array)
         elif not path:
@@ -51,7 +59,8 @@ def _table(model: type[Table], path: tuple[str, ...], *, live: bool, array: bool
     name = f"[[{key_path(path)}]]" if array else f"[{key_path(path)}]"
     rows = ["", *_comment(model.__doc__ or ""), _row(name, live)]
     for key, field in model.model_fields.items():
-        if not subtable(model, key):
+        inner = subtable(model, key)
+        if not inner or inner.inline:
             rows += [*_comment(field.description or ""), _key(model, key, field, live=live)]
     return rows + _tables_inside(model, path, live=live)
 
@@ -61,9 +70,19 @@ def _tables_inside(model: type[Table], path: tuple[str, ...], *, live: bool) -> 
 
 
 def _key(model: type[Table], key: str, field: FieldInfo, *, live: bool) -> str:
+    inner = subtable(model, key)
     given = field.default if not field.is_required() and field.default is not None else (field.examples or [None])[0]
-    shows = field.is_required() or field.default is not None or key in model.shown_in_template
-    return _row(f"{key} = {shown(given)}", live and shows)
+    shows = field.is_required() or (field.default is not None and not inner) or key in model.shown_in_template
+    return _row(f"{key} = {_inline(inner, given) if inner else shown(given)}", live and shows)
+
+
+def _inline(model: type[Table], example: object) -> str:
+    """A table in one line: its example, or those of the keys it must have."""
+    held = example if isinstance(example, dict) else {}
+    keys = held or {
+        key: field.examples[0] for key, field in model.model_fields.items() if field.is_required() and field.examples
+    }
+    return "{ " + ", ".join(f"{key} = {shown(value)}" for key, value in keys.items()) + " }"
 
 
 def _row(text: str, live: bool) -> str:

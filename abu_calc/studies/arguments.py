@@ -20,6 +20,7 @@ WORDS: Final = {
     "NoneType": "None",
     "Callable": "a function",
     "Machine": "a machine that was read",
+    "Reading": "a file that was read",
     "SceneDescription": "a scene file that was read",
     "Scene": "an abu_calc.Scene",
 }

@@ -27,6 +27,10 @@ WORTH_KEEPING: Final = (
     "simulation.0.settling_time_s",
     "swing_arm.contact_stiffness_limit_N_per_m",
     "swing_arm.damping_limit_N_s_per_m",
+    "left.mass_g",
+    "left.angle_deg",
+    "right.mass_g",
+    "right.angle_deg",
 )
 """What `--update` writes into a file that expects nothing yet; of seats their fits and interferences."""
 

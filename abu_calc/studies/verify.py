@@ -6,8 +6,10 @@ from typing import Annotated, Any, ClassVar
 from abu_calc.checks import Check, verdict
 from abu_calc.errors import InputError, Place
 from abu_calc.progress import Progress, silent
-from abu_calc.spec.bearing_file import BearingFile, expected_tolerances, expected_values
+from abu_calc.spec.bearing_file import BearingFile, HasExpectations, expected_tolerances, expected_values
+from abu_calc.spec.document import Reading
 from abu_calc.spec.read import Machine
+from abu_calc.spec.read_readings import Readings
 from abu_calc.studies.arguments import checked
 from abu_calc.studies.expected import ComparedValue, compare, current
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -37,8 +39,8 @@ class VerifyResult(Result):
 
 
 @checked
-def verify(machines: Sequence[Machine], progress: Progress = silent) -> VerifyResult:
-    """Recompute machine files and compare with what they expect.
+def verify(machines: Sequence[Reading], progress: Progress = silent) -> VerifyResult:
+    """Recompute files of machines and readings and compare with what they expect.
 
     Raises InputError for a file that expects nothing.
     """
@@ -53,13 +55,27 @@ def verify(machines: Sequence[Machine], progress: Progress = silent) -> VerifyRe
     )
 
 
-def present_values(machine: Machine) -> dict[str, Any]:
+def present_values(machine: Reading) -> dict[str, Any]:
     """What the file should expect now: at its own paths, or a choice where it has none."""
-    return current(tuple(expected_values(machine.tables)), recompute(machine))
+    return current(tuple(expected_values(expectations(machine))), recompute(machine))
 
 
-def recompute(machine: Machine) -> Mapping[str, object]:
+def expectations(reading: Reading) -> HasExpectations:
+    """The tables of a file that may expect results. Raises InputError for a scene."""
+    if isinstance(reading, (Machine, Readings)):
+        return reading.tables
+    raise InputError("this file holds a scene, which expects nothing", place=Place(reading.file))
+
+
+def recompute(machine: Reading) -> Mapping[str, object]:
     """The entries of a file's result by which the paths in [expected] begin, its status among them."""
+    if isinstance(machine, Readings):
+        from abu_calc.studies.balance import balance
+
+        found = balance(machine)
+        return {"status": found.status, **{name: getattr(found, name) for name in found.entries()}}
+    if not isinstance(machine, Machine):
+        return {}
     if isinstance(machine.tables, BearingFile) or machine.tables.autobalancer is None:
         from abu_calc.studies.check_fit import check_fit
 
@@ -71,15 +87,15 @@ def recompute(machine: Machine) -> Mapping[str, object]:
     return {"status": result.status, **{name: getattr(result, name) for name in result.entries()}}
 
 
-def _verified(machine: Machine) -> VerifiedFile:
-    expected = expected_values(machine.tables)
+def _verified(machine: Reading) -> VerifiedFile:
+    expected = expected_values(expectations(machine))
     if not expected:
         raise InputError(
             "nothing is expected of this file",
             place=Place(machine.file, key="expected"),
             remedy=f"`abu verify --update {machine.file}` writes its present results.",
         )
-    values = compare(expected, expected_tolerances(machine.tables), recompute(machine))
+    values = compare(expected, expected_tolerances(expectations(machine)), recompute(machine))
     return VerifiedFile(file=machine.file, values=values)
 
 

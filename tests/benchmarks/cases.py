@@ -15,6 +15,8 @@ from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
+from abu_calc.spec.document import open_document
+from abu_calc.spec.kinds import kind_of
 from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.presets import names
 from abu_calc.spec.read import read_machine
@@ -88,7 +90,10 @@ def design(preset: str) -> Design:
 
 def presets() -> list[str]:
     """The presets of whole machines that can be sized."""
-    return [name for name in names() if isinstance(read_machine(name).tables, MachineFile)]
+    return [
+        name for name in names() if kind_of(open_document(name).content).name == "machine"
+        and isinstance(read_machine(name).tables, MachineFile)
+    ]  # fmt: skip
 
 
 def with_effects(scene: Scene, wanted: Collection[str]) -> Scene:

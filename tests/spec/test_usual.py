@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 from abu_calc.spec import presets
 from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.read import read_machine
+from abu_calc.spec.read_file import read_file
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.schema import machine_schema
 from abu_calc.spec.table import Table, all_tables
@@ -160,7 +161,7 @@ def test_a_level_without_a_known_speed_is_not_taken_for_an_acceleration(tmp_path
 
 @pytest.mark.parametrize("name", presets.names())
 def test_no_preset_is_unusual(name: str) -> None:
-    assert read_machine(name).warnings == ()
+    assert read_file(name).warnings == ()
 
 
 def test_neither_template_is_unusual(tmp_path: Path) -> None:

@@ -1,0 +1,26 @@
+"""`abu balance READINGS`: two-plane balancing of a roll from runs on a rig."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import Overrides, add_command
+from abu_calc.report.outcome import Outcome
+
+
+def balance(
+    readings: Annotated[str, typer.Argument(metavar="READINGS", help="A file of readings, or the name of a preset.")],
+    set_: Overrides = None,
+) -> Outcome:
+    """Balance a roll or screw in two planes by runs on a rig: mass, place, uncertainty, verification run."""
+    from abu_calc.report.balance import balance_blocks, balance_screen
+    from abu_calc.spec.read_readings import read_readings
+    from abu_calc.studies.balance import balance as study
+
+    result = study(read_readings(readings, set_ or ()))
+    return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "balance", balance)

@@ -1,0 +1,205 @@
+"""The report of `abu balance`: what to do in both planes, drawn, how sure it is, and what the next run will show."""
+
+import cmath
+import math
+from collections.abc import Sequence
+from typing import Final
+
+from abu_calc.report.balance_drawing import LEGEND, drawing
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.numbers import number
+from abu_calc.report.parts import check_blocks, notices, provenance_blocks
+from abu_calc.report.screen import one_screen, verdict_line
+from abu_calc.studies.balance import BalanceResult
+from abu_calc.studies.balance_records import PlaneCorrection, RunReadings, SensorReading, Share, Verification
+
+DO: Final = {"remove": "take off", "add": "put on"}
+CONVENTION: Final = (
+    "All angles of planes are laid off from the zero mark AGAINST rotation. A phase is that of A·cos(ωt − phase), t "
+    "from the passage of the mark at its sensor; amplitudes are 0–peak. Uncertainties are one standard deviation, by "
+    "[errors]; what the verification run is expected to show is the rms over them, twice that is exceeded less than "
+    "once in twenty."
+)
+TRIALS_OFF: Final = "The answer is for the roll without the trial masses: take them off first."
+PRINTED: Final = (
+    "As printed (Didukh 2010, (3)–(6)) the angle is the arctan of a quotient and readings are put in as they stand: a "
+    "negative mass means half a turn more, and accelerations point to the wrong side. For comparison only."
+)
+
+
+def balance_screen(result: BalanceResult) -> tuple[Block, ...]:
+    """What to do, drawn, on one screen."""
+    return one_screen(result, _about(result), [_planes(result), *_drawn(result)])
+
+
+def balance_blocks(result: BalanceResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        *_about(result),
+        Heading("Planes"),
+        _planes(result),
+        Heading("As one stands before the roll"),
+        *_drawn(result),
+        *check_blocks(result.checks),
+        Heading("Verification run"),
+        _verification(result.residual_check.verification),
+        Paragraph(_misfit(result)),
+        Heading("Readings"),
+        _readings(result.runs),
+        *_records(result.runs),
+        *_rig(result),
+        Heading("What makes the uncertainty"),
+        _causes(result),
+        *_printed(result),
+        Heading("Conventions"),
+        Paragraph(CONVENTION),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def _about(result: BalanceResult) -> list[Block]:
+    """Title, verdict and what to do."""
+    orders = [Paragraph(line) for line in _orders(result)]
+    return [Heading(_title(result)), verdict_line(result), *orders]
+
+
+def _title(result: BalanceResult) -> str:
+    count = len(result.runs)
+    return f"{result.title}: balancing in two planes, {count} run{'' if count == 1 else 's'}, by {result.method}"
+
+
+def _orders(result: BalanceResult) -> list[str]:
+    """What to do, a sentence a plane."""
+    found = []
+    for name, plane in (("left", result.left), ("right", result.right)):
+        if not plane.mass_g or not plane.corrections:
+            found.append(f"Leave the {name} plane as it is.")
+            continue
+        parts = " and ".join(f"{DO[one.action]} {_share(one)}" for one in plane.corrections)
+        found.append(f"{name.upper()} plane: {parts}.")
+    return [*found, TRIALS_OFF] if any(run.trials for run in result.runs) else found
+
+
+def _share(one: Share) -> str:
+    return _at(one.mass_g, one.angle_deg)
+
+
+def _planes(result: BalanceResult) -> Grid:
+    both = (result.left, result.right)
+    rows = [
+        ("heavy spot, take off", *(_at(one.mass_g, one.remove_at_deg) for one in both)),
+        ("or put on", *(_at(one.mass_g, one.add_at_deg) for one in both)),
+        ("one standard deviation", *(_uncertain(one) for one in both)),
+        ("imbalance", *(f"{number(one.imbalance_g_mm)} g·mm" for one in both)),
+        ("expected after it", *(_rest(one) for one in both)),
+    ]
+    for one in result.residual_check.verification:
+        at = f"{one.quantity} now, {one.speed_rpm:.0f} rpm"
+        rows.append((at, *(f"{number(value, 3)} {one.unit}" for value in (one.left_before, one.right_before))))
+        most = (one.left_at_most, one.right_at_most)
+        rows.append(("  after it, at most", *(f"{number(value, 2)} {one.unit}" for value in most)))
+    return Grid(("", "left", "right"), tuple(rows))
+
+
+def _at(mass: float, angle: float) -> str:
+    return f"{number(mass)} g at {round(angle, 1) % 360:.1f}°"
+
+
+def _uncertain(plane: PlaneCorrection) -> str:
+    angle = plane.angle_uncertainty_deg
+    told = "angle not known" if angle >= 180 else f"± {number(angle, 2)}°"
+    return f"± {number(plane.mass_uncertainty_g, 2)} g, {told}"
+
+
+def _rest(plane: PlaneCorrection) -> str:
+    limit = "" if plane.permitted_g_mm is None else f", permitted {number(plane.permitted_g_mm, 3)}"
+    return f"{number(plane.rest_g_mm, 2)} g·mm{limit}"
+
+
+def _drawn(result: BalanceResult) -> list[Block]:
+    lines = drawing(result.left, result.right, result.turns_from_left)
+    return [Paragraph(""), *(Paragraph(line, indent=0) for line in lines), Paragraph(LEGEND)]
+
+
+def _verification(runs: Sequence[Verification]) -> Grid:
+    rows = tuple(
+        (f"{one.speed_rpm:.0f}", f"{one.quantity}, {one.unit}", side, *map(number, (before, expected, most), (4, 2, 2)))
+        for one in runs
+        for side, before, expected, most in (
+            ("left", one.left_before, one.left_expected, one.left_at_most),
+            ("right", one.right_before, one.right_expected, one.right_at_most),
+        )
+    )
+    return Grid(("rpm", "quantity", "", "now", "expected", "at most"), rows, frozenset({0, 3, 4, 5}))
+
+
+def _misfit(result: BalanceResult) -> str:
+    check = result.residual_check
+    text = f"Put back, the answer gives the readings to {number(check.reproduced, 2)} of the largest"
+    if check.disagreement is not None:
+        text += f", {number(check.disagreement, 2)} standard deviations"
+    return f"{text}. After the correction {number(100 * check.rest_share, 2)} % of the vibration is to be expected."
+
+
+def _readings(runs: Sequence[RunReadings]) -> Grid:
+    rows = tuple(
+        (str(index), f"{one.speed_rpm:.1f}", f"{one.quantity}, {one.unit}", _reading(one.left), _reading(one.right))
+        for index, one in enumerate(runs, 1)
+    )
+    return Grid(("run", "rpm", "quantity", "left", "right"), rows, frozenset({0, 1}))
+
+
+def _reading(one: SensorReading) -> str:
+    return f"{number(one.amplitude, 5)} at {one.phase_deg:.2f}°"
+
+
+def _records(runs: Sequence[RunReadings]) -> list[Block]:
+    return [
+        Paragraph(
+            f"Run {index} is recorded in {one.file}, SHA-256 {(one.sha256 or '')[:16]}…: {one.revolutions} "
+            f"revolutions, by the {one.mark_edge}{'' if one.mark_edge == 'middle' else ' edge'} of the mark's pulses."
+        )
+        for index, one in enumerate(runs, 1)
+        if one.file is not None
+    ]
+
+
+def _rig(result: BalanceResult) -> list[Block]:
+    natural = result.natural_frequencies_hz
+    told = (
+        []
+        if natural is None
+        else [Paragraph("Natural frequencies: " + ", ".join(f"{one:.2f} Hz" for one in natural) + ".")]
+    )
+    rows = tuple(
+        (f"{name} sensor", *(_polar(complex(*one)) for one in row))
+        for name, row in zip(("left", "right"), result.influence_coefficients, strict=True)
+    )
+    title = "Influence of the planes on the sensors, µm of displacement per g·mm"
+    return [Heading("Rig"), *told, Heading(title), Grid(("", "left plane", "right plane"), rows)]
+
+
+def _polar(value: complex) -> str:
+    return f"{number(abs(value))} at {math.degrees(-cmath.phase(value)) % 360:.1f}°"
+
+
+def _causes(result: BalanceResult) -> Grid:
+    rows = tuple(
+        (one.cause, f"{number(one.left_percent, 2)} %", f"{number(one.right_percent, 2)} %")
+        for one in result.uncertainty_by_cause
+    )
+    return Grid(("of the imbalance", "left", "right"), rows, frozenset({1, 2}))
+
+
+def _printed(result: BalanceResult) -> list[Block]:
+    both = (result.left, result.right)
+    if any(one.printed_mass_g is None for one in both):
+        return []
+    cells = [
+        f"{number(one.printed_mass_g or 0.0)} g at "
+        + ("x/0" if one.printed_angle_deg is None else f"{one.printed_angle_deg:.1f}°")
+        for one in both
+    ]
+    rows = (("as printed", *cells), ("derived anew", *(_at(one.mass_g, one.angle_deg) for one in both)))
+    return [Heading("The printed formula"), Grid(("", "left", "right"), rows), Paragraph(PRINTED)]

@@ -1,0 +1,65 @@
+"""Reading a file of readings, and the records it names."""
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from abu_calc.errors import InputError, Place
+from abu_calc.spec import presets
+from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
+from abu_calc.spec.kinds import refuse_others
+from abu_calc.spec.readings import ReadingsFile
+
+if TYPE_CHECKING:
+    from abu_calc.spec.overrides import Override
+
+
+@dataclass(frozen=True)
+class Readings(Reading):
+    """A file of readings; `tables` are what stands in it, in the units people wrote."""
+
+    tables: ReadingsFile
+
+    @property
+    def title(self) -> str:
+        """The roll's name."""
+        return self.tables.rotor.name
+
+    def changed(self, values: Mapping[str, object]) -> "Readings":
+        """The readings with entries of their file replaced, by key path: `changed({"rig.damping_ratio": 0.01})`.
+
+        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
+        """
+        from abu_calc.spec.overrides import following, overrides_of
+
+        return readings_from(self.document, following(self.overrides, overrides_of(values), ReadingsFile))
+
+    def beside(self, name: str) -> Path:
+        """A file that this one names: by its whole path, or beside it."""
+        found = Path(self.file) if Path(self.file).exists() else presets.find(self.file) or Path(self.file)
+        return found.absolute().parent / name
+
+
+def read_readings(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Readings:
+    """Reads a file of readings with entries overridden (`rig.key=value`, typed as TOML).
+
+    Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
+    """
+    return readings_from(open_document(named(source)), parsed_overrides(overrides))
+
+
+def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Readings:
+    """The readings of a document that is open already; raises as `read_readings` does."""
+    refuse_others(document, "readings")
+    tables, reading = validate(document, overrides, ReadingsFile, lambda _: ReadingsFile)
+    found = Readings(**vars(reading), tables=tables)
+    with found.located():
+        for index, run in enumerate(tables.run):
+            if run.file is not None and not (path := found.beside(run.file)).is_file():
+                raise InputError(
+                    "the record is not there", place=Place(key=f"run[{index}].file"), found=str(path),
+                    remedy="put the file beside this one, or write its whole path",
+                )  # fmt: skip
+    return found

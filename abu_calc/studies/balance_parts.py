@@ -1,0 +1,169 @@
+"""The parts of a result of balancing, in user units, made of what was found."""
+
+import cmath
+import math
+from collections.abc import Sequence
+
+from abu_calc.analysis.two_plane_errors import angular, motions, placing, radial, size
+from abu_calc.analysis.two_planes import ONE_SPEED, Balancing, RunOnRig, Solution, motion_of
+from abu_calc.formulas.two_planes import Matrix, Pair, natural_frequencies, reading_factor, support_damping
+from abu_calc.studies.balance_case import UNITS, Taken, unit_of_readings
+from abu_calc.studies.balance_found import Found
+from abu_calc.studies.balance_records import (
+    BalanceModel,
+    Complex,
+    ErrorShare,
+    PlaneCorrection,
+    ResidualCheck,
+    RunReadings,
+    SensorReading,
+    Share,
+    Verification,
+)
+from abu_calc.units import from_si, wrapped_deg
+
+
+def degrees(angle: float) -> float:
+    """An angle [rad] in degrees, 0 … 360, the latter not reached.
+
+    >>> degrees(-math.pi / 2)
+    270.0
+    """
+    found = math.degrees(angle) % 360.0
+    return 0.0 if found == 360.0 else found
+
+
+def plane_correction(plane: int, found: Found) -> PlaneCorrection:
+    """What to do in a plane (0 left, 1 right)."""
+    Q, radius = found.solution.imbalance[plane], found.radii[plane]
+    deltas = [change.imbalance[plane] for change in found.by]
+    angle = degrees(-cmath.phase(Q))
+    rest, permitted = found.rest[plane]
+    mass, turn = (None, None) if found.printed is None else found.printed[plane]
+    return PlaneCorrection(
+        mass_g=from_si(abs(Q) / radius, "g"),
+        angle_deg=angle,
+        mass_uncertainty_g=from_si(radial(Q, deltas) / radius, "g"),
+        angle_uncertainty_deg=math.degrees(angular(Q, deltas)),
+        remove_at_deg=angle,
+        add_at_deg=(angle + 180.0) % 360.0,
+        corrections=tuple(
+            Share(action=one.action, mass_g=from_si(one.mass, "g"), angle_deg=degrees(one.angle))
+            for one in found.shares[plane]
+        ),
+        imbalance_g_mm=from_si(abs(Q), "g_mm"),
+        permitted_g_mm=None if permitted is None else from_si(permitted, "g_mm"),
+        rest_g_mm=from_si(rest, "g_mm"),
+        printed_mass_g=None if mass is None else from_si(mass, "g"),
+        printed_angle_deg=None if turn is None or math.isnan(turn) else math.degrees(turn),
+    )
+
+
+def run_readings(taken: Taken) -> RunReadings:
+    """A run as it was taken."""
+    run, found = taken.run, taken.record
+    unit = UNITS[run.quantity]
+    left, right = (
+        SensorReading(amplitude=from_si(amplitude, unit), phase_deg=wrapped_deg(phase))
+        for amplitude, phase in zip(run.amplitudes, run.phases, strict=True)
+    )
+    return RunReadings(
+        speed_rpm=from_si(run.speed, "rpm"), quantity=run.quantity, unit=unit_of_readings(run.quantity), left=left,
+        right=right, file=taken.file, sha256=taken.sha256, revolutions=None if found is None else found.revolutions,
+        mark_edge=None if found is None else found.marks.edge, trials=len(run.weights),
+    )  # fmt: skip
+
+
+def residual_check(found: Found) -> ResidualCheck:
+    """What the correction leaves."""
+    case, solution = found.case, found.solution
+    largest = max(abs(one) for run in case.runs for one in run.motion)
+    misfit = max(abs(one) for pair in solution.misfits for one in pair)
+    permitted = [limit for _, limit in found.rest if limit is not None]
+    return ResidualCheck(
+        permitted_g_mm=from_si(sum(permitted), "g_mm") if permitted else None,
+        rest_share=found.rest_share,
+        reproduced=misfit / largest if largest else 0.0,
+        disagreement=found.disagreement,
+        verification=tuple(_verification(found, run, matrix) for run, matrix in _unlike(case, solution)),
+    )
+
+
+def _unlike(case: Balancing, solution: Solution) -> list[tuple[RunOnRig, Matrix]]:
+    """Runs of other speeds or quantities than those before."""
+    found: list[tuple[RunOnRig, Matrix]] = []
+    for run, matrix in zip(case.runs, solution.influences, strict=True):
+        alike = [
+            one for one, _ in found if one.quantity == run.quantity and abs(one.speed / run.speed - 1) <= ONE_SPEED
+        ]
+        if not alike:
+            found.append((run, matrix))
+    return found
+
+
+def _verification(found: Found, run: RunOnRig, matrix: Matrix) -> Verification:
+    speed, quantity = run.speed, run.quantity
+    scale = abs(reading_factor(quantity, speed))
+    before = [from_si(abs(one) * scale, UNITS[quantity]) for one in motion_of(matrix, found.solution.imbalance)]
+    after = [from_si(one * scale, UNITS[quantity]) for one in motions(matrix, found.spread)]
+    return Verification(
+        speed_rpm=from_si(speed, "rpm"), quantity=quantity, unit=unit_of_readings(quantity), left_before=before[0],
+        right_before=before[1], left_expected=after[0], right_expected=after[1], left_at_most=2 * after[0],
+        right_at_most=2 * after[1],
+    )  # fmt: skip
+
+
+def causes(found: Found) -> tuple[ErrorShare, ...]:
+    """Each cause's part of the imbalance's uncertainty, that of the correction itself behind those of the answer."""
+    Q, groups = found.solution.imbalance, dict[str, list[Pair]]()
+    for change in found.by:
+        groups.setdefault(change.cause, []).append(change.imbalance)
+    groups["correction"] = placing(Q, found.sigma)
+    return tuple(
+        ErrorShare(
+            cause=cause, left_percent=_percent(Q[0], [left for left, _ in pairs]),
+            right_percent=_percent(Q[1], [right for _, right in pairs]),
+        )
+        for cause, pairs in groups.items()
+    )  # fmt: skip
+
+
+def _percent(Q: complex, deltas: Sequence[complex]) -> float:
+    return 100 * size(deltas) / abs(Q) if Q else 0.0
+
+
+def natural_hz(case: Balancing) -> tuple[float, float] | None:
+    """Natural frequencies [Hz], where the rig is known."""
+    if case.roll is None:
+        return None
+    low, high = natural_frequencies(case.roll)
+    return from_si(low, "hz"), from_si(high, "hz")
+
+
+def _complex(value: complex) -> Complex:
+    return value.real, value.imag
+
+
+def _complex_pair(values: Pair) -> tuple[Complex, Complex]:
+    return _complex(values[0]), _complex(values[1])
+
+
+def complex_rows(matrix: Matrix) -> tuple[tuple[Complex, Complex], tuple[Complex, Complex]]:
+    """A matrix as real and imaginary parts."""
+    return _complex_pair(matrix[0]), _complex_pair(matrix[1])
+
+
+def balance_model(found: Found) -> BalanceModel:
+    """The numbers behind it."""
+    case, solution = found.case, found.solution
+    return BalanceModel(
+        method=solution.method,
+        speeds_rad_per_s=tuple(run.speed for run in case.runs),
+        displacements_m=tuple(_complex_pair(run.motion) for run in case.runs),
+        placed_kg_m=tuple(_complex_pair(run.placed) for run in case.runs),
+        imbalances_kg_m=_complex_pair(solution.imbalance),
+        influence_m_per_kg_m=complex_rows(solution.influences[0]),
+        natural_frequencies_rad_per_s=None if case.roll is None else natural_frequencies(case.roll),
+        support_damping_N_s_per_m=None if case.roll is None else support_damping(case.roll),
+        service_speed_rad_per_s=found.service_speed,
+    )
