@@ -148,10 +148,10 @@ def simulate_members(
     return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
 
 
-def start_once(design: Design, member: Member, accuracy: float, tolerance: float) -> Outcome | Lost:
-    """One start, by one run."""
+def start_once(design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK) -> Outcome | Lost:
+    """One start, by one run; `work`: evaluations that it may take, in SciPy's."""
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    most = WORK * MANY // max(MANY, len(scene.ball_masses))
+    most = work * MANY // max(MANY, len(scene.ball_masses))
     try:
         equations = assemble(scene)
         choice = choose(equations, "auto", tolerance)
@@ -179,7 +179,7 @@ def _all(
 ) -> list[Outcome | Lost]:  # fmt: skip
     """Each once; `counted`: how many came before, and of how many in all."""
     before, total = counted
-    tasks = [(design, one, accuracy, tolerance) for one in starts]
+    tasks = [(design, one, accuracy, tolerance, WORK) for one in starts]
 
     def told(done: int) -> None:
         progress(f"idle: {before + done} of {total} starts")
