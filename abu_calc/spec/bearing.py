@@ -3,13 +3,23 @@
 import itertools
 from typing import Annotated, ClassVar, Final, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.usual import usual
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
+SeatMaterial = Literal["steel", "stainless-steel", "cast-iron", "aluminium", "magnesium"]
+_CLASSES: Final = {"NORMAL": "0", "P0": "0", "PN": "0", "P6": "6", "P5": "5", "P4": "4", "P2": "2"}
+
+
+def _class_as_iso_has_it(value: object) -> object:
+    """P5 and Normal for 5 and 0; everything else as it is, to be judged as written."""
+    return _CLASSES.get(value.strip().upper(), value) if isinstance(value, str) else value
+
+
+Pair = Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)]
 
 
 class Bearing(Table):
@@ -25,9 +35,16 @@ class Bearing(Table):
     )
     designation: str | None = Field(
         default=None,
-        description="Designation whose sizes are looked up, in quotes; or give bore_mm, outer_mm and width_mm.",
+        description="Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the "
+        "like may follow (6203-2RS), C3 and P5 count. Or give bore_mm, outer_mm and width_mm.",
         examples=["6203"],
         min_length=1,
+    )
+    bearing_type: Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical"] | None = Field(
+        default=None,
+        description="Type of a bearing given by its sizes: ball (deep groove), angular-contact, cylindrical, tapered "
+        "or spherical. Decides the makers' fits and the tables of its rings and clearance.",
+        examples=["ball"],
     )
     bore_mm: float | None = Field(
         default=None,
@@ -69,8 +86,27 @@ class Bearing(Table):
         le=1e5,
         json_schema_extra=usual(0.01, 300),
     )
-    series: Literal["light", "medium", "heavy"] = Field(
-        default="light", description="Series of the bearing: light, medium or heavy. Default: {default}."
+    dynamic_load_rating_kN: float | None = Field(
+        default=None,
+        description="Basic dynamic load rating C [kN]; {range}. Default: that of the designation.",
+        examples=[9.95],
+        gt=0,
+        le=1e5,
+        json_schema_extra=usual(0.1, 3000),
+    )
+    static_load_rating_kN: float | None = Field(
+        default=None,
+        description="Basic static load rating C0 [kN]; {range}. Default: that of the designation.",
+        examples=[4.75],
+        gt=0,
+        le=1e5,
+        json_schema_extra=usual(0.05, 5000),
+    )
+    series: Literal["light", "medium", "heavy"] | None = Field(
+        default=None,
+        description="Series of the bearing: light, medium or heavy. Default: by the designation; light where the sizes "
+        "are given.",
+        examples=["light"],
     )
     inner_ring_load: RingLoad = Field(
         default="rotating",
@@ -81,20 +117,38 @@ class Bearing(Table):
         default="stationary",
         description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: {default}.",
     )
-    bearing_class: Literal["0", "6", "5", "4", "2"] = Field(
-        default="0",
+    bearing_class: Annotated[Literal["0", "6", "5", "4", "2"], BeforeValidator(_class_as_iso_has_it)] | None = Field(
+        default=None,
         description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
-        'P4, P2). Default: "{default}".',
+        'P4, P2, which may be written so, too). Default: by the designation\'s suffix, else "0".',
+        examples=["0"],
     )
-    shaft_fit: str = Field(
-        default="k6",
-        description="Tolerance class of the shaft by ISO 286, small letters. Default: {default}.",
+    shaft_fit: str | None = Field(
+        default=None,
+        description="Tolerance class of the shaft by ISO 286, small letters. Without it the answer is which to write.",
+        examples=["k6"],
         pattern=r"^[a-z]{1,2}[0-9]{1,2}$",
     )
-    housing_fit: str = Field(
-        default="H7",
-        description="Tolerance class of the housing by ISO 286, capital letters. Default: {default}.",
+    housing_fit: str | None = Field(
+        default=None,
+        description="Tolerance class of the housing by ISO 286, capital letters. Without it the answer is which to "
+        "write.",
+        examples=["H7"],
         pattern=r"^[A-Z]{1,2}[0-9]{1,2}$",
+    )
+    shaft_limits_um: Pair | None = Field(
+        default=None,
+        description="Least and largest deviation of the shaft from its nominal size as measured [µm], {usual} either "
+        "way. In place of shaft_fit, which may stand beside it as what the drawing asks for.",
+        examples=[[2.0, 21.0]],
+        json_schema_extra=usual(0.1, 500),
+    )
+    housing_limits_um: Pair | None = Field(
+        default=None,
+        description="Least and largest deviation of the housing from its nominal size as measured [µm], {usual} either "
+        "way. In place of housing_fit, which may stand beside it as what the drawing asks for.",
+        examples=[[0.0, 25.0]],
+        json_schema_extra=usual(0.1, 500),
     )
     shaft_rz_um: float | None = Field(
         default=None,
@@ -115,12 +169,30 @@ class Bearing(Table):
     )
     ring_temperature_difference_K: float | None = Field(
         default=None,
-        description="By how much the inner ring is warmer than its shaft [K]; {range}. When given, the loss of "
-        "interference α·d·ΔT is counted.",
+        description="By how much the inner ring is warmer than its shaft, negative when colder [K]; {range}. When "
+        "given, the loss of interference α·d·ΔT is counted.",
         examples=[10.0],
-        ge=0,
+        ge=-500,
         le=500,
         json_schema_extra=usual(0.1, 100),
+    )
+    housing_temperature_difference_K: float | None = Field(
+        default=None,
+        description="By how much the housing is warmer than the outer ring, negative when colder [K]; {range}. When "
+        "given, the loss of interference α·D·ΔT is counted.",
+        examples=[-5.0],
+        ge=-500,
+        le=500,
+        json_schema_extra=usual(0.1, 100),
+    )
+    temperature_rise_K: float | None = Field(
+        default=None,
+        description="By how much the bearing is warmer in service than at mounting (20 °C), negative when colder [K]; "
+        "{range}. When given, shafts and housings that expand otherwise than steel lose or gain interference by it.",
+        examples=[40.0],
+        ge=-300,
+        le=500,
+        json_schema_extra=usual(0.1, 150),
     )
     speed_rpm: float | None = Field(
         default=None,
@@ -148,22 +220,48 @@ class Bearing(Table):
         le=20_000,
         json_schema_extra=usual(10, 2000),
     )
-    housing_material: Literal["steel", "cast-iron", "aluminium"] = Field(
+    shaft_material: SeatMaterial = Field(
         default="steel",
-        description="Material of the housing, for stresses: steel, cast-iron or aluminium. Default: {default}.",
+        description="Material of the shaft, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}.",
+    )
+    housing_material: SeatMaterial = Field(
+        default="steel",
+        description="Material of the housing, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}.",
+    )
+    shaft_strength_MPa: float | None = Field(
+        default=None,
+        description="Hoop stress that the shaft bears [MPa]; {range}. Default: a low one of its material, assumed.",
+        examples=[300.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(30, 2000),
+    )
+    housing_strength_MPa: float | None = Field(
+        default=None,
+        description="Hoop stress that the housing bears [MPa]; {range}. Default: a low one of its material, assumed.",
+        examples=[200.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(30, 2000),
+    )
+    housing_split: bool = Field(
+        default=False,
+        description="Whether the housing is split: its halves pinch a ring tighter than J7. Default: {default}.",
     )
     internal_clearance: Literal["C2", "CN", "C3", "C4"] | None = Field(
         default=None,
         description="Group of radial clearance of a deep groove ball bearing: C2, CN, C3 or C4 (ISO 5753-1). When "
-        "given, the clearance left after mounting is checked.",
+        "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
         examples=["C3"],
     )
     raceway_temperature_difference_K: float | None = Field(
         default=None,
-        description="By how much the inner ring is warmer than the outer one [K]; {range}. When given, it is taken "
-        "off the clearance left.",
+        description="By how much the inner ring is warmer than the outer one, negative when colder [K]; {range}. When "
+        "given, it is taken off the clearance left.",
         examples=[5.0],
-        ge=0,
+        ge=-500,
         le=500,
         json_schema_extra=usual(0.1, 60),
     )
@@ -184,7 +282,7 @@ class Bearing(Table):
         le=1,
         json_schema_extra=usual(0.05, 0.3),
     )
-    asked_interference_um: Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
+    asked_interference_um: Pair | None = Field(
         default=None,
         description="Least and largest interference asked of the pairs, ascending, tight positive [µm], {usual} either "
         "way. When given, "
@@ -197,13 +295,14 @@ class Bearing(Table):
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
         """A designation takes the place of sizes, and sizes that of a designation."""
         if key == "designation":
-            return (*SIZES, "chamfer_mm")
+            return (*SIZES, "chamfer_mm", "bearing_type")
+        if key in ("shaft_fit", "housing_fit"):
+            return (key.replace("fit", "limits_um"),)
         return ("designation",) if key in SIZES else ()
 
     def unused(self) -> frozenset[str]:
-        """The material of a housing whose stresses are not asked for, the friction without a starting torque."""
-        silent = {"housing_material": self.housing_outer_mm, "seat_friction": self.starting_torque_N_m}
-        return frozenset(key for key, asked in silent.items() if asked is None)
+        """The friction without a starting torque."""
+        return frozenset() if self.starting_torque_N_m is not None else frozenset({"seat_friction"})
 
     @model_validator(mode="after")
     def _sized_one_way(self) -> Self:
@@ -235,6 +334,19 @@ class Bearing(Table):
                 found=f"[{band[0]:g}, {band[1]:g}]",
                 remedy="write the least first",
             )
+        return self
+
+    @model_validator(mode="after")
+    def _limits_ascend(self) -> Self:
+        for key in ("shaft_limits_um", "housing_limits_um"):
+            pair = getattr(self, key)
+            if pair is not None and not pair[0] <= pair[1]:
+                raise problem(
+                    "measured limits must ascend",
+                    key,
+                    found=f"[{pair[0]:g}, {pair[1]:g}]",
+                    remedy="write the least first",
+                )
         return self
 
     @model_validator(mode="after")

@@ -3,15 +3,20 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
 
+from abu_calc.checks import Grade, worst
 from abu_calc.spec.bearing import RingLoad
 from abu_calc.standards.limits import Seat
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
+    from abu_calc.fits.advice import Rejected
     from abu_calc.fits.clearance import ClearanceLeft
     from abu_calc.fits.drawing import Requirements as SeatRequirements
-    from abu_calc.fits.seats import Admissible, BearingSeats, Item, SeatFit
+    from abu_calc.fits.notes import Item
+    from abu_calc.fits.repair import Repair as SeatRepair
+    from abu_calc.fits.seats import Admissible, BearingSeats, SeatFit
+    from abu_calc.fits.selective import Group
 
 Pair: TypeAlias = tuple[float, float]
 """Lower and upper, or least and most."""
@@ -49,7 +54,7 @@ class Loss(Record):
 
 @record
 class AdmissibleFit(Record):
-    """A tolerance class that passes all checks."""
+    """A tolerance class that neither creeps nor overstresses."""
 
     fit: Annotated[str, Quantity("field")]
     interference_um: Annotated[Pair, Quantity("interference", "", 4, "least and most, positive when tight")]
@@ -64,11 +69,71 @@ class AdmissibleFit(Record):
 
 
 @record
+class RejectedFit(Record):
+    """A neighbour of the recommended field that will not do."""
+
+    fit: Annotated[str, Quantity("field")]
+    why: Annotated[str, Quantity("why not")]
+
+    @classmethod
+    def of(cls, one: "Rejected") -> Self:
+        """Of a class that fails."""
+        return cls(fit=one.fit, why=one.why)
+
+
+@record
+class SortingGroup(Record):
+    """A group of selective assembly: parts of one number are matched."""
+
+    number: Annotated[int, Quantity("group")]
+    part_limits_um: Annotated[Pair, Quantity("limits of the part")]
+    ring_limits_um: Annotated[Pair, Quantity("limits of the ring")]
+    interference_um: Annotated[Pair, Quantity("interference")]
+    pairs_of_100: Annotated[float, Quantity("pairs of a hundred", "", 3)]
+
+    @classmethod
+    def of(cls, group: "Group", seat: Seat) -> Self:
+        """Of a group of a seat."""
+        part, ring = (group.male, group.female) if seat == "shaft" else (group.female, group.male)
+        return cls(
+            number=group.number,
+            part_limits_um=um_pair(part),
+            ring_limits_um=um_pair(ring),
+            interference_um=um_pair(group.interference),
+            pairs_of_100=100 * group.share,
+        )
+
+
+@record
+class Repair(Record):
+    """What a seat whose limits are measured has left, and what a repair must restore."""
+
+    grip_left_um: Annotated[Pair, Quantity("grip left", "", 4, "losses taken off")]
+    restore_fit: Annotated[str, Quantity("field to restore")]
+    restore_limits_um: Annotated[Pair, Quantity("limits to restore")]
+    bonding_gap_um: Annotated[float, Quantity("gap that a bond must fill", "", 4, "of the loosest pair")]
+    next_seat_mm: Annotated[float | None, Quantity("seat of the next size")]
+    next_bearing: Annotated[str | None, Quantity("bearing of the next size")]
+
+    @classmethod
+    def of(cls, found: "SeatRepair") -> Self:
+        """In user units."""
+        return cls(
+            grip_left_um=um_pair(found.grip_left),
+            restore_fit=found.restore,
+            restore_limits_um=um_pair(found.limits),
+            bonding_gap_um=um(found.gap),
+            next_seat_mm=None if found.next_seat is None else round(from_si(found.next_seat, "mm"), 6),
+            next_bearing=found.next_bearing,
+        )
+
+
+@record
 class Creep(Record):
     """Whether the ring creeps on its seat under its load, and whether it holds when the machine starts."""
 
     ring_load: Annotated[RingLoad, Quantity("how the load meets the ring")]
-    verdict: Annotated[str, Quantity("verdict", "", 4, "holds, may creep, creeps, needs no grip or not known")]
+    verdict: Annotated[str, Quantity("verdict", "", 4, "holds (smallest), may creep (mean), creeps, …")]
     why: Annotated[str, Quantity("why")]
     probability: Annotated[float | None, Quantity("share of pairs with less interference than the ring needs", "", 3)]
     friction_moment_N_m: Annotated[
@@ -129,6 +194,8 @@ class Clearance(Record):
     initial_um: Annotated[Pair, Quantity("before mounting")]
     mounted_um: Annotated[Pair, Quantity("after mounting, extreme")]
     probable_um: Annotated[Pair, Quantity("after mounting, probable")]
+    mean_um: Annotated[float, Quantity("mean after mounting", "", 3)]
+    below_zero_probability: Annotated[float, Quantity("share of bearings without clearance", "", 3)]
     by_temperature_um: Annotated[float, Quantity("taken by temperature", "", 3)]
     group_to_choose: Annotated[str | None, Quantity("tightest group that will do")]
 
@@ -140,6 +207,8 @@ class Clearance(Record):
             initial_um=um_pair(left.initial),
             mounted_um=um_pair(left.mounted),
             probable_um=um_pair(left.probable),
+            mean_um=um(left.mean),
+            below_zero_probability=left.below_zero,
             by_temperature_um=um(left.warmth),
             group_to_choose=left.group_to_choose,
         )
@@ -151,7 +220,8 @@ class SeatResult(Record):
 
     name: Annotated[str, Quantity("bearing")]
     seat: Annotated[Seat, Quantity("seat")]
-    fit: Annotated[str, Quantity("field")]
+    fit: Annotated[str, Quantity("field", "", 4, "measured where limits are given in its place")]
+    fit_given: Annotated[bool, Quantity("whether a field is given, else the recommended one is judged")]
     part_limits_um: Annotated[Pair, Quantity("limits of the part")]
     ring_limits_um: Annotated[Pair, Quantity("limits of the ring")]
     interference_um: Annotated[Pair, Quantity("interference", "", 4, "ei − ES … es − EI")]
@@ -171,7 +241,12 @@ class SeatResult(Record):
     permitted_interference_um: Annotated[float, Quantity("permitted interference")]
     permitted_by: Annotated[str, Quantity("criterion of the permitted interference")]
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "", 4, "of the ring at the largest interference")]
+    part_stress_MPa: Annotated[float, Quantity("hoop stress of the part", "", 4, "at the largest interference")]
+    load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "the radial load for P")]
+    maker_fits: Annotated[tuple[str, ...], Quantity("the makers' fields", "", 4, "the first is the usual one")]
     recommended_fit: Annotated[str | None, Quantity("recommended field")]
+    recommended_clearance: Annotated[str | None, Quantity("group of clearance to order with it")]
+    rejected_fits: tuple[RejectedFit, ...]
     admissible_fits: tuple[AdmissibleFit, ...]
     load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·R/b")]
     creep: Creep
@@ -179,22 +254,41 @@ class SeatResult(Record):
     asked_interference_um: Annotated[Pair | None, Quantity("interference asked of every pair")]
     selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n")]
     selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
+    sorting_groups: tuple[SortingGroup, ...]
+    repair: Repair | None
     notes: Annotated[tuple[str, ...], Quantity("notes")]
     internal_clearance: Clearance | None
+    bearing_verdict: Annotated[Grade, Quantity("verdict", "", 4, "the worst check of the bearing")]
 
     @property
     def tightest_um(self) -> float:
         """The largest interference; 0 where even that is clearance."""
         return max(self.interference_um[1], 0.0)
 
+    @property
+    def needs_no_grip(self) -> bool:
+        """Whether the load of the ring is fixed in direction."""
+        return self.creep.ring_load == "stationary"
+
+    @property
+    def needed_um(self) -> float | None:
+        """The required interference of a ring that must grip; none of another."""
+        return None if self.needs_no_grip else self.required_interference_um
+
+    @property
+    def needed_by(self) -> str | None:
+        """The criterion of the interference that is needed."""
+        return None if self.needs_no_grip else self.required_by
+
     @classmethod
-    def of(cls, seat: "SeatFit", clearance: Clearance | None) -> Self:
-        """In user units; `clearance`: what is left in the seat's bearing."""
-        intensity, sorted_out = seat.load_intensity, seat.selection
+    def of(cls, seat: "SeatFit", bearing: "BearingSeats", clearance: Clearance | None) -> Self:
+        """In user units, of a seat of a bearing; `clearance`: what is left in it."""
+        intensity, sorted_out, maker = seat.load_intensity, seat.selection, seat.joint.maker
         return cls(
             name=seat.name,
             seat=seat.seat,
             fit=seat.fit,
+            fit_given=seat.given,
             part_limits_um=um_pair(seat.part_limits),
             ring_limits_um=um_pair(seat.ring_limits),
             interference_um=um_pair(seat.interference),
@@ -208,7 +302,12 @@ class SeatResult(Record):
             permitted_interference_um=um(seat.permitted_interference),
             permitted_by=seat.permitted_by,
             hoop_stress_MPa=from_si(seat.hoop_stress, "MPa"),
+            part_stress_MPa=from_si(seat.joint.part_stress, "MPa"),
+            load_ratio=bearing.bearing.load_ratio,
+            maker_fits=(*maker.classes, *maker.special) if maker else (),
             recommended_fit=seat.recommended_fit,
+            recommended_clearance=bearing.group_to_order,
+            rejected_fits=tuple(map(RejectedFit.of, seat.rejected)),
             admissible_fits=tuple(map(AdmissibleFit.of, seat.admissible)),
             load_intensity_kN_per_m=None if intensity is None else from_si(intensity, "kN_per_m"),
             creep=Creep.of(seat),
@@ -216,12 +315,15 @@ class SeatResult(Record):
             asked_interference_um=None if seat.asked is None else um_pair(seat.asked),
             selective_groups=sorted_out.groups if sorted_out else None,
             selective_interference_um=um_pair(sorted_out.interference) if sorted_out else None,
+            sorting_groups=tuple(SortingGroup.of(group, seat.seat) for group in seat.groups),
+            repair=Repair.of(seat.repair) if seat.repair else None,
             notes=seat.notes,
             internal_clearance=clearance,
+            bearing_verdict=worst(bearing.checks),
         )
 
 
 def seat_results(bearing: "BearingSeats") -> tuple[SeatResult, SeatResult]:
     """Both seats of a bearing, shaft first; the clearance left in the bearing stands in both."""
     left = None if bearing.clearance is None else Clearance.of(bearing.clearance)
-    return SeatResult.of(bearing.shaft, left), SeatResult.of(bearing.housing, left)
+    return SeatResult.of(bearing.shaft, bearing, left), SeatResult.of(bearing.housing, bearing, left)
