@@ -103,7 +103,7 @@ def _will_do(joint: Joint, start: Start) -> bool:
 def _why_not(joint: Joint, start: Start) -> str | None:
     if joint.grip == "fail" and joint.required is not None and joint.short is not None:
         needed, mean = from_si(joint.required.value, "um"), from_si(joint.mean, "um")
-        return f"creeps, {mean:.3g} µm in the mean of {needed:.3g} needed, {of_all(joint.short)} fall short"
+        return f"creeps ({mean:.3g} µm in the mean, {needed:.3g} needed), {of_all(joint.short)} fall short"
     if joint.stress == "fail":
         return f"overstressed, {from_si(joint.tightest, 'um'):.3g} µm at most, {joint.stress_limit.by}"
     if creep(joint, *start).holds_at_start is False:

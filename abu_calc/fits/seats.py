@@ -17,7 +17,7 @@ from abu_calc.fits.judgement import clearance_checks, seat_checks, start_checks
 from abu_calc.fits.notes import Item, ledger, seat_notes
 from abu_calc.fits.pairing import housing_joint, shaft_joint
 from abu_calc.fits.reading import from_table
-from abu_calc.fits.whole import Advice, SeatAdvice, advice
+from abu_calc.fits.whole import SeatAdvice, advice
 from abu_calc.standards.limits import Limits, Seat
 
 if TYPE_CHECKING:
@@ -178,18 +178,15 @@ def judge(bearing: Bearing) -> BearingSeats:
         _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
         for joint, own, unsaid in zip(joints, (told.shaft, told.housing), open_seats, strict=True)
     )
-    return BearingSeats(bearing, shaft, housing, _clearance(bearing, told, *joints), told.group)
+    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints), told.group)
 
 
-def _clearance(bearing: Bearing, told: Advice, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
-    """Of the group given; where nothing of it is given, neither group nor fits, of the one to order."""
-    unsaid = bearing.shaft.fit is None and bearing.housing.fit is None
-    group = bearing.internal_clearance or (told.group if unsaid else None)
-    if group is None:
+def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
+    if bearing.internal_clearance is None:
         return None
     from abu_calc.fits.clearance import clearance_left
 
-    return clearance_left(group, bearing, shaft, housing)
+    return clearance_left(bearing.internal_clearance, bearing, shaft, housing)
 
 
 def _seat_fit(bearing: Bearing, joint: Joint, own: SeatAdvice, given: bool, asked: Interval | None) -> SeatFit:

@@ -14,8 +14,9 @@ def advice_lines(pair: Seats) -> list[Paragraph]:
     shaft, housing = pair
     if shaft.recommended_fit is None and housing.recommended_fit is None:
         return [Paragraph("No tabulated field both grips and is borne.")]
-    told = [f"shaft {shaft.recommended_fit or 'none'}", f"housing {housing.recommended_fit or 'none'}"]
-    lines = [Paragraph(f"Write {', '.join([*told, *_order(shaft)])}{_ratio(shaft)}.", "note")]
+    told = [f"{seat.seat} {seat.recommended_fit}" for seat in pair if seat.recommended_fit]
+    none = [f" No tabulated field of the {seat.seat} will do." for seat in pair if not seat.recommended_fit]
+    lines = [Paragraph(f"Write {', '.join([*told, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
     wrong = [f"{one.fit}: {one.why}" for seat in pair for one in seat.rejected_fits]
     return [*lines, Paragraph(f"Not {'; not '.join(wrong)}.")] if wrong else lines
 
@@ -57,17 +58,18 @@ def sorting_blocks(pair: Seats) -> list[Block]:
 
 
 def _repair(seat: SeatResult, found: Repair) -> str:
-    low, high = found.grip_left_um
+    (low, high), (least, most) = found.grip_left_um, found.restore_limits_um
     needed = "" if seat.needed_um is None else f", {seat.needed_um:.3g} needed"
-    size = f"{found.restore_limits_um[0]:+g} … {found.restore_limits_um[1]:+g} µm ({found.restore_fit})"
+    if least <= seat.part_limits_um[0] and seat.part_limits_um[1] <= most:
+        return f"grip left {low:.3g} … {high:.3g} µm{needed}; within {found.restore_fit}, no repair is needed."
     bond = f" a bond must fill {found.bonding_gap_um:.3g} µm;" if found.bonding_gap_um > 0 else ""
     next_size = ""
     if found.next_bearing is not None:
-        how = "turn down" if seat.seat == "shaft" else "bore out"
-        next_size = f" or {how} to {found.next_seat_mm:g} mm for {found.next_bearing}"
+        how, other = ("turn down", "housing") if seat.seat == "shaft" else ("bore out", "shaft")
+        next_size = f" or {how} to {found.next_seat_mm:g} mm for {found.next_bearing}, with its own size in the {other}"
     return (
-        f"grip left {low:.3g} … {high:.3g} µm{needed}. To repair, finish a sleeve or sprayed metal to {size};{bond}"
-        f"{next_size or ' the next size is not tabulated'}."
+        f"grip left {low:.3g} … {high:.3g} µm{needed}. To bring it back to {found.restore_fit}, finish a sleeve or "
+        f"sprayed metal to {least:+g} … {most:+g} µm;{bond}{next_size or ' the next size is not tabulated'}."
     )
 
 

@@ -96,7 +96,7 @@ def _losses(pair: Seats) -> list[Block]:
 
 def _fits(pair: Seats) -> list[Block]:
     rows = tuple(
-        (seat.seat, one.fit, _span(one.interference_um), of_all(one.clearance_probability))
+        (seat.seat, one.fit, _span(one.interference_um), of_all(one.clearance_probability).removesuffix(" pairs"))
         for seat in pair
         for one in seat.admissible_fits[:MOST_FITS]
     )

@@ -33,6 +33,7 @@ BELOW: Final = {
     "clearance_probability_truncated": "  fields kept by sorting out",
     "required_by": "  by",
     "permitted_by": "  by",
+    "part_stress_MPa": "  of the part, MPa",
 }
 """Rows that belong to the one above them."""
 SHOWN: Final = {"required_interference_um": "needed_um", "required_by": "needed_by"}
@@ -82,7 +83,7 @@ def _label(name: str) -> str:
 
 def _cell(value: tuple[float, float] | float | str | None, name: str) -> str:
     if isinstance(value, float) and "probability" in name:
-        return of_all(value)
+        return of_all(value).removesuffix(" pairs")
     if isinstance(value, tuple):
         return " … ".join(f"{each:g}" for each in value)
     if isinstance(value, float):

@@ -245,7 +245,7 @@ class SeatResult(Record):
     load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "the radial load for P")]
     maker_fits: Annotated[tuple[str, ...], Quantity("the makers' fields", "", 4, "the first is the usual one")]
     recommended_fit: Annotated[str | None, Quantity("recommended field")]
-    recommended_clearance: Annotated[str | None, Quantity("group of clearance to order with it")]
+    recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
     rejected_fits: tuple[RejectedFit, ...]
     admissible_fits: tuple[AdmissibleFit, ...]
     load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·R/b")]

@@ -146,3 +146,48 @@ def test_zones_stand_where_their_limits_are(part):
         if part[1] - part[0] > 2 * scale:
             assert ("#" in line) == (part[0] < middle < part[1]), line
     assert sum("#" in line for line in lines) >= 1
+
+
+def test_without_fits_it_answers_which_to_write():
+    seen = abu("check-fit", "--designation", "608", "--radial-load-kN", "0.4")
+    assert seen.status == 0 and "Write shaft js5, housing H7, clearance CN (P/C = 0.12)." in " ".join(seen.out.split())
+    by_sizes = abu("check-fit", "--bore", "80", "--outer", "140", "--width", "33", "--radial-load-kN", "3", "--json")
+    shaft, housing = by_sizes.document["result"]
+    assert (shaft["recommended_fit"], shaft["fit_given"], housing["recommended_fit"]) == ("m6", False, "H7")
+    assert by_sizes.status == 0
+
+
+def test_lists_of_fits_stand_side_by_side():
+    seen = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "g6,k5,m5", "--housing", "H7")
+    lines = seen.out.splitlines()
+    table = [line.split() for line in lines[lines.index("") + 1 :][:4]]
+    assert table[0] == ["bearing", "shaft", "housing", "verdict", "write"]
+    assert [row[:3] for row in table[1:]] == [["g6", "g6", "H7"], ["k5", "k5", "H7"], ["m5", "m5", "H7"]]
+    assert "FAIL" in table[1] and "PASS," in table[2] and seen.status == 1
+    seen = abu("check-fit", "--designation", "6205", "--shaft", "j5,k5", "--housing", "H7,J7", "--json")
+    assert [seat["name"] for seat in seen.document["result"][::2]] == ["j5/H7", "j5/J7", "k5/H7", "k5/J7"]
+    wrong = abu("check-fit", "--designation", "6205", "--shaft", "k5,K6")
+    assert wrong.status == 2 and "--shaft" in wrong.err
+
+
+def test_sorting_and_repair_are_told():
+    out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "k6", "--housing", "H7",
+              "--asked-interference", "5:22").out  # fmt: skip
+    assert "group  shaft, µm  bore, µm" in out and "8.5 … 15   -5 … 0" in out
+    out = " ".join(abu("check-fit", "--designation", "6205", "--radial-load-kN", "2", "--shaft-limits", "-14:-6",
+                       "--shaft", "k6").out.split())  # fmt: skip
+    assert "grip left -14 … 4 µm, 5.6 needed" in out and "+2 … +15 µm" in out and "turn down to 20 mm for 6204" in out
+
+
+def test_a_ring_that_needs_no_interference_shows_none():
+    out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--full").out
+    row = next(line for line in out.splitlines() if "required interference" in line)
+    assert row.split()[-1] == "–" and "housing  load" not in out
+
+
+@pytest.mark.parametrize("text", ["P5", "5", "p5"])
+def test_classes_may_be_written_as_people_do(text):
+    seen = abu("check-fit", "--designation", "6205", "--bearing-class", text, "--radial-load-kN", "1", "--json")
+    assert seen.document["result"][0]["ring_limits_um"] == [-6, 0] and seen.status == 0
+    normal = abu("check-fit", "--designation", "6205", "--bearing-class", "Normal", "--json").document["result"][0]
+    assert normal["ring_limits_um"] == [-10, 0]

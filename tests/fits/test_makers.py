@@ -137,7 +137,7 @@ def test_a_fit_is_advised_where_none_is_given():
     assert [(seat.fit, seat.given, seat.recommended_fit) for seat in found.seats] == [
         ("js5", False, "js5"), ("H7", False, "H7"),
     ]  # fmt: skip
-    assert found.group_to_order == "CN"
+    assert found.group_to_order == "CN" and found.clearance is None
     bare = seats(shaft_fit=None, housing_fit=None, radial_load_kN=None)
     assert bare.shaft.fit == "k5" and bare.shaft.checks[0].status == "not-done"
 
