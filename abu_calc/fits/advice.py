@@ -101,6 +101,8 @@ def _will_do(joint: Joint, start: Start) -> bool:
 
 
 def _why_not(joint: Joint, start: Start) -> str | None:
+    if joint.pinched:
+        return "pinches the ring in its split housing"
     if joint.grip == "fail" and joint.required is not None and joint.short is not None:
         needed, mean = from_si(joint.required.value, "um"), from_si(joint.mean, "um")
         return f"creeps ({mean:.3g} µm in the mean, {needed:.3g} needed), {of_all(joint.short)} fall short"

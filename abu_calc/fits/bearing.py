@@ -132,7 +132,8 @@ class Bearing:
         """P/C, the radial load for P; None where the load or C is not known."""
         if self.service.radial_load is None or self.ratings is None:
             return None
-        return self.service.radial_load / self.ratings.dynamic
+        # freed of rounding, so that a twentieth of C is not above it
+        return round(self.service.radial_load / self.ratings.dynamic, 9)
 
 
 def _check(limits: Range, value: float | None) -> None:

@@ -16,6 +16,7 @@ CENTRIFUGAL: Final = "centrifugal growth"
 WARMTH: Final = "temperature"
 MEASURED: Final = "measured"
 """In place of a tolerance class, where the limits are as measured."""
+_FOR_HALVES: Final = frozenset("FGHJ")
 
 
 class Bound(NamedTuple):
@@ -39,7 +40,7 @@ class Joint:
 
     Per interference: `pressure_rate` [Pa/m], `stress_rate` and `part_rate` hoop stress of the ring and of the part
     [Pa/m], `raceway_rate` change of the raceway's diameter [1]; `part_strength` [Pa]. `maker`: the catalogue's classes
-    for this seat and load, None where it has none or C is not known.
+    for this seat and load, None where it has none or C is not known; `split` of a housing in halves.
     """
 
     seat: Seat
@@ -56,6 +57,7 @@ class Joint:
     part_strength: float
     measured: Limits | None = None
     maker: MakerFits | None = None
+    split: bool = False
 
     @property
     def diameter(self) -> float:
@@ -100,7 +102,7 @@ class Joint:
     def mean(self) -> float:
         """Interference [m] of the middles of both fields."""
         male, female = self.male_and_female
-        return male.middle - female.middle
+        return round(male.middle - female.middle, 12)
 
     @cached_property
     def clearance_probability(self) -> float:
@@ -197,9 +199,15 @@ class Joint:
         return "pass" if self.tightest <= self.permitted.value else "warn"
 
     @property
+    def pinched(self) -> bool:
+        """Whether the halves of a split housing pinch the ring: a fit tighter than J."""
+        name = MEASURED if self.measured else self.tolerance_class
+        return self.split and self.interference.largest > 0 and name[0] not in _FOR_HALVES
+
+    @property
     def holds(self) -> bool:
-        """Whether neither grip nor stress fails."""
-        return self.grip != "fail" and self.stress != "fail"
+        """Whether neither grip nor stress fails, and no split housing pinches the ring."""
+        return self.grip != "fail" and self.stress != "fail" and not self.pinched
 
     @property
     def lasting_losses(self) -> float:

@@ -22,7 +22,7 @@ _CODES: Final = {
 _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
 _MOST: Final = 0.5
-_SPLIT_LETTERS: Final = frozenset("FGHJ")
+_ARTICLE: Final = {"rotating": "a rotating", "indeterminate": "an indeterminate", "stationary": "a stationary"}
 
 
 def seat_checks(bearing: Bearing, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
@@ -30,7 +30,7 @@ def seat_checks(bearing: Bearing, joint: Joint, recommended: str | None) -> tupl
     first = _grip if joint.must_grip else _loose
     return (
         first(bearing, joint, recommended),
-        _stress(bearing.name, joint, recommended, bearing.housing.split and joint.seat == "housing"),
+        _stress(bearing.name, joint, recommended),
         *_warmth(bearing, joint),
     )
 
@@ -76,7 +76,7 @@ def _grip(bearing: Bearing, joint: Joint, recommended: str | None) -> Check:
             code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
             "known", smallest, None, "µm", f"Give {key}.", of=bearing.name,
         )  # fmt: skip
-    needs = f"what the ring needs under a {joint.ring.load} load by {required.by}{_losses(joint)}"
+    needs = f"what the ring needs under {_ARTICLE[joint.ring.load]} load by {required.by}{_losses(joint)}"
     mean = f"the mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
     told = "" if joint.grip == "pass" else f"; {mean}, {of_all(short)} fall short"
     return coded(
@@ -108,14 +108,13 @@ def _makers(bearing: Bearing, joint: Joint) -> str:
     return f"; the catalogue's class for P/C = {bearing.load_ratio:.2g} is {joint.maker.classes[0]} ({SOURCE})"
 
 
-def _stress(bearing: str, joint: Joint, recommended: str | None, split: bool) -> Check:
+def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     grade, limit = joint.stress, joint.stress_limit if joint.stress == "fail" else joint.permitted
     warm = " when warm" if joint.tightest > joint.interference.largest else ""
-    pinched = split and joint.interference.largest > 0 and joint.fit_name[0] not in _SPLIT_LETTERS
-    told = "; halves of a split housing pinch a ring tighter than J7" if pinched else ""
+    told = "; halves of a split housing pinch a ring tighter than J7" if joint.pinched else ""
     stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(
-        _CODES[joint.seat][1], "warn" if pinched and grade == "pass" else grade,
+        _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
         f"largest interference of {joint.told}{warm} against what is permitted by {limit.by}; hoop stress of the "
         f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{told}", _um(joint.tightest), _um(limit.value), "µm",
         _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
@@ -150,10 +149,15 @@ def _tighter(joint: Joint, recommended: str | None) -> str | None:
 
 def _remedy(joint: Joint, recommended: str | None) -> str:
     """What was tried: the field advised, and how it does."""
+    if recommended is None and joint.split:
+        return "A split housing cannot hold a ring whose load turns round it: a one-piece housing."
     if recommended is None:
         return "No tabulated class both grips and is borne: a longer seat, a smaller load or a larger bearing."
     best = joint.with_class(recommended)
-    return f"{recommended} {'passes' if best.grip == 'pass' else 'reaches it in the mean'}."
+    if best.grip == "pass":
+        return f"{recommended} passes."
+    reaches = best.required is None or best.mean >= best.required.value
+    return f"{recommended} {'reaches it in the mean' if reaches else 'is the class of the catalogue for such a load'}."
 
 
 def _um(metres: float) -> float:

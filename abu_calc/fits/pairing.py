@@ -104,6 +104,7 @@ def _joint(
         part_rate=own,
         part_strength=part.strength or seat_strength(part.material),
         measured=part.measured,
+        split=part.split,
         maker=makers_classes(bearing, seat) if bearing.load_ratio is not None and bearing.kind else None,
     )
 

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.fits import Seats
-from abu_calc.studies.seat_records import Repair, SeatResult
+from abu_calc.studies.seat_parts import Repair
+from abu_calc.studies.seat_records import SeatResult
 
 VERDICTS = {"pass": "PASS", "warn": "PASS, warning", "fail": "FAIL", "not-done": "NOT DONE"}
 
@@ -79,7 +80,10 @@ def _short(shaft: SeatResult, housing: SeatResult) -> str:
 
 
 def _order(shaft: SeatResult) -> list[str]:
-    return [f"clearance {shaft.recommended_clearance}"] if shaft.recommended_clearance else []
+    left, group = shaft.internal_clearance, shaft.recommended_clearance
+    if group is None:
+        return ["no tabulated clearance keeps it"] if left else []
+    return [f"clearance {group}{f' in place of {left.group}' if left and left.group != group else ''}"]
 
 
 def _ratio(shaft: SeatResult) -> str:

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from abu_calc.fits.joint import CENTRIFUGAL, WARMTH
 from abu_calc.studies.seat_model import BearingModel, SeatModel
-from abu_calc.studies.seat_records import Clearance, SeatResult
+from abu_calc.studies.seat_parts import Clearance
+from abu_calc.studies.seat_records import SeatResult
 
 
 def seat_numbers(models: Sequence[BearingModel], seats: Sequence[SeatResult]) -> tuple[str, ...]:

@@ -10,7 +10,8 @@ from abu_calc.report.fits import CONVENTION, Seats, by_bearing, fit_grid, note_b
 from abu_calc.report.parts import check_blocks, notices, provenance_blocks
 from abu_calc.report.screen import verdict_line
 from abu_calc.studies.check_fit import CheckFitResult
-from abu_calc.studies.seat_records import Clearance, Requirements, SeatResult
+from abu_calc.studies.seat_parts import Clearance, Requirements
+from abu_calc.studies.seat_records import SeatResult
 
 MOST_FITS: Final = 5
 """Admissible fields shown a seat; JSON has all."""

@@ -10,7 +10,7 @@ from abu_calc.fits.seats import BearingSeats, SeatFit
 from abu_calc.fits.stress import inner_ring_diameter
 from abu_calc.studies.check_fit import judged_seats
 from abu_calc.studies.quantity import Record, record
-from abu_calc.studies.seat_records import Pair, um, um_pair
+from abu_calc.studies.seat_parts import Pair, um, um_pair
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:

@@ -101,6 +101,10 @@ def test_split_housings_take_no_class_that_pinches():
     assert maker_fits("housing", "ball", "indeterminate", 0.08, 0.08, "0", split=True).classes == ("J7",)
     found = seats(housing_fit="K7", housing_split=True).housing
     assert (found.checks[1].status, found.recommended_fit) == ("warn", "H7") and "pinch" in found.checks[1].message
+    turning = seats(housing_fit="N7", housing_split=True, outer_ring_load="rotating").housing
+    assert turning.recommended_fit is None and turning.checks[1].status == "warn"
+    loose = seats(housing_fit="H7", housing_split=True, outer_ring_load="rotating").housing
+    assert loose.checks[0].status == "fail" and "one-piece" in loose.checks[0].remedy
     assert seats(housing_fit="J7", housing_split=True).housing.checks[1].status == "pass"
 
 
