@@ -105,7 +105,7 @@ def missing(given: Iterable[str]) -> list[str]:
 
 def several(given: Mapping[str, object]) -> list[dict[str, object]]:
     """One bearing for each pair of the fits that are listed (j5,k5,m5), named after them where there are several."""
-    lists = {key: str(given[key]).split(",") for key in FITS if key in given}
+    lists = {key: [fit.strip() for fit in str(given[key]).strip(", ").split(",")] for key in FITS if key in given}
     pairs = [dict(zip(lists, fits, strict=True)) for fits in itertools.product(*lists.values())]
     if len(pairs) == 1:
         return [{**given, **pairs[0]}]

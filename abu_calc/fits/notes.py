@@ -65,11 +65,14 @@ def _needs(joint: Joint) -> tuple[str, ...]:
 def _load(bearing: Bearing, joint: Joint, intensity: float | None) -> tuple[str, ...]:
     if intensity is None:
         return ()
+    static = bearing.ratings.static if bearing.ratings else 0.0
+    heavy = joint.must_grip and joint.radial_load is not None and 0 < static < 4 * joint.radial_load
     field = advised_class(joint.seat, joint.diameter, intensity)
     advice = f"handbook tables advise {field}" if field else "outside the handbook tables"
     return (
         f"k = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
         f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m with strong shocks: {advice} (unverified advice).",
+        *(("The load is above a quarter of C0: catalogues then take 0.02·F_r/B for what it takes.",) if heavy else ()),
     )
 
 

@@ -31,6 +31,7 @@ def um_pair(pair: Pair) -> Pair:
 
 
 def um_or_none(length: float | None) -> float | None:
+    """Micrometres of what may not be known."""
     return None if length is None else um(length)
 
 

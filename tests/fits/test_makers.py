@@ -125,6 +125,12 @@ def test_given_ratings_win_and_what_is_not_known_is_not_guessed():
     assert seats(dynamic_load_rating_kN=187.0, bearing_type="tapered").shaft.joint.maker.classes == ("m6",)
 
 
+def test_a_load_above_a_quarter_of_the_static_rating_is_told():
+    """6205: C0 is 7.8 kN."""
+    told = [" ".join(seat_bearing(by_designation("6205", radial_load_kN=load)).shaft.notes) for load in (1.9, 2.0)]
+    assert ["quarter of C0" in notes for notes in told] == [False, True]
+
+
 def test_the_example_keeps_its_conclusion():
     """k6 does not reach the required interference and m6 does; K7 may creep and M7 hardly."""
     k6, m6 = seats(shaft_fit="k6").shaft, seats(shaft_fit="m6").shaft
