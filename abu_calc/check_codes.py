@@ -25,15 +25,17 @@ class CheckCode:
 
 
 _GRIPS: Final = (
-    "Whether the least interference of the tolerance class, with the loosest pair of parts, holds a ring whose load "
-    "turns round it. A ring under a load fixed in direction needs no grip: it passes, with the share of loose pairs.",
-    "The least interference is below what the ring needs: the larger of two rules for the load, and the losses by "
-    "roughness, temperature and speed that the file asks for. Not done without radial load or chamfer.",
+    "Whether the interference of the tolerance class holds a ring whose load turns round it, beside the makers' class. "
+    "A ring under a load fixed in direction needs no grip: it passes, with the share of loose pairs.",
+    "What the ring needs is the larger of two rules for the load, and the losses by roughness, temperature and speed "
+    "that the file asks for. The least interference, of the loosest pair, passes; the mean alone warns, with the share "
+    "of pairs that fall short; a mean below it fails. Not done without radial load or chamfer.",
     "Take the recommended class; or a longer seat, a smaller load, a larger bearing.",
 )
 _BEARS: Final = (
     "Whether the largest interference of the tolerance class, with the tightest pair of parts, is permitted.",
-    "It is above what 400 MPa of hoop stress in the ring permit, or above a thousandth of the diameter.",
+    "The hoop stress is above 400 MPa in the ring, or above the strength of shaft or housing. Above a thousandth of "
+    "the diameter, the makers' advice, and in a split housing that pinches the ring it warns.",
     "Take the recommended class, or a looser one.",
 )
 _STARTS: Final = (
@@ -41,12 +43,18 @@ _STARTS: Final = (
     "The friction torque of the seat is below starting_torque_N_m. Not done without a chamfer.",
     "Take the recommended class, or a longer seat.",
 )
+_WARMS: Final = (
+    "Whether the part expands as its ring does, where no temperature is given.",
+    "It never fails: it warns of light metals and stainless steel, with the change of interference for every 10 K.",
+    "Give temperature_rise_K, or the temperature difference of the seat.",
+)
 _GRIP_FORMULAS: Final = (
     "fits.interference:theoretical_interference",
     "fits.requirement:creep_interference",
     "fits.requirement:load_loss",
 )
 _STRESS_FORMULAS: Final = ("fits.stress:contact_pressure", "fits.stress:inner_ring_stress")
+_WARM_FORMULAS: Final = ("fits.requirement:temperature_loss",)
 _TORQUE_FORMULAS: Final = ("fits.creep:friction_torque",)
 
 _ALL: Final = (
@@ -185,13 +193,16 @@ _ALL: Final = (
     CheckCode("ABU601", "seat on the shaft", *_GRIPS, "seats", _GRIP_FORMULAS),
     CheckCode("ABU602", "largest interference, seat on the shaft", *_BEARS, "seats", _STRESS_FORMULAS),
     CheckCode("ABU603", "hold of the seat on the shaft at the start", *_STARTS, "seats", _TORQUE_FORMULAS),
+    CheckCode("ABU604", "warmth of the seat on the shaft", *_WARMS, "seats", _WARM_FORMULAS),
     CheckCode("ABU611", "seat in the housing", *_GRIPS, "seats", _GRIP_FORMULAS),
     CheckCode("ABU612", "largest interference, seat in the housing", *_BEARS, "seats", _STRESS_FORMULAS),
     CheckCode("ABU613", "hold of the seat in the housing at the start", *_STARTS, "seats", _TORQUE_FORMULAS),
+    CheckCode("ABU614", "warmth of the seat in the housing", *_WARMS, "seats", _WARM_FORMULAS),
     CheckCode(
         "ABU621", "clearance left in the bearing",
         "Whether a deep groove ball bearing keeps radial clearance when mounted and warm.",
-        "The least probable clearance of its group (internal_clearance) is below zero.",
+        "Half of the bearings of its group (internal_clearance) or more have none left. It warns where more than "
+        "0.135 % have none.",
         "The group that the check names, or looser fits.", "seats", ("fits.clearance:clearance_left",),
     ),
     CheckCode(

@@ -55,6 +55,17 @@ def overall(checks: Iterable[Check]) -> Status:
     return "pass" if statuses and statuses <= {"pass", "warn"} else "not-done"
 
 
+def worst(checks: Iterable[Check]) -> Grade:
+    """The worst grade of several checks, a warning above a pass; pass where there are none.
+
+    >>> worst([])
+    'pass'
+    """
+    statuses = {check.status for check in checks}
+    order: tuple[Grade, ...] = ("fail", "not-done", "warn", "pass")
+    return next((one for one in order if one in statuses), "pass")
+
+
 def verdict(passed: bool, safe: bool = True) -> Grade:
     """The status of a check that was done; `safe`: whether the stricter rule or the worst case passes, too.
 

@@ -4,7 +4,8 @@ Typed here and not read from the model, which takes longer to load than the help
 """
 
 import inspect
-from collections.abc import Iterable
+import itertools
+from collections.abc import Iterable, Mapping
 from typing import Annotated, Final, NamedTuple
 
 import typer
@@ -17,7 +18,7 @@ class BearingOption(NamedTuple):
 
     key: str
     name: str
-    type: type[float] | type[str]
+    type: type[float] | type[str] | type[bool]
     help: str
     metavar: str | None = None
 
@@ -31,19 +32,25 @@ class BearingOption(NamedTuple):
 
 
 LOADS: Final = "rotating, stationary or indeterminate."
+MATERIALS: Final = "steel, stainless-steel, cast-iron, aluminium or magnesium."
 OPTIONS: Final = (
     BearingOption("designation", "--designation", str, "Such as 6203 or 7516."),
     BearingOption("bore_mm", "--bore", float, "Bore of the inner ring, mm."),
     BearingOption("outer_mm", "--outer", float, "Outer diameter, mm."),
     BearingOption("width_mm", "--width", float, "Width of the ring, mm."),
     BearingOption("chamfer_mm", "--chamfer", float, "Chamfer of one edge, mm."),
+    BearingOption("bearing_type", "--bearing-type", str, "Of a bearing given by sizes: ball, cylindrical, tapered …"),
+    BearingOption("dynamic_load_rating_kN", "--dynamic-load-rating", float, "C, kN."),
+    BearingOption("static_load_rating_kN", "--static-load-rating", float, "C0, kN."),
     BearingOption("radial_load_kN", "--radial-load-kN", float, "Radial load, kN."),
     BearingOption("series", "--series", str, "light, medium or heavy."),
     BearingOption("inner_ring_load", "--inner-ring-load", str, LOADS),
     BearingOption("outer_ring_load", "--outer-ring-load", str, LOADS),
-    BearingOption("bearing_class", "--bearing-class", str, "0, 6, 5, 4 or 2."),
-    BearingOption("shaft_fit", "--shaft", str, "Tolerance class of the shaft, such as k6."),
-    BearingOption("housing_fit", "--housing", str, "Tolerance class of the housing, such as H7."),
+    BearingOption("bearing_class", "--bearing-class", str, "Normal, P6, P5, P4 or P2."),
+    BearingOption("shaft_fit", "--shaft", str, "Tolerance class of the shaft, such as k6, or several: j5,k5,m5."),
+    BearingOption("housing_fit", "--housing", str, "Tolerance class of the housing, such as H7, or several."),
+    BearingOption("shaft_limits_um", "--shaft-limits", str, "Limits of the shaft as measured, µm.", "LEAST:MOST"),
+    BearingOption("housing_limits_um", "--housing-limits", str, "Limits of the housing as measured, µm.", "LEAST:MOST"),
     BearingOption("shaft_rz_um", "--shaft-rz", float, "Roughness Rz of the shaft, µm."),
     BearingOption("housing_rz_um", "--housing-rz", float, "Roughness Rz of the housing, µm."),
     BearingOption(
@@ -52,10 +59,21 @@ OPTIONS: Final = (
         float,
         "Inner ring warmer than its shaft, K.",
     ),
+    BearingOption(
+        "housing_temperature_difference_K",
+        "--housing-temperature-difference",
+        float,
+        "Housing warmer than the outer ring, K.",
+    ),
+    BearingOption("temperature_rise_K", "--temperature-rise", float, "Bearing warmer than at mounting, K."),
     BearingOption("speed_rpm", "--speed", float, "Speed of the shaft, rpm."),
     BearingOption("shaft_bore_mm", "--shaft-bore", float, "Bore of a hollow shaft, mm."),
     BearingOption("housing_outer_mm", "--housing-outer", float, "Outer diameter of the housing, mm."),
-    BearingOption("housing_material", "--housing-material", str, "steel, cast-iron or aluminium."),
+    BearingOption("shaft_material", "--shaft-material", str, MATERIALS),
+    BearingOption("housing_material", "--housing-material", str, MATERIALS),
+    BearingOption("shaft_strength_MPa", "--shaft-strength", float, "Hoop stress that the shaft bears, MPa."),
+    BearingOption("housing_strength_MPa", "--housing-strength", float, "Hoop stress that the housing bears, MPa."),
+    BearingOption("housing_split", "--housing-split", bool, "The housing is in halves."),
     BearingOption("internal_clearance", "--internal-clearance", str, "Group C2, CN, C3 or C4."),
     BearingOption(
         "raceway_temperature_difference_K",
@@ -75,19 +93,32 @@ NAMES: Final = {option.key: option.name for option in OPTIONS}
 
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 FITS: Final = ("shaft_fit", "housing_fit")
+BANDS: Final = ("asked_interference_um", "shaft_limits_um", "housing_limits_um")
+"""Keys that an option gives as LEAST:MOST."""
 
 
 def missing(given: Iterable[str]) -> list[str]:
     """The options that a bearing cannot do without beside the keys given."""
-    needed = FITS if "designation" in given else (*SIZES, *FITS)
+    needed = () if "designation" in given else SIZES
     return [NAMES[key] for key in needed if key not in given]
 
 
-def band(text: str) -> list[float]:
+def several(given: Mapping[str, object]) -> list[dict[str, object]]:
+    """One bearing for each pair of the fits that are listed (j5,k5,m5), named after them where there are several."""
+    lists = {key: [fit.strip() for fit in str(given[key]).strip(", ").split(",")] for key in FITS if key in given}
+    pairs = [dict(zip(lists, fits, strict=True)) for fits in itertools.product(*lists.values())]
+    if len(pairs) == 1:
+        return [{**given, **pairs[0]}]
+    varied = [key for key in lists if len(lists[key]) > 1]
+    before = f"{given['name']}, " if "name" in given else ""
+    return [{**given, **pair, "name": before + "/".join(pair[key] for key in varied)} for pair in pairs]
+
+
+def band(key: str, text: str) -> list[float]:
     """The two numbers of LEAST:MOST."""
     try:
         least, most = (float(part) for part in text.split(":"))
     except ValueError:
-        option = Place(key=NAMES["asked_interference_um"])
+        option = Place(key=NAMES[key])
         raise InputError("two numbers are expected", place=option, found=text, allowed="LEAST:MOST, 10:28") from None
     return [least, most]

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from abu_calc.cli.bearing_options import NAMES, OPTIONS, band, missing
+from abu_calc.cli.bearing_options import BANDS, NAMES, OPTIONS, band, missing, several
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.errors import InputError
 from abu_calc.report.blocks import Block
@@ -24,7 +24,7 @@ def check_fit(
     explain: Annotated[bool, typer.Option("--explain", help="The whole report, every formula with numbers.")] = False,
     **bearing: object,
 ) -> Outcome:
-    """Judge bearing seats: interference, probability of clearance, what is required, what is permitted."""
+    """Judge bearing seats, or say which fits to write: interference, creep, stress, clearance left."""
     from abu_calc.studies.check_fit import check_fit as study
 
     given = {key: value for key, value in bearing.items() if value is not None}
@@ -62,15 +62,14 @@ def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]
 
 
 def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine":
-    from abu_calc.spec.one_bearing import machine_of_bearing
+    from abu_calc.spec.one_bearing import machine_of_bearings
 
     if overrides:
         raise InputError("--set overrides entries of a file, and none is given", found=f"--set {overrides[0]}")
     if absent := missing(given):
         raise InputError("a file, or the options of one bearing, are needed", found="no " + ", ".join(absent))
-    if (asked := given.get("asked_interference_um")) is not None:
-        given = given | {"asked_interference_um": band(str(asked))}
-    return machine_of_bearing(given, NAMES)
+    bands = {key: band(key, str(given[key])) for key in BANDS if key in given}
+    return machine_of_bearings(several(given | bands), NAMES)
 
 
 def register(app: typer.Typer) -> None:

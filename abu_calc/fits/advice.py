@@ -1,92 +1,133 @@
-"""Which field to choose: by what it must hold, and by the handbooks' load intensity."""
+"""Which field to write on the drawing: by the makers' catalogue, the grip, the stress and the clearance left."""
 
-from typing import Final
+from collections.abc import Callable, Iterable
+from typing import Final, NamedTuple
 
+from abu_calc.fits.creep import creep
 from abu_calc.fits.joint import Joint
-from abu_calc.fits.ranges import SEAT_LENGTH
-from abu_calc.formula import formula
+from abu_calc.fits.words import of_all
 from abu_calc.standards.limits import Seat, tolerance_classes
-from abu_calc.standards.tables import toml_table
+from abu_calc.standards.maker_fits import MakerFits
 from abu_calc.units import from_si
 
 LOOSE_ENOUGH: Final = 0.5
 """A ring under a load fixed in direction should be loose in at least half of all pairs: it creeps, spreads its wear
 and can be moved along its seat."""
 
-SHOCK_FACTOR: Final = 1.8
-"""k₁ of the load intensity: strong shocks, overload to 300 %, taken always as the safe side (moderate ones: 1.0)."""
-
 _USUAL_GRADE: Final[dict[Seat, str]] = {"shaft": "6", "housing": "7"}
-_RUNNING: Final = "f"
-_SLIDING: Final = ("h", "g")
+_SLIDING: Final[dict[Seat, str]] = {"shaft": "h6", "housing": "H7"}
+
+Start = tuple[float, float | None]
+"""Friction coefficient of the seat, starting torque [N·m] (None: not given)."""
 
 
-def admissible(joint: Joint) -> tuple[Joint, ...]:
-    """The joint with every tabulated class that passes both checks, the one to choose first.
+class Rejected(NamedTuple):
+    """A neighbour of the field advised, and why it will not do."""
 
-    Classes of the given grade go before those of the usual one, these before others. A ring that must grip: the loosest
-    first. A ring under a load fixed in direction: those loose in half of all pairs go before the tighter ones, among
-    them the given class, then h (H), then g (G), then the others.
+    fit: str
+    why: str
+
+
+def advised(joint: Joint, start: Start, usual: MakerFits | None) -> Joint | None:
+    """The joint with the field to write; None where no tabulated one will do.
+
+    With C known the maker's class (the given one where the same row names it), tightened until the mean interference
+    reaches what the ring needs, loosened where stress forbids. Without C the loosest field whose smallest interference
+    reaches it. Without a load, or where nothing else decides, `usual`, the maker's class for normal loads.
     """
-    joints = (joint.with_class(name) for name in tolerance_classes(joint.seat))
-    passing = [one for one in joints if one.grips and one.bears]
-    return tuple(sorted(passing, key=lambda one: (*_preference(one, joint), *_tightness(one))))
+    maker = joint.maker
+    if maker is None and joint.must_grip and joint.required is not None:
+        return _by_smallest(joint, start) or _first(_by_mean(joint), start)
+    row = maker or usual
+    classes = row.classes if row else (_SLIDING[joint.seat],)
+    named = joint.measured is None and joint.tolerance_class in classes
+    base = joint.with_class(joint.tolerance_class if named else classes[0])
+    above = [one for one in _like(base) if one.mean > base.mean]
+    below = [one for one in reversed(_like(base)) if one.mean < base.mean]
+    return _first((base, *above, *below), start)
 
 
-@formula(
-    "Load intensity of a seat",
-    "P_R = k₁·k₂·k₃·R/b",
-    "N/m",
-    where=(
-        "R radial load [N], b length of the seat [m]; k₁ = 1.8 strong shocks, k₂ = 1 solid shaft or thick housing, k₃ "
-        "= 1 single row. Unverified advice."
-    ),
-    checked=(SEAT_LENGTH,),
-    source="handbooks as quoted by Afanasiev 2015",
-)
-def load_intensity(load: float, seat_length: float) -> float:
-    """
-    >>> round(1e-3 * load_intensity(3000.0, 29e-3), 1)
-    186.2
-    """
-    return SHOCK_FACTOR * load / SEAT_LENGTH.check(seat_length)
+def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, ...]:
+    """The joint with every tabulated class whose grip and stress do not fail: the best, then the nearest of its grade,
+    then those of others."""
+    passing = [one for one in _by_mean(joint) if _will_do(one, start)]
+    if best is None:
+        return tuple(passing)
+    grade = _grade(best.tolerance_class)
+
+    def order(one: Joint) -> tuple[bool, bool, float]:
+        name = one.tolerance_class
+        return name != best.tolerance_class, _grade(name) != grade, round(abs(one.mean - best.mean), 12)
+
+    return tuple(sorted(passing, key=order))
 
 
-def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
-    """The loosest class that handbook tables allow at a load intensity [N/m]; None outside the tables.
+def neighbours(best: Joint, start: Start, jams: Callable[[Joint], str | None]) -> tuple[Rejected, ...]:
+    """The next looser and the next tighter field of the grade that will not do; `jams` says so of the clearance."""
+    ladder = _like(best)
+    looser = [one for one in reversed(ladder) if one.mean < best.mean]
+    tighter = [one for one in ladder if one.mean > best.mean]
+    found = []
+    for way in (looser, tighter):
+        why = ((one, _why_not(one, start) or jams(one)) for one in way)
+        found += [Rejected(one.tolerance_class, reason) for one, reason in why if reason][:1]
+    return tuple(found)
 
-    Range: shafts over 18 up to 630 mm, housings over 50 up to 1600 mm; unverified advice, never the only criterion.
-    Source: handbooks as quoted by Afanasiev 2015.
 
-    >>> advised_class("shaft", 0.080, 186.2e3), advised_class("housing", 0.140, 186.2e3)
-    ('js6', 'K7')
-    """
-    table = toml_table("load_intensity")[seat]
-    size = round(from_si(diameter, "mm"), 6)
-    for over, to, *limits in table["rows"]:
-        if over < size <= to:
-            pairs = zip(table["fields"], limits, strict=True)
-            return next((field for field, limit in pairs if from_si(intensity, "kN_per_m") <= limit), None)
+def looser_that_hold(best: Joint, start: Start) -> tuple[Joint, ...]:
+    """Looser fields of the grade that hold by the mean, the tightest first."""
+    return tuple(one for one in reversed(_like(best)) if one.mean < best.mean and _will_do(one, start))
+
+
+def _by_smallest(joint: Joint, start: Start) -> Joint | None:
+    """The loosest whose smallest interference does, of the given or usual grade first."""
+    grades = (_grade(joint.tolerance_class), _USUAL_GRADE[joint.seat])
+    passing = [one for one in _by_mean(joint) if one.grip == "pass" and _will_do(one, start)]
+
+    def order(one: Joint) -> tuple[int, float, float]:
+        grade = _grade(one.tolerance_class)
+        by_grade = grades.index(grade) if grade in grades else len(grades)
+        return by_grade, one.interference.smallest, one.interference.largest
+
+    return min(passing, key=order, default=None)
+
+
+def _first(joints: Iterable[Joint], start: Start) -> Joint | None:
+    return next((one for one in joints if _will_do(one, start)), None)
+
+
+def _will_do(joint: Joint, start: Start) -> bool:
+    return joint.holds and creep(joint, *start).holds_at_start is not False
+
+
+def _why_not(joint: Joint, start: Start) -> str | None:
+    if joint.pinched:
+        return "pinches the ring in its split housing"
+    if joint.grip == "fail" and joint.required is not None and joint.short is not None:
+        needed, mean = from_si(joint.required.value, "um"), from_si(joint.mean, "um")
+        return f"creeps ({mean:.3g} µm in the mean, {needed:.3g} needed), {of_all(joint.short)} fall short"
+    if joint.stress == "fail":
+        return f"overstressed, {from_si(joint.tightest, 'um'):.3g} µm at most, {joint.stress_limit.by}"
+    if creep(joint, *start).holds_at_start is False:
+        return "slips under the starting torque"
+    if not joint.must_grip and joint.clearance_probability < LOOSE_ENOUGH:
+        return f"holds the ring fast, {of_all(joint.clearance_probability)} are loose"
     return None
 
 
-def _preference(one: Joint, given: Joint) -> tuple[bool, bool, int, int]:
-    grade, letter = _grade(one.tolerance_class), _letter(one.tolerance_class)
-    grades = (_grade(given.tolerance_class), _USUAL_GRADE[given.seat])
-    by_grade = grades.index(grade) if grade in grades else len(grades)
-    if given.must_grip:
-        return False, False, by_grade, 0
-    by_letter = _SLIDING.index(letter) if letter in _SLIDING else len(_SLIDING)
-    slides = one.clearance_probability >= LOOSE_ENOUGH
-    return not slides, one.tolerance_class != given.tolerance_class, by_grade, by_letter + (letter == _RUNNING)
+def _by_mean(joint: Joint) -> list[Joint]:
+    """Every tabulated class, from loose to tight."""
+    joints = (joint.with_class(name) for name in tolerance_classes(joint.seat))
+    return sorted(joints, key=lambda one: (one.mean, one.interference.smallest))
 
 
-def _tightness(one: Joint) -> tuple[float, float]:
-    return one.interference.smallest, one.interference.largest
-
-
-def _letter(tolerance_class: str) -> str:
-    return tolerance_class.rstrip("0123456789").lower()
+def _like(joint: Joint) -> list[Joint]:
+    """Classes of the grade, from loose to tight; beyond the tightest those of the next coarser grades."""
+    grade = int(_grade(joint.tolerance_class))
+    every = _by_mean(joint)
+    own = [one for one in every if int(_grade(one.tolerance_class)) == grade]
+    top = max(one.mean for one in own)
+    return own + [one for one in every if int(_grade(one.tolerance_class)) > grade and one.mean > top]
 
 
 def _grade(tolerance_class: str) -> str:

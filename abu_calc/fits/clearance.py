@@ -1,27 +1,74 @@
 """Clearance left in a deep groove ball bearing after mounting."""
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Final, NamedTuple
 
 from abu_calc.fits.bearing import Bearing
-from abu_calc.fits.interference import Interval, probable_interference
+from abu_calc.fits.interference import Interval
 from abu_calc.fits.joint import Joint
 from abu_calc.fits.stress import inner_ring_diameter, outer_ring_diameter
 from abu_calc.formula import formula
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.clearance import GROUPS, radial_clearance
 
+_TAIL: Final = 0.00135
+"""Share beyond 3σ on one side of a normal law."""
+_REACH: Final = 5.0
+_PANELS: Final = 24
+_HALVINGS: Final = 22
+
+_Law = tuple[tuple[float, float], ...]
+"""What both seats take from the clearance [m], with the share of bearings."""
+
 
 class ClearanceLeft(NamedTuple):
-    """Radial clearance [m] of a group before and after mounting, extreme and probable, the part that warmth takes, and
-    the tightest group whose probable clearance stays above zero (None: no group)."""
+    """Radial clearance [m] of a group before and after mounting: the extremes, the 0.135 % and 99.865 % ends and the
+    mean of all bearings, the share below zero, the part that warmth takes, and the tightest group whose lower end
+    stays above zero (None: no group)."""
 
     group: str
     initial: Interval
     mounted: Interval
     probable: Interval
+    mean: float
+    below_zero: float
     warmth: float
     group_to_choose: str | None
+
+
+class Mounting:
+    """What two seats do to the clearance of their bearing, whatever its group."""
+
+    def __init__(self, bearing: Bearing, shaft: Joint, housing: Joint) -> None:
+        bore, outer = bearing.inner.diameter, bearing.outer.diameter
+        raceways = (inner_ring_diameter(bore, outer) + outer_ring_diameter(bore, outer)) / 2
+        self.bore = bore
+        self.joints = (shaft, housing)
+        self.warmth = seat_material("steel").expansion * raceways * (bearing.service.inner_over_outer or 0.0)
+        self.law = _together(_growth(shaft), _growth(housing))
+
+    def share_below(self, group: str, clearance: float = 0.0) -> float:
+        """Share of bearings of a group that keep less than a clearance [m]."""
+        start = Interval(*radial_clearance(group, self.bore))
+        middle, sigma = (start.smallest + start.largest) / 2, (start.largest - start.smallest) / 6
+        level = clearance + self.warmth - middle
+        return sum(share * 0.5 * math.erfc(-(level + taken) / (sigma * math.sqrt(2))) for taken, share in self.law)
+
+    def keeps(self, group: str) -> bool:
+        """Whether all but 0.135 % of the bearings of a group keep clearance."""
+        return self.share_below(group) <= _TAIL
+
+    @property
+    def group_to_choose(self) -> str | None:
+        """The tightest group that keeps its clearance, None where none does."""
+        return next((group for group in GROUPS if self.keeps(group)), None)
+
+    def end(self, group: str, share: float) -> float:
+        """Clearance [m] that a share of the bearings of a group has not."""
+        low, high = _extremes(self, group)
+        spread = high - low
+        return _where(lambda one: self.share_below(group, one), share, low - spread, high + spread)
 
 
 @formula(
@@ -29,42 +76,68 @@ class ClearanceLeft(NamedTuple):
     "initial − change of both raceways − α·(d₁+D₁)/2·ΔT",
     "m",
     where=(
-        "The raceways change by the raceway change at the interference less the smoothing; a loose ring changes "
-        "nothing. The extreme clearance takes all extremes together, the probable one mean ∓ √(Σ half ranges²) of the "
-        "three parts. ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways."
+        "The raceways change by the raceway change at the interference less smoothing and less what warmth takes from "
+        "the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the probable one "
+        "are the 0.135 % and 99.865 % ends of initial − Σ rate·max(interference, 0), integrated over the three normal "
+        "laws. ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways."
     ),
     checked=("deep groove ball bearings",),
-    assumed="rings as plain tubes",
+    assumed="rings as plain tubes; sizes and clearance independent, normal, half a field = 3σ",
     source="Lamé; ISO 5753-1:2009 for the groups",
 )
 def clearance_left(group: str, bearing: Bearing, shaft: Joint, housing: Joint) -> ClearanceLeft:
-    bore, outer = bearing.inner.diameter, bearing.outer.diameter
-    raceways = (inner_ring_diameter(bore, outer) + outer_ring_diameter(bore, outer)) / 2
-    warmth = seat_material("steel").expansion * raceways * (bearing.service.inner_over_outer or 0.0)
-    joints = (shaft, housing)
-    extreme = [_change(joint, joint.interference) for joint in joints]
-    likely = [_change(joint, probable_interference(*joint.male_and_female)) for joint in joints]
-
-    def probable(other: str) -> Interval:
-        start = Interval(*radial_clearance(other, bore))
-        mean = _middle(start) - sum(map(_middle, likely)) - warmth
-        half = math.hypot(*((one.largest - one.smallest) / 2 for one in (start, *likely)))
-        return Interval(mean - half, mean + half)
-
-    initial = Interval(*radial_clearance(group, bore))
-    mounted = Interval(
-        initial.smallest - sum(one.largest for one in extreme) - warmth,
-        initial.largest - sum(one.smallest for one in extreme) - warmth,
+    mounting = Mounting(bearing, shaft, housing)
+    start = Interval(*radial_clearance(group, bearing.inner.diameter))
+    taken = sum(change * share for change, share in mounting.law)
+    return ClearanceLeft(
+        group=group,
+        initial=start,
+        mounted=Interval(*_extremes(mounting, group)),
+        probable=Interval(mounting.end(group, _TAIL), mounting.end(group, 1 - _TAIL)),
+        mean=(start.smallest + start.largest) / 2 - taken - mounting.warmth,
+        below_zero=mounting.share_below(group),
+        warmth=mounting.warmth,
+        group_to_choose=mounting.group_to_choose,
     )
-    choice = next((other for other in GROUPS if probable(other).smallest >= 0), None)
-    return ClearanceLeft(group, initial, mounted, probable(group), warmth, choice)
 
 
-def _change(joint: Joint, interference: Interval) -> Interval:
-    smoothing = sum(loss.value for loss in joint.losses if loss.name == "smoothing")
-    smallest, largest = (max(one - smoothing, 0.0) * joint.raceway_rate for one in interference)
-    return Interval(smallest, largest)
+def _extremes(mounting: Mounting, group: str) -> tuple[float, float]:
+    start = radial_clearance(group, mounting.bore)
+    most = sum(_change(joint, joint.interference.largest) for joint in mounting.joints)
+    least = sum(_change(joint, joint.interference.smallest) for joint in mounting.joints)
+    return start.smallest - most - mounting.warmth, start.largest - least - mounting.warmth
 
 
-def _middle(interval: Interval) -> float:
-    return (interval.smallest + interval.largest) / 2
+def _change(joint: Joint, interference: float) -> float:
+    return max(interference - joint.mounted_losses, 0.0) * joint.raceway_rate
+
+
+def _growth(joint: Joint) -> _Law:
+    """What one seat takes: nothing of its loose pairs, of the others by Simpson's rule over the normal law."""
+    male, female = joint.male_and_female
+    sigma = math.hypot(male.tolerance, female.tolerance) / 6
+    mean = male.middle - female.middle - joint.mounted_losses
+    if sigma == 0 or mean <= -_REACH * sigma:  # a share of 3e-7 of all pairs is tight, by a hair
+        return ((joint.raceway_rate * max(mean, 0.0), 1.0),)
+    low, high = max(0.0, mean - _REACH * sigma), mean + _REACH * sigma
+    step = (high - low) / _PANELS
+    points = [low + i * step for i in range(_PANELS + 1)]
+    weights = [1 if i in (0, _PANELS) else 4 if i % 2 else 2 for i in range(_PANELS + 1)]
+    shares = [weight * math.exp(-(((x - mean) / sigma) ** 2) / 2) for x, weight in zip(points, weights, strict=True)]
+    tight = 0.5 * math.erfc(-mean / (sigma * math.sqrt(2)))
+    scale = tight / sum(shares)
+    return (
+        (0.0, 1 - tight),
+        *((joint.raceway_rate * x, scale * share) for x, share in zip(points, shares, strict=True)),
+    )
+
+
+def _together(one: _Law, other: _Law) -> _Law:
+    return tuple((a + b, p * q) for a, p in one for b, q in other if p * q > 1e-10)
+
+
+def _where(rising: Callable[[float], float], level: float, low: float, high: float) -> float:
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if rising(middle) < level else (low, middle)
+    return (low + high) / 2

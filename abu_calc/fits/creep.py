@@ -1,11 +1,13 @@
 """Whether a ring creeps on its seat: by the kind of load on it, and when the machine starts."""
 
 import math
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
-from abu_calc.fits.interference import probability_below, probable_interference
+from abu_calc.checks import Grade
+from abu_calc.fits.interference import probable_interference
 from abu_calc.fits.joint import Joint
 from abu_calc.fits.ranges import SEAT_FRICTION
+from abu_calc.fits.words import of_all
 from abu_calc.formula import formula
 
 CreepVerdict = Literal["holds", "may creep", "creeps", "needs no grip", "not known"]
@@ -43,23 +45,28 @@ def friction_torque(friction: float, pressure: float, diameter: float, length: f
     return SEAT_FRICTION.check(friction) * pressure * math.pi * diameter * length * diameter / 2
 
 
+_VERDICTS: Final[dict[Grade, CreepVerdict]] = {
+    "pass": "holds", "warn": "may creep", "fail": "creeps", "not-done": "not known",
+}  # fmt: skip
+
+
 def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep:
-    """Judge a ring: under a load fixed in direction it needs no grip, else its least interference must do."""
+    """Judge a ring: under a load fixed in direction it needs no grip, else its interference must do.
+
+    It holds where the smallest does, may creep where only the mean does.
+    """
     torques = _torques(joint, friction)
     starts = None
     if joint.must_grip and torques is not None and starting_torque is not None:
         starts = torques[0] >= starting_torque
     least, probable = torques or (None, None)
-    required = joint.required
     if not joint.must_grip:
-        why = f"its load is fixed in direction; {_share(joint.clearance_probability)} of pairs are loose"
+        why = f"its load is fixed in direction; {of_all(joint.clearance_probability)} are loose"
         return Creep("needs no grip", why, None, least, probable, None)
-    if required is None:
+    if joint.short is None:
         return Creep("not known", "load or length of the seat are not given", None, least, probable, starts)
-    below = probability_below(required.value, *joint.male_and_female)
-    why = f"{_share(below)} of pairs have less than its {joint.ring.load} load asks for"
-    verdict: CreepVerdict = "holds" if joint.grips else "may creep" if below < 0.5 else "creeps"
-    return Creep(verdict, why, below, least, probable, starts)
+    why = f"{of_all(joint.short)} have less than its {joint.ring.load} load asks for"
+    return Creep(_VERDICTS[joint.grip], why, joint.short, least, probable, starts)
 
 
 def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
@@ -74,7 +81,3 @@ def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
     )
     least, likely = (friction_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
     return least, likely
-
-
-def _share(probability: float) -> str:
-    return f"{100 * probability:.3g} %"

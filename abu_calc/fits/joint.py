@@ -2,13 +2,21 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
+from abu_calc.checks import Grade
 from abu_calc.fits.bearing import Ring
-from abu_calc.fits.interference import Interval, clearance_probability, theoretical_interference
+from abu_calc.fits.interference import Interval, clearance_probability, probability_below, theoretical_interference
 from abu_calc.fits.requirement import creep_interference, load_loss
 from abu_calc.fits.stress import PERMITTED_RING_STRESS
 from abu_calc.standards.limits import Limits, Seat, part_limits
+from abu_calc.standards.maker_fits import MakerFits
+
+CENTRIFUGAL: Final = "centrifugal growth"
+WARMTH: Final = "temperature"
+MEASURED: Final = "measured"
+"""In place of a tolerance class, where the limits are as measured."""
+_FOR_HALVES: Final = frozenset("FGHJ")
 
 
 class Bound(NamedTuple):
@@ -30,8 +38,9 @@ class Loss(NamedTuple):
 class Joint:
     """One ring on its seat, with the limits of the ring; `losses` [m] only those that the input asks for.
 
-    Per interference: `pressure_rate` [Pa/m], `stress_rate` hoop stress of the ring [Pa/m], `raceway_rate` change of the
-    raceway's diameter [1].
+    Per interference: `pressure_rate` [Pa/m], `stress_rate` and `part_rate` hoop stress of the ring and of the part
+    [Pa/m], `raceway_rate` change of the raceway's diameter [1]; `part_strength` [Pa]. `maker`: the catalogue's classes
+    for this seat and load, None where it has none or C is not known; `split` of a housing in halves.
     """
 
     seat: Seat
@@ -44,6 +53,11 @@ class Joint:
     pressure_rate: float
     stress_rate: float
     raceway_rate: float
+    part_rate: float
+    part_strength: float
+    measured: Limits | None = None
+    maker: MakerFits | None = None
+    split: bool = False
 
     @property
     def diameter(self) -> float:
@@ -57,12 +71,22 @@ class Joint:
 
     def with_class(self, tolerance_class: str) -> "Joint":
         """The same joint with its part to another tolerance class."""
-        return replace(self, tolerance_class=tolerance_class)
+        return replace(self, tolerance_class=tolerance_class, measured=None)
+
+    @property
+    def fit_name(self) -> str:
+        """The tolerance class, or that the limits are measured."""
+        return MEASURED if self.measured else self.tolerance_class
+
+    @property
+    def told(self) -> str:
+        """The tolerance class in a sentence."""
+        return f"the measured {self.seat}" if self.measured else self.tolerance_class
 
     @cached_property
     def part(self) -> Limits:
         """Limits of the shaft or housing."""
-        return part_limits(self.seat, self.tolerance_class, self.diameter)
+        return self.measured or part_limits(self.seat, self.tolerance_class, self.diameter)
 
     @property
     def male_and_female(self) -> tuple[Limits, Limits]:
@@ -73,6 +97,12 @@ class Joint:
     def interference(self) -> Interval:
         """Theoretical interference."""
         return theoretical_interference(*self.male_and_female)
+
+    @property
+    def mean(self) -> float:
+        """Interference [m] of the middles of both fields."""
+        male, female = self.male_and_female
+        return round(male.middle - female.middle, 12)
 
     @cached_property
     def clearance_probability(self) -> float:
@@ -96,40 +126,95 @@ class Joint:
 
     @cached_property
     def required(self) -> Bound | None:
-        """The larger of the criteria with the losses given; None where there is no criterion."""
+        """The larger of the criteria with the losses given; None where there is no criterion.
+
+        A gain by temperature is not counted: the machine starts cold.
+        """
         if not self.criteria:
             return None
         larger = max(self.criteria, key=lambda bound: bound.value)
-        return Bound(larger.value + sum(loss.value for loss in self.losses), larger.by)
+        return Bound(larger.value + sum(max(loss.value, 0.0) for loss in self.losses), larger.by)
+
+    @property
+    def stress_limit(self) -> Bound:
+        """Largest interference that the ring and the part bear, by their hoop stresses."""
+        ring = Bound(PERMITTED_RING_STRESS / self.stress_rate, "hoop stress 400 MPa of the ring (Lamé)")
+        strength = f"{self.part_strength / 1e6:.0f} MPa"
+        part = Bound(self.part_strength / self.part_rate, f"hoop stress {strength} of the {self.seat} (Lamé)")
+        return min(ring, part, key=lambda bound: bound.value)
 
     @property
     def permitted(self) -> Bound:
-        """Largest interference that ring and bearing bear."""
-        lame = Bound(PERMITTED_RING_STRESS / self.stress_rate, "hoop stress 400 MPa (Lamé)")
+        """The stress limit, or the d/1000 of the catalogues where that is less."""
         catalogue = Bound(self.diameter / 1000, "d/1000 (bearing catalogues)")
-        return min(lame, catalogue, key=lambda bound: bound.value)
+        return min(self.stress_limit, catalogue, key=lambda bound: bound.value)
+
+    @property
+    def tightest(self) -> float:
+        """The largest interference [m] of cold and of warm parts."""
+        return self.interference.largest - min(0.0, sum(loss.value for loss in self.losses if loss.name == WARMTH))
 
     @property
     def hoop_stress(self) -> float:
         """Hoop stress [Pa] of the ring at the largest theoretical interference."""
-        return self.stress_rate * max(self.interference.largest, 0.0)
+        return self.stress_rate * max(self.tightest, 0.0)
 
     @property
-    def grips(self) -> bool | None:
-        """Whether the loosest pair holds a ring that must be held; None when what it needs is not known."""
+    def part_stress(self) -> float:
+        """Hoop stress [Pa] of the shaft or housing at the largest theoretical interference."""
+        return self.part_rate * max(self.tightest, 0.0)
+
+    @cached_property
+    def short(self) -> float | None:
+        """Share of pairs with less interference than the ring needs; None where that is not known."""
+        return None if self.required is None else probability_below(self.required.value, *self.male_and_female)
+
+    @property
+    def grip(self) -> Grade:
+        """Whether the ring holds: pass by the loosest pair, warn by the mean, else fail; not-done without a load.
+
+        Under an indeterminate load the maker's own class warns though its mean falls short: the maker has it so.
+        """
         if not self.must_grip:
-            return True
-        return None if self.required is None else self.interference.smallest >= self.required.value
+            return "pass"
+        if self.required is None:
+            return "not-done"
+        if self.interference.smallest >= self.required.value:
+            return "pass"
+        if self.mean >= self.required.value or self._as_the_maker_has_it:
+            return "warn"
+        return "fail"
 
     @property
-    def bears(self) -> bool:
-        """Whether the tightest pair is permitted."""
-        return self.interference.largest <= self.permitted.value
+    def _as_the_maker_has_it(self) -> bool:
+        if self.ring.load != "indeterminate" or self.maker is None:
+            return False
+        return self.mean >= self.with_class(self.maker.classes[0]).mean
+
+    @property
+    def stress(self) -> Grade:
+        """Whether the tightest pair is borne: fail by stress, warn above the catalogues' d/1000."""
+        if self.tightest > self.stress_limit.value:
+            return "fail"
+        return "pass" if self.tightest <= self.permitted.value else "warn"
+
+    @property
+    def pinched(self) -> bool:
+        """Whether the halves of a split housing pinch the ring: a fit tighter than J."""
+        name = MEASURED if self.measured else self.tolerance_class
+        return self.split and self.interference.largest > 0 and name[0] not in _FOR_HALVES
+
+    @property
+    def holds(self) -> bool:
+        """Whether neither grip nor stress fails, and no split housing pinches the ring."""
+        return self.grip != "fail" and self.stress != "fail" and not self.pinched
 
     @property
     def lasting_losses(self) -> float:
-        """Losses [m] that are there when the shaft starts to turn: all but the growth by speed."""
+        """Losses [m] that are there when the shaft starts to turn: all but the growth by speed and gains by warmth."""
+        return sum(max(loss.value, 0.0) for loss in self.losses if loss.name != CENTRIFUGAL)
+
+    @property
+    def mounted_losses(self) -> float:
+        """What smoothing and warmth take from the interference [m], or give to it, before the shaft turns."""
         return sum(loss.value for loss in self.losses if loss.name != CENTRIFUGAL)
-
-
-CENTRIFUGAL = "centrifugal growth"

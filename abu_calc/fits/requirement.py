@@ -3,10 +3,10 @@
 import math
 from typing import Final
 
-from abu_calc.fits.bearing import Series
-from abu_calc.fits.ranges import RADIAL_LOAD, RING_SPEED, ROUGHNESS, SEAT_DIAMETER, SEAT_LENGTH, WARMER_RING
+from abu_calc.fits.ranges import RADIAL_LOAD, RING_SPEED, ROUGHNESS, SEAT_DIAMETER, SEAT_LENGTH
 from abu_calc.formula import formula
 from abu_calc.standards.balls import Material
+from abu_calc.standards.bearings import Series
 
 SERIES_FACTORS: Final[dict[Series, float]] = {"light": 2.8, "medium": 2.3, "heavy": 2.0}
 """k of `creep_interference` by series: handbook values quoted by Afanasiev 2015, unverified."""
@@ -86,23 +86,26 @@ def catalogue_smoothing_loss(interference: float, diameter: float) -> float:
 
 
 @formula(
-    "Interference lost by an inner ring warmer than its shaft",
-    "α·d·ΔT",
+    "Interference that warmth takes from a seat",
+    "d·(α₂·ΔT₂ − α₁·ΔT₁)",
     "m",
     where=(
-        "α [1/K], d [m], ΔT ring minus shaft [K]. Where only the bearing's excess over its surroundings is known, "
-        "catalogues take an eighth of it for ΔT (their 0.0015·d·Δt µm, d in mm)."
+        "α [1/K], d [m], ΔT above mounting [K]; 2 the part around (inner ring, or housing), 1 the part inside (shaft, "
+        "or outer ring); of equal α it is α·d·ΔT of the difference. Negative where the seat grows tighter. Where only "
+        "the bearing's excess over its surroundings is known, catalogues take an eighth of it for the inner ring's "
+        "over its shaft (their 0.0015·d·Δt µm, d in mm)."
     ),
-    checked=(WARMER_RING,),
+    checked=(SEAT_DIAMETER,),
     assumed="uniform temperature of each part",
     source="linear expansion",
 )
-def temperature_loss(expansion: float, diameter: float, difference: float) -> float:
+def temperature_loss(diameter: float, around: tuple[float, float], inside: tuple[float, float]) -> float:
     """
-    >>> round(1e6 * temperature_loss(12e-6, 0.080, 10.0), 2)
+    >>> round(1e6 * temperature_loss(0.080, (12e-6, 10.0), (12e-6, 0.0)), 2)
     9.6
     """
-    return expansion * diameter * WARMER_RING.check(difference)
+    (expansion, rise), (expansion_inside, rise_inside) = around, inside
+    return SEAT_DIAMETER.check(diameter) * (expansion * rise - expansion_inside * rise_inside)
 
 
 @formula(

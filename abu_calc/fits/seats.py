@@ -6,33 +6,29 @@ What few bearings ask for is imported when one does.
 from typing import TYPE_CHECKING, NamedTuple
 
 from abu_calc.checks import Check
-from abu_calc.fits.advice import admissible, advised_class, load_intensity
-from abu_calc.fits.bearing import Bearing, from_table
+from abu_calc.fits.advice import Rejected, Start, admissible
+from abu_calc.fits.bearing import Bearing
 from abu_calc.fits.creep import Creep, creep
 from abu_calc.fits.drawing import Requirements, seat_requirements
+from abu_calc.fits.intensity import load_intensity
 from abu_calc.fits.interference import Interval, probable_interference, truncated_clearance_probability
 from abu_calc.fits.joint import Joint, Loss
 from abu_calc.fits.judgement import clearance_checks, seat_checks, start_checks
+from abu_calc.fits.notes import Item, ledger, seat_notes
 from abu_calc.fits.pairing import housing_joint, shaft_joint
-from abu_calc.fits.requirement import catalogue_smoothing_loss
+from abu_calc.fits.reading import from_table
+from abu_calc.fits.whole import SeatAdvice, advice
 from abu_calc.standards.limits import Limits, Seat
-from abu_calc.units import from_si
 
 if TYPE_CHECKING:
     from abu_calc.fits.clearance import ClearanceLeft
-    from abu_calc.fits.selective import Selection
+    from abu_calc.fits.repair import Repair
+    from abu_calc.fits.selective import Group, Selection
     from abu_calc.spec.bearing import Bearing as BearingTable
 
 
-class Item(NamedTuple):
-    """An entry of the ledger of losses; `counted` in the required interference, or shown beside it."""
-
-    loss: Loss
-    counted: bool
-
-
 class Admissible(NamedTuple):
-    """A tolerance class that passes, its interference [m] and probability of clearance."""
+    """A tolerance class that neither creeps nor overstresses, its interference [m] and probability of clearance."""
 
     fit: str
     interference: Interval
@@ -43,20 +39,25 @@ class SeatFit(NamedTuple):
     """One seat: lengths and interferences [m], stress [Pa], load intensity [N/m]; null where a check or note says why.
 
     `required_interference` is that of a ring under a rotating load; a ring under a load fixed in direction is not held
-    to it. `losses` are those included in it beside the load, `ledger` all that are known, counted or not.
+    to it. `losses` are those included in it beside the load, `ledger` all that are known, counted or not; `groups`
+    those of the `selection`; `repair` of a seat whose limits are measured.
     """
 
     name: str
     joint: Joint
+    given: bool
     probable_interference: Interval
     truncated_probability: float
     ledger: tuple[Item, ...]
+    advice: SeatAdvice
     admissible: tuple[Admissible, ...]
     load_intensity: float | None
     creep: Creep
     requirements: Requirements
     asked: Interval | None
     selection: "Selection | None"
+    groups: "tuple[Group, ...]"
+    repair: "Repair | None"
     notes: tuple[str, ...]
     checks: tuple[Check, ...]
 
@@ -67,8 +68,8 @@ class SeatFit(NamedTuple):
 
     @property
     def fit(self) -> str:
-        """Tolerance class of the part."""
-        return self.joint.tolerance_class
+        """Tolerance class of the part, or that its limits are measured."""
+        return self.joint.fit_name
 
     @property
     def part_limits(self) -> Limits:
@@ -117,22 +118,28 @@ class SeatFit(NamedTuple):
 
     @property
     def hoop_stress(self) -> float:
-        """Hoop stress of the ring at the largest interference."""
+        """Hoop stress of the ring at the largest interference, cold or warm."""
         return self.joint.hoop_stress
 
     @property
     def recommended_fit(self) -> str | None:
-        """The first of the admissible classes."""
-        return self.admissible[0].fit if self.admissible else None
+        """The class to write."""
+        return self.advice.best.tolerance_class if self.advice.best else None
+
+    @property
+    def rejected(self) -> "tuple[Rejected, ...]":
+        """The next looser and the next tighter class that will not do, and why."""
+        return self.advice.rejected
 
 
 class BearingSeats(NamedTuple):
-    """A bearing's seats, shaft first, and the clearance left in it."""
+    """A bearing's seats, shaft first, the clearance left in it, the group of clearance to order with the advice."""
 
     bearing: Bearing
     shaft: SeatFit
     housing: SeatFit
     clearance: "ClearanceLeft | None" = None
+    group_to_order: str | None = None
 
     @property
     def seats(self) -> tuple[SeatFit, SeatFit]:
@@ -154,12 +161,24 @@ def seat_bearing(table: "BearingTable") -> BearingSeats:
 
 
 def judge(bearing: Bearing) -> BearingSeats:
-    """Judge both seats of a bearing. A band asked for is meant for the rings that must grip, else for both."""
-    joints = shaft_joint(bearing), housing_joint(bearing)
+    """Judge both seats of a bearing; one without a fit is judged with the field advised.
+
+    A band asked for is meant for the rings that must grip, else for both.
+    """
+    given = shaft_joint(bearing), housing_joint(bearing)
+    told = advice(bearing, *given)
+    open_seats = [part.fit is None and part.measured is None for part in (bearing.shaft, bearing.housing)]
+    joints = [
+        own.best if unsaid and own.best else joint
+        for joint, own, unsaid in zip(given, (told.shaft, told.housing), open_seats, strict=True)
+    ]
     asked_of = [joint for joint in joints if joint.must_grip] or joints
     asked = None if bearing.asked_interference is None else Interval(*bearing.asked_interference)
-    shaft, housing = (_seat_fit(bearing, joint, asked if joint in asked_of else None) for joint in joints)
-    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints))
+    shaft, housing = (
+        _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
+        for joint, own, unsaid in zip(joints, (told.shaft, told.housing), open_seats, strict=True)
+    )
+    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints), told.group)
 
 
 def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
@@ -170,91 +189,54 @@ def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft
     return clearance_left(bearing.internal_clearance, bearing, shaft, housing)
 
 
-def _seat_fit(bearing: Bearing, joint: Joint, asked: Interval | None) -> SeatFit:
-    friction, torque = bearing.service.seat_friction, bearing.service.starting_torque
-    verdict = creep(joint, friction, torque)
-    passing = tuple(
-        Admissible(one.tolerance_class, one.interference, one.clearance_probability)
-        for one in admissible(joint)
-        if torque is None or creep(one, friction, torque).holds_at_start is not False
-    )
-    recommended = passing[0].fit if passing else None
+def _seat_fit(bearing: Bearing, joint: Joint, own: SeatAdvice, given: bool, asked: Interval | None) -> SeatFit:
+    start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
+    found = creep(joint, *start)
+    recommended = own.best.tolerance_class if own.best else None
     intensity = None
     if joint.radial_load is not None and joint.length is not None:
         intensity = load_intensity(joint.radial_load, joint.length)
-    selection = _selection(joint, asked)
+    selection, groups = _sorting(joint, asked)
+    wanted = recommended or joint.tolerance_class
     return SeatFit(
         name=bearing.name,
         joint=joint,
+        given=given,
         probable_interference=probable_interference(*joint.male_and_female),
         truncated_probability=truncated_clearance_probability(*joint.male_and_female),
-        ledger=_ledger(joint),
-        admissible=passing,
+        ledger=ledger(joint),
+        advice=own,
+        admissible=tuple(
+            Admissible(one.tolerance_class, one.interference, one.clearance_probability)
+            for one in admissible(joint, start, own.best)
+        ),
         load_intensity=intensity,
-        creep=verdict,
-        requirements=seat_requirements(joint, recommended or joint.tolerance_class, bearing.bearing_class),
+        creep=found,
+        requirements=seat_requirements(joint, wanted, bearing.bearing_class),
         asked=asked,
         selection=selection,
-        notes=_notes(bearing, joint, intensity) + _sorting_note(joint, asked, selection),
-        checks=seat_checks(bearing.name, joint, recommended)
-        + start_checks(bearing.name, joint, verdict, torque, recommended),
+        groups=groups,
+        repair=_repair(bearing, joint, wanted),
+        notes=seat_notes(bearing, joint, own, given, intensity, asked, selection),
+        checks=seat_checks(bearing, joint, recommended)
+        + start_checks(bearing.name, joint, found, bearing.service.starting_torque, recommended),
     )
 
 
-def _selection(joint: Joint, asked: Interval | None) -> "Selection | None":
+def _sorting(joint: Joint, asked: Interval | None) -> "tuple[Selection | None, tuple[Group, ...]]":
     if asked is None:
+        return None, ()
+    from abu_calc.fits.selective import selective_groups, sorting_groups
+
+    found = selective_groups(*joint.male_and_female, asked)
+    return found, sorting_groups(*joint.male_and_female, found.groups) if found else ()
+
+
+def _repair(bearing: Bearing, joint: Joint, advised: str) -> "Repair | None":
+    """To the class of the drawing where one is given beside the measured limits, else to the one advised."""
+    if joint.measured is None:
         return None
-    from abu_calc.fits.selective import selective_groups
+    from abu_calc.fits.repair import seat_repair
 
-    return selective_groups(*joint.male_and_female, asked)
-
-
-def _ledger(joint: Joint) -> tuple[Item, ...]:
-    """The load by both rules, of which the larger counts, then the losses given, each by its formula."""
-    needs = joint.required.by if joint.required else None
-    items = [Item(Loss("load", bound.value, bound.by), bound.by == needs) for bound in joint.criteria]
-    for loss in joint.losses:
-        items.append(Item(loss, True))
-        if loss.name == "smoothing":
-            value = catalogue_smoothing_loss(joint.interference.smallest, joint.diameter)
-            items.append(Item(Loss("smoothing", value, "δ·2/(d + 2) (bearing catalogues, unverified)"), False))
-    return tuple(items)
-
-
-def _notes(bearing: Bearing, joint: Joint, intensity: float | None) -> tuple[str, ...]:
-    lent = (f"No chamfer is given: that of {bearing.chamfer_from}, which has the same sizes, is taken.",)
-    notes = lent if bearing.chamfer_from else ()
-    if intensity is None:
-        return notes
-    advised = advised_class(joint.seat, joint.diameter, intensity)
-    advice = f"handbook tables advise {advised}" if advised else "outside the handbook tables"
-    needs = ", ".join(f"{from_si(one.value, 'um'):.2f} µm by {one.by}" for one in joint.criteria)
-    return (
-        f"A ring under a rotating load needs, losses aside: {needs}; the larger counts.",
-        f"k = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
-        f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m with strong shocks: {advice} (unverified advice).",
-        *notes,
-    )
-
-
-def _sorting_note(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:
-    if asked is None:
-        return ()
-    band = f"{from_si(asked.smallest, 'um'):g} … {from_si(asked.largest, 'um'):g} µm"
-    if selection is None:
-        male, female = joint.male_and_female
-        ends = sorted((male.lower - female.lower, male.upper - female.upper))
-        reach = " … ".join(f"{from_si(end, 'um'):g}" for end in ends)
-        return (
-            f"Sorting cannot keep {joint.tolerance_class} within {band}: however fine the groups, they spread over "
-            f"{reach} µm, the band must reach beyond both.",
-        )
-    if selection.groups == 1:
-        return (f"{joint.tolerance_class} keeps within {band} without sorting.",)
-    reached = (
-        f"{from_si(selection.interference.smallest, 'um'):.3g} … {from_si(selection.interference.largest, 'um'):.3g}"
-    )
-    return (
-        f"Selective assembly: sorted into {selection.groups} equal groups and matched by number, "
-        f"{joint.tolerance_class} keeps within {reached} µm (asked {band}).",
-    )
+    part = bearing.shaft if joint.seat == "shaft" else bearing.housing
+    return seat_repair(joint, part.fit or advised, bearing.designation)

@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
-from abu_calc.fits.joint import CENTRIFUGAL
+from abu_calc.fits.joint import CENTRIFUGAL, WARMTH
 from abu_calc.studies.seat_model import BearingModel, SeatModel
-from abu_calc.studies.seat_records import Clearance, SeatResult
+from abu_calc.studies.seat_parts import Clearance
+from abu_calc.studies.seat_records import SeatResult
 
 
 def seat_numbers(models: Sequence[BearingModel], seats: Sequence[SeatResult]) -> tuple[str, ...]:
@@ -42,7 +43,7 @@ def _fit(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
 
 
 def _load(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
-    intensity = seat.load_intensity_kN_per_m
+    intensity = None if seat.needs_no_grip else seat.load_intensity_kN_per_m
     load, length = model.load_in_kilonewtons, model.length_mm
     if model.radial_load_N is None or load is None or length is None or model.length_m is None or intensity is None:
         return ()
@@ -59,18 +60,23 @@ def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[
     bore = _g(bearing.bore_mm)
     numbers = {
         "smoothing": f"0.4·{_g(model.roughness_um)} µm",
-        "temperature": f"{_g(bearing.expansion_per_K)}·{bore} mm·{_g(bearing.ring_temperature_difference_K or 0.0)} K",
+        WARMTH: f"{_g(model.diameter_mm)} mm·({_warm(model)})",
         CENTRIFUGAL: f"Ω = {_g(bearing.speed_rad_per_s or 0.0)} rad/s, d = {bore}, d₁ = "
         f"{_g(bearing.inner_ring_diameter_mm)}, d₀ = {_g(bearing.shaft_bore_mm)} mm",
     }
     lines = tuple(
         f"{loss.name}: {loss.formula}: {numbers[loss.name]} = {_g(loss.amount_um)} µm"
         for loss in seat.losses
-        if loss.counted and loss.name in numbers
+        if loss.name in numbers and "unverified" not in loss.formula
     )
-    if seat.required_interference_um is None:
+    if seat.needed_um is None:
         return lines
-    return (*lines, f"required with the losses: {_g(seat.required_interference_um)} µm")
+    return (*lines, f"required with the losses: {_g(seat.needed_um)} µm")
+
+
+def _warm(model: SeatModel) -> str:
+    around = f"{_g(model.around_expansion_per_K or 0.0)}·{_g(model.around_rise_K or 0.0)}"
+    return f"{around} − {_g(model.inside_expansion_per_K or 0.0)}·{_g(model.inside_rise_K or 0.0)}"
 
 
 def _stress(model: SeatModel, seat: SeatResult) -> str:
@@ -97,7 +103,7 @@ def _clearance(bearing: BearingModel, left: Clearance | None) -> tuple[str, ...]
     rates = f"{_g(bearing.shaft.raceway_rate)} and {_g(bearing.housing.raceway_rate)}"
     return (
         f"clearance of group {left.group}: {_span(left.initial_um)} µm less {rates} of the interferences and "
-        f"{_g(left.by_temperature_um)} µm of temperature = {_span(left.mounted_um)} µm",
+        f"{_g(left.by_temperature_um)} µm of temperature = {_span(left.mounted_um)} µm, mean {_g(left.mean_um)}",
     )
 
 

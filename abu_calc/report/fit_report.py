@@ -2,27 +2,32 @@
 
 from typing import Final
 
+from abu_calc.fits.words import of_all
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.fit_advice import advice_lines, bearing_table, repair_lines, sorting_blocks
 from abu_calc.report.fit_zones import legend, zone_lines
 from abu_calc.report.fits import CONVENTION, Seats, by_bearing, fit_grid, note_blocks
 from abu_calc.report.parts import check_blocks, notices, provenance_blocks
 from abu_calc.report.screen import verdict_line
 from abu_calc.studies.check_fit import CheckFitResult
-from abu_calc.studies.seat_records import Clearance, Requirements, SeatResult
+from abu_calc.studies.seat_parts import Clearance, Requirements
+from abu_calc.studies.seat_records import SeatResult
 
 MOST_FITS: Final = 5
 """Admissible fields shown a seat; JSON has all."""
-MARKS: Final = {"holds": "pass", "creeps": "fail", "may creep": "fail", "not known": "not-done"}
+MARKS: Final = {"holds": "pass", "creeps": "fail", "may creep": "warn", "not known": "not-done"}
 AT_START: Final = {True: ", above the starting torque", False: ", below the starting torque", None: ""}
 
 
 def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
     """Every bearing, then checks, warnings, defaults and where it all comes from."""
-    blocks = [block for pair in by_bearing(result.seats) for block in _bearing(pair)]
+    pairs = list(by_bearing(result.seats))
+    table: list[Block] = [Paragraph(""), bearing_table(pairs)] if len(pairs) > 1 else []
     return (
         Heading(result.title),
         verdict_line(result),
-        *blocks,
+        *table,
+        *(block for pair in pairs for block in _bearing(pair)),
         Paragraph(CONVENTION),
         *check_blocks(result.checks),
         *notices(result),
@@ -35,6 +40,8 @@ def _bearing(pair: Seats) -> list[Block]:
     return [
         Heading(f"Bearing seats: {pair[0].name}"),
         *map(_verdict, pair),
+        *advice_lines(pair),
+        *repair_lines(pair),
         # A drawing is a paragraph a line, so that nothing is wrapped.
         Paragraph(""),
         *map(Paragraph, zone_lines(*pair)),
@@ -44,6 +51,7 @@ def _bearing(pair: Seats) -> list[Block]:
         *_clearance(pair[0].internal_clearance),
         *_losses(pair),
         *_fits(pair),
+        *sorting_blocks(pair),
         *_drawing(pair),
         Heading("Notes"),
         *note_blocks(pair),
@@ -52,7 +60,7 @@ def _bearing(pair: Seats) -> list[Block]:
 
 def _verdict(seat: SeatResult) -> Paragraph:
     ring, creep = ("Inner ring" if seat.seat == "shaft" else "Outer ring"), seat.creep
-    write = f"Write {seat.recommended_fit}." if seat.recommended_fit else "No tabulated field is known to pass."
+    write = f"Write {seat.recommended_fit}." if seat.recommended_fit else "No tabulated field grips and is borne."
     start = ""
     if creep.friction_moment_N_m:
         least, probable = creep.friction_moment_N_m
@@ -68,6 +76,8 @@ def _clearance(left: Clearance | None) -> list[Block]:
         (f"of group {left.group}, before", _span(left.initial_um)),
         ("after mounting, extreme", _span(left.mounted_um)),
         ("after mounting, probable", _span(left.probable_um)),
+        ("  mean", f"{left.mean_um:.3g}"),
+        ("  none left in", of_all(left.below_zero_probability, "bearings")),
         ("  taken by temperature", f"{left.by_temperature_um:.3g}"),
         ("tightest group that will do", left.group_to_choose or "–"),
     )
@@ -78,6 +88,7 @@ def _losses(pair: Seats) -> list[Block]:
     rows = tuple(
         (seat.seat, loss.name, f"{loss.amount_um:.4g}", "counted" if loss.counted else "", loss.formula)
         for seat in pair
+        if not seat.needs_no_grip
         for loss in seat.losses
     )
     heading = Heading("What the interference must cover, µm")
@@ -86,11 +97,11 @@ def _losses(pair: Seats) -> list[Block]:
 
 def _fits(pair: Seats) -> list[Block]:
     rows = tuple(
-        (seat.seat, one.fit, _span(one.interference_um), f"{one.clearance_probability:.3g}")
+        (seat.seat, one.fit, _span(one.interference_um), of_all(one.clearance_probability).removesuffix(" pairs"))
         for seat in pair
         for one in seat.admissible_fits[:MOST_FITS]
     )
-    grid = Grid(("seat", "field", "interference, µm", "P(clearance)"), rows)
+    grid = Grid(("seat", "field", "interference, µm", "loose"), rows)
     return [Heading("Fields that pass, the best first"), grid] if rows else []
 
 

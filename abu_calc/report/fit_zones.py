@@ -3,7 +3,8 @@
 import math
 from typing import Final
 
-from abu_calc.studies.seat_records import Pair, SeatResult
+from abu_calc.studies.seat_parts import Pair
+from abu_calc.studies.seat_records import SeatResult
 
 ROWS_WANTED: Final = 14
 STEPS: Final = (1, 2, 5, 10, 20, 50, 100, 200, 500)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final, TypeAlias
 
+from abu_calc.fits.words import of_all
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.studies.quantity import quantities
 from abu_calc.studies.seat_records import SeatResult
@@ -23,14 +24,20 @@ ROWS: Final = (
     "permitted_interference_um",
     "permitted_by",
     "hoop_stress_MPa",
+    "part_stress_MPa",
+    "load_ratio",
     "recommended_fit",
+    "recommended_clearance",
 )
 BELOW: Final = {
     "clearance_probability_truncated": "  fields kept by sorting out",
     "required_by": "  by",
     "permitted_by": "  by",
+    "part_stress_MPa": "  of the part, MPa",
 }
 """Rows that belong to the one above them."""
+SHOWN: Final = {"required_interference_um": "needed_um", "required_by": "needed_by"}
+"""A ring that needs no interference shows none."""
 CONVENTION = (
     "Interference is positive when tight, negative when loose; limits from the nominal size, lower … upper. Probable "
     "interference: mean ∓ root of the sum of squared half tolerances, outward to whole µm. Parts: ISO 286-2:2010, "
@@ -54,7 +61,7 @@ def fit_blocks(seats: Sequence[SeatResult]) -> tuple[Block, ...]:
 def fit_grid(pair: Seats) -> Grid:
     """The numbers of both seats side by side."""
     shaft, housing = pair
-    rows = tuple((_label(name), *(_cell(getattr(seat, name)) for seat in pair)) for name in ROWS)
+    rows = tuple((_label(name), *(_cell(getattr(seat, SHOWN.get(name, name)), name) for seat in pair)) for name in ROWS)
     return Grid(("", f"shaft {shaft.fit}", f"housing {housing.fit}"), rows)
 
 
@@ -74,10 +81,12 @@ def _label(name: str) -> str:
     return f"{label}, {unit}" if unit else label
 
 
-def _cell(value: tuple[float, float] | float | str | None) -> str:
+def _cell(value: tuple[float, float] | float | str | None, name: str) -> str:
+    if isinstance(value, float) and "probability" in name:
+        return of_all(value).removesuffix(" pairs")
     if isinstance(value, tuple):
         return " … ".join(f"{each:g}" for each in value)
     if isinstance(value, float):
-        return f"{value:.5g}" if 0.99 < value < 1 else f"{value:.4g}"
+        return f"{value:.4g}"
     # The source of a criterion stands in the notes and in JSON.
     return "–" if value is None else value.partition(" (")[0]

@@ -1,100 +1,49 @@
 """A rolling bearing and its two seats."""
 
 import itertools
-from typing import Annotated, ClassVar, Final, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from abu_calc.spec.table import Table, problem
+from abu_calc.spec.rolling_bearing import SIZES, RollingBearing
+from abu_calc.spec.table import problem
 from abu_calc.spec.usual import usual
 
-SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
-RingLoad = Literal["rotating", "stationary", "indeterminate"]
+SeatMaterial = Literal["steel", "stainless-steel", "cast-iron", "aluminium", "magnesium"]
+Pair = Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)]
 
 
-class Bearing(Table):
+class Bearing(RollingBearing):
     """A rolling bearing and its two seats, checked by `abu check-fit`."""
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"designation"})
 
-    name: str = Field(
-        default="bearing",
-        description="Name of the bearing, as reports print it. Default: {default}.",
-        examples=["spindle, drive end"],
-        min_length=1,
-    )
-    designation: str | None = Field(
+    shaft_fit: str | None = Field(
         default=None,
-        description="Designation whose sizes are looked up, in quotes; or give bore_mm, outer_mm and width_mm.",
-        examples=["6203"],
-        min_length=1,
-    )
-    bore_mm: float | None = Field(
-        default=None,
-        description="Bore of the bearing [mm]; {range}.",
-        examples=[17.0],
-        gt=0,
-        le=5000,
-        json_schema_extra=usual(3, 500),
-    )
-    outer_mm: float | None = Field(
-        default=None,
-        description="Outer diameter of the bearing [mm]; above bore_mm, up to {most}, {usual}.",
-        examples=[40.0],
-        gt=0,
-        le=8000,
-        json_schema_extra=usual(8, 800),
-    )
-    width_mm: float | None = Field(
-        default=None,
-        description="Width of the ring [mm]; {range}.",
-        examples=[12.0],
-        gt=0,
-        le=2000,
-        json_schema_extra=usual(2, 300),
-    )
-    chamfer_mm: float | None = Field(
-        default=None,
-        description="Chamfer of one edge; the seat is as long as the width less two of them [mm]; {range}.",
-        examples=[0.6],
-        ge=0,
-        le=100,
-        json_schema_extra=usual(0.1, 10),
-    )
-    radial_load_kN: float | None = Field(
-        default=None,
-        description="Radial load [kN]; {range}. Without it whether a ring creeps is not known.",
-        examples=[0.8],
-        ge=0,
-        le=1e5,
-        json_schema_extra=usual(0.01, 300),
-    )
-    series: Literal["light", "medium", "heavy"] = Field(
-        default="light", description="Series of the bearing: light, medium or heavy. Default: {default}."
-    )
-    inner_ring_load: RingLoad = Field(
-        default="rotating",
-        description="How the load meets the inner ring: rotating, stationary or indeterminate. Default: {default}, "
-        "as of a turning shaft.",
-    )
-    outer_ring_load: RingLoad = Field(
-        default="stationary",
-        description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: {default}.",
-    )
-    bearing_class: Literal["0", "6", "5", "4", "2"] = Field(
-        default="0",
-        description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
-        'P4, P2). Default: "{default}".',
-    )
-    shaft_fit: str = Field(
-        default="k6",
-        description="Tolerance class of the shaft by ISO 286, small letters. Default: {default}.",
+        description="Tolerance class of the shaft by ISO 286, small letters. Without it the answer is which to write.",
+        examples=["k6"],
         pattern=r"^[a-z]{1,2}[0-9]{1,2}$",
     )
-    housing_fit: str = Field(
-        default="H7",
-        description="Tolerance class of the housing by ISO 286, capital letters. Default: {default}.",
+    housing_fit: str | None = Field(
+        default=None,
+        description="Tolerance class of the housing by ISO 286, capital letters. Without it the answer is which to "
+        "write.",
+        examples=["H7"],
         pattern=r"^[A-Z]{1,2}[0-9]{1,2}$",
+    )
+    shaft_limits_um: Pair | None = Field(
+        default=None,
+        description="Least and largest deviation of the shaft from its nominal size as measured [µm], {usual} either "
+        "way. In place of shaft_fit, which may stand beside it as what the drawing asks for.",
+        examples=[[2.0, 21.0]],
+        json_schema_extra=usual(0.1, 500),
+    )
+    housing_limits_um: Pair | None = Field(
+        default=None,
+        description="Least and largest deviation of the housing from its nominal size as measured [µm], {usual} either "
+        "way. In place of housing_fit, which may stand beside it as what the drawing asks for.",
+        examples=[[0.0, 25.0]],
+        json_schema_extra=usual(0.1, 500),
     )
     shaft_rz_um: float | None = Field(
         default=None,
@@ -115,12 +64,30 @@ class Bearing(Table):
     )
     ring_temperature_difference_K: float | None = Field(
         default=None,
-        description="By how much the inner ring is warmer than its shaft [K]; {range}. When given, the loss of "
-        "interference α·d·ΔT is counted.",
+        description="By how much the inner ring is warmer than its shaft, negative when colder [K]; {range}. When "
+        "given, the loss of interference α·d·ΔT is counted.",
         examples=[10.0],
-        ge=0,
+        ge=-500,
         le=500,
         json_schema_extra=usual(0.1, 100),
+    )
+    housing_temperature_difference_K: float | None = Field(
+        default=None,
+        description="By how much the housing is warmer than the outer ring, negative when colder [K]; {range}. When "
+        "given, the loss of interference α·D·ΔT is counted.",
+        examples=[-5.0],
+        ge=-500,
+        le=500,
+        json_schema_extra=usual(0.1, 100),
+    )
+    temperature_rise_K: float | None = Field(
+        default=None,
+        description="By how much the bearing is warmer in service than at mounting (20 °C), negative when colder [K]; "
+        "{range}. When given, shafts and housings that expand otherwise than steel lose or gain interference by it.",
+        examples=[40.0],
+        ge=-300,
+        le=500,
+        json_schema_extra=usual(0.1, 150),
     )
     speed_rpm: float | None = Field(
         default=None,
@@ -148,22 +115,42 @@ class Bearing(Table):
         le=20_000,
         json_schema_extra=usual(10, 2000),
     )
-    housing_material: Literal["steel", "cast-iron", "aluminium"] = Field(
+    shaft_material: SeatMaterial = Field(
         default="steel",
-        description="Material of the housing, for stresses: steel, cast-iron or aluminium. Default: {default}.",
+        description="Material of the shaft, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}.",
     )
-    internal_clearance: Literal["C2", "CN", "C3", "C4"] | None = Field(
+    housing_material: SeatMaterial = Field(
+        default="steel",
+        description="Material of the housing, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}.",
+    )
+    shaft_strength_MPa: float | None = Field(
         default=None,
-        description="Group of radial clearance of a deep groove ball bearing: C2, CN, C3 or C4 (ISO 5753-1). When "
-        "given, the clearance left after mounting is checked.",
-        examples=["C3"],
+        description="Hoop stress that the shaft bears [MPa]; {range}. Default: a low one of its material, assumed.",
+        examples=[300.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(30, 2000),
+    )
+    housing_strength_MPa: float | None = Field(
+        default=None,
+        description="Hoop stress that the housing bears [MPa]; {range}. Default: a low one of its material, assumed.",
+        examples=[200.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(30, 2000),
+    )
+    housing_split: bool = Field(
+        default=False,
+        description="Whether the housing is split: its halves pinch a ring tighter than J7. Default: {default}.",
     )
     raceway_temperature_difference_K: float | None = Field(
         default=None,
-        description="By how much the inner ring is warmer than the outer one [K]; {range}. When given, it is taken "
-        "off the clearance left.",
+        description="By how much the inner ring is warmer than the outer one, negative when colder [K]; {range}. When "
+        "given, it is taken off the clearance left.",
         examples=[5.0],
-        ge=0,
+        ge=-500,
         le=500,
         json_schema_extra=usual(0.1, 60),
     )
@@ -184,7 +171,7 @@ class Bearing(Table):
         le=1,
         json_schema_extra=usual(0.05, 0.3),
     )
-    asked_interference_um: Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
+    asked_interference_um: Pair | None = Field(
         default=None,
         description="Least and largest interference asked of the pairs, ascending, tight positive [µm], {usual} either "
         "way. When given, "
@@ -197,33 +184,14 @@ class Bearing(Table):
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
         """A designation takes the place of sizes, and sizes that of a designation."""
         if key == "designation":
-            return (*SIZES, "chamfer_mm")
+            return (*SIZES, "chamfer_mm", "bearing_type")
+        if key in ("shaft_fit", "housing_fit"):
+            return (key.replace("fit", "limits_um"),)
         return ("designation",) if key in SIZES else ()
 
     def unused(self) -> frozenset[str]:
-        """The material of a housing whose stresses are not asked for, the friction without a starting torque."""
-        silent = {"housing_material": self.housing_outer_mm, "seat_friction": self.starting_torque_N_m}
-        return frozenset(key for key, asked in silent.items() if asked is None)
-
-    @model_validator(mode="after")
-    def _sized_one_way(self) -> Self:
-        given = [key for key in SIZES if getattr(self, key) is not None]
-        if self.designation is not None and given:
-            raise problem(
-                f"designation and {given[0]} both size the bearing",
-                given[0],
-                remedy="keep the designation, or the sizes (the designation may stand in name)",
-            )
-        absent = [key for key in SIZES if key not in given]
-        if self.designation is None and absent:
-            raise problem(
-                "the bearing has no size" if not given else "the bearing's size is not whole",
-                absent[0],
-                found=" and ".join(given) or "none",
-                allowed="designation, or all of " + ", ".join(SIZES),
-                remedy=f"add {' and '.join(absent)}" if given else 'add designation = "…"',
-            )
-        return self
+        """The friction without a starting torque."""
+        return frozenset() if self.starting_torque_N_m is not None else frozenset({"seat_friction"})
 
     @model_validator(mode="after")
     def _band_ascends(self) -> Self:
@@ -235,6 +203,19 @@ class Bearing(Table):
                 found=f"[{band[0]:g}, {band[1]:g}]",
                 remedy="write the least first",
             )
+        return self
+
+    @model_validator(mode="after")
+    def _limits_ascend(self) -> Self:
+        for key in ("shaft_limits_um", "housing_limits_um"):
+            pair = getattr(self, key)
+            if pair is not None and not pair[0] <= pair[1]:
+                raise problem(
+                    "measured limits must ascend",
+                    key,
+                    found=f"[{pair[0]:g}, {pair[1]:g}]",
+                    remedy="write the least first",
+                )
         return self
 
     @model_validator(mode="after")

@@ -20,6 +20,7 @@ MISTAKEN: Final[dict[str | None, dict[str, float]]] = {
     "N": {"kN": 1e3, "kgf": GRAVITY},
     "kN": {"N": 1.0, "kgf": GRAVITY},
     "N_m": {"N·mm": 1e-3, "N·cm": 1e-2, "kgf·m": GRAVITY},
+    "MPa": {"Pa": 1.0, "GPa": 1e9, "kgf/mm²": 1e6 * GRAVITY},
     "N_per_m": {"N/mm": 1e3, "N/µm": 1e6},
     "N_s_per_m": {"N·s/mm": 1e3},
     "kg_m2": {"kg·cm²": 1e-4, "kg·mm²": 1e-6, "g·m²": 1e-3, "g·cm²": 1e-7, "g·mm²": 1e-9},

@@ -58,8 +58,20 @@ def material(name: str) -> Material:
 
 
 def seat_material(name: str) -> Material:
-    """The material of a ring, shaft or housing: steel, cast-iron, aluminium (handbook mean values)."""
+    """The material of a ring, shaft or housing, such as steel, cast-iron, aluminium (handbook mean values)."""
     return _material("seats", name)
+
+
+def seat_strength(name: str) -> float:
+    """Stress [Pa] that a shaft or housing of usual grade bears; assumed, on the low side.
+
+    >>> seat_strength("steel") > seat_strength("magnesium")
+    True
+    """
+    strengths = toml_table("materials")["strength"]
+    if name not in strengths:
+        raise unknown("material", name, strengths)
+    return float(strengths[name])
 
 
 def _material(group: str, name: str) -> Material:

@@ -2,10 +2,11 @@
 
 import re
 from functools import cache
-from typing import NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from abu_calc.errors import InputError
-from abu_calc.standards.limits import BearingType
+from abu_calc.standards.limits import BearingType, Seat
+from abu_calc.standards.maker_fits import Kind
 from abu_calc.standards.tables import csv_rows, unknown
 from abu_calc.units import from_si, to_si
 
@@ -13,6 +14,9 @@ from abu_calc.units import from_si, to_si
 _TWO_MEANINGS = re.compile(r"(7[23]\d\d)A?")
 # GOST names end in Cyrillic letters that look Latin.
 _LATIN = str.maketrans("АВС", "ABC")
+
+Series = Literal["light", "medium", "heavy"]
+_BY_DIAMETER: Final[dict[str, Series]] = {"3": "medium", "4": "heavy"}
 
 
 class Dimensions(NamedTuple):
@@ -31,6 +35,21 @@ class Dimensions(NamedTuple):
     def deep_groove(self) -> bool:
         """Whether the bearing is a deep groove ball bearing: series 60 … 64."""
         return self.designation.startswith("6")
+
+    @property
+    def kind(self) -> Kind:
+        """What kind of bearing it is."""
+        return "tapered" if self.type == "tapered" else "ball" if self.deep_groove else "angular-contact"
+
+    @property
+    def series(self) -> Series:
+        """By the diameter series: 3 medium, 4 heavy, all others light (wide light too, as the handbooks' k has it).
+
+        >>> bearing("6305").series, bearing("7516").series, bearing("635").series
+        ('medium', 'light', 'medium')
+        """
+        number = self.designation.rstrip("ABC")
+        return _BY_DIAMETER.get(number[2] if self.type == "tapered" else number[1], "light")
 
 
 def bearing(designation: str) -> Dimensions:
@@ -71,6 +90,30 @@ def of_size(bore: float, outer: float, width: float) -> Dimensions | None:
     """
     wanted = [round(from_si(size, "mm"), 6) for size in (bore, outer, width)]
     return next((_dimensions(row) for row in csv_rows("bearings") if [*map(float, row[3:6])] == wanted), None)
+
+
+def next_size(designation: str, seat: Seat) -> Dimensions | None:
+    """The bearing of the same series next to one by its ISO name: of smaller bore for a shaft, larger for a housing.
+
+    >>> next_size("6205", "shaft").designation, next_size("6205", "housing").designation
+    ('6204', '6206')
+    """
+    suffix = designation.lstrip("0123456789")
+    series = [
+        row
+        for row in csv_rows("bearings")
+        if row[0][: -2 - len(suffix)] == designation[: -2 - len(suffix)] and row[0].endswith(suffix)
+    ]
+    places = [row[0] for row in series]
+    if designation not in places or len(designation) < 4:
+        return None
+    place = places.index(designation) + (-1 if seat == "shaft" else 1)
+    return _dimensions(series[place]) if 0 <= place < len(series) else None
+
+
+def known_names() -> frozenset[str]:
+    """All names of the table, ISO's and GOST's."""
+    return frozenset(_known())
 
 
 @cache

@@ -1,6 +1,6 @@
 """Limits of size: ISO 286-2 for shafts and housings, ISO 492 for the rings of bearings."""
 
-from functools import cache
+from functools import cache, lru_cache
 from typing import Literal, NamedTuple
 
 from abu_calc.errors import RangeError
@@ -44,6 +44,7 @@ def tolerance_classes(seat: Seat) -> tuple[str, ...]:
     return tuple(_rows(seat))
 
 
+@lru_cache(maxsize=4096)
 def part_limits(seat: Seat, tolerance_class: str, size: float) -> Limits:
     """Limit deviations of a shaft or housing of nominal size [m], by the row of the standard's table.
 

@@ -3,13 +3,14 @@
 import math
 from typing import TYPE_CHECKING, Self
 
-from abu_calc.fits.advice import SHOCK_FACTOR
+from abu_calc.fits.bearing import Bearing
+from abu_calc.fits.intensity import SHOCK_FACTOR
+from abu_calc.fits.pairing import warm_parts
 from abu_calc.fits.seats import BearingSeats, SeatFit
 from abu_calc.fits.stress import inner_ring_diameter
-from abu_calc.standards.balls import seat_material
 from abu_calc.studies.check_fit import judged_seats
 from abu_calc.studies.quantity import Record, record
-from abu_calc.studies.seat_records import Pair, um, um_pair
+from abu_calc.studies.seat_parts import Pair, um, um_pair
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
@@ -36,14 +37,21 @@ class SeatModel(Record):
     starting_pressure_Pa: float
     """At the least interference, what it loses before the shaft turns taken off."""
     raceway_rate: float
+    around_expansion_per_K: float | None
+    """Of the inner ring, or of the housing; null with those below where no temperature is given."""
+    around_rise_K: float | None
+    inside_expansion_per_K: float | None
+    inside_rise_K: float | None
 
     @classmethod
-    def of(cls, seat: SeatFit, roughness: float | None) -> Self:
-        """Of a seat and the roughness Rz [m] of its part."""
+    def of(cls, seat: SeatFit, bearing: Bearing) -> Self:
+        """Of a seat of a bearing."""
+        roughness = (bearing.shaft if seat.seat == "shaft" else bearing.housing).roughness
+        around, inside = warm_parts(bearing, seat.seat) or ((None, None), (None, None))
         joint = seat.joint
         male, female = joint.male_and_female
         halves = male.tolerance / 2, female.tolerance / 2
-        tightest, loosest = joint.interference.largest, joint.interference.smallest - joint.lasting_losses
+        tightest, loosest = joint.tightest, joint.interference.smallest - joint.lasting_losses
         return cls(
             male_limits_m=(male.lower, male.upper),
             female_limits_m=(female.lower, female.upper),
@@ -60,6 +68,10 @@ class SeatModel(Record):
             tightest_pressure_Pa=joint.pressure_rate * max(tightest, 0.0),
             starting_pressure_Pa=joint.pressure_rate * max(loosest, 0.0),
             raceway_rate=joint.raceway_rate,
+            around_expansion_per_K=around[0],
+            around_rise_K=around[1],
+            inside_expansion_per_K=inside[0],
+            inside_rise_K=inside[1],
         )
 
     # The same as reports write them.
@@ -129,8 +141,6 @@ class BearingModel(Record):
     """Of the inner ring as a plain tube."""
     shaft_bore_m: float
     speed_rad_per_s: float | None
-    ring_temperature_difference_K: float | None
-    expansion_per_K: float
     seat_friction: float
     shaft: SeatModel
     housing: SeatModel
@@ -142,13 +152,11 @@ class BearingModel(Record):
         return cls(
             bore_m=bearing.inner.diameter,
             inner_ring_diameter_m=inner_ring_diameter(bearing.inner.diameter, bearing.outer.diameter),
-            shaft_bore_m=bearing.shaft.bore,
+            shaft_bore_m=bearing.shaft.other or 0.0,
             speed_rad_per_s=bearing.service.speed,
-            ring_temperature_difference_K=bearing.service.ring_over_shaft,
-            expansion_per_K=seat_material("steel").expansion,
             seat_friction=bearing.service.seat_friction,
-            shaft=SeatModel.of(found.shaft, bearing.shaft.roughness),
-            housing=SeatModel.of(found.housing, bearing.housing.roughness),
+            shaft=SeatModel.of(found.shaft, bearing),
+            housing=SeatModel.of(found.housing, bearing),
         )
 
     @property

@@ -6,7 +6,7 @@ from typing import get_args
 
 import pytest
 
-from abu_calc.cli.bearing_options import OPTIONS
+from abu_calc.cli.bearing_options import BANDS, OPTIONS
 from abu_calc.report.fit_zones import zone_lines
 from abu_calc.spec.bearing import Bearing
 from abu_calc.spec.read import read_machine
@@ -19,7 +19,7 @@ FLESHING = ("check-fit", "mmg-3200k-knife-shaft")
 
 def zones(*seats):
     """The drawing of a shaft and a housing whose ring, part and field are these."""
-    known = check_fit(read_machine(FLESHING[1])).seats
+    known = check_fit(read_machine(FLESHING[1])).seats[:2]
     return zone_lines(*(
         replace(row, ring_limits_um=tuple(ring), part_limits_um=tuple(part), fit=fit)
         for row, (ring, part, fit) in zip(known, seats, strict=True)
@@ -54,9 +54,13 @@ def test_every_key_has_an_option_that_is_taken():
              "--ring-temperature-difference": "3", "--speed": "5800", "--shaft-bore": "4", "--housing-outer": "70",
              "--housing-material": "aluminium", "--internal-clearance": "C3",
              "--raceway-temperature-difference": "5", "--starting-torque": "0.5", "--seat-friction": "0.1",
-             "--asked-interference": "3:18", "--name": "spindle"}  # fmt: skip
-    assert set(given) | {"--bore", "--outer", "--width"} == {option.name for option in OPTIONS}
-    seen = abu("check-fit", *(word for pair in given.items() for word in pair), "--json")
+             "--asked-interference": "3:18", "--name": "spindle", "--dynamic-load-rating": "9.95",
+             "--static-load-rating": "4.75", "--housing-limits": "0:20", "--temperature-rise": "30",
+             "--housing-temperature-difference": "-4", "--shaft-material": "stainless-steel",
+             "--shaft-strength": "250", "--housing-strength": "120", "--bearing-type": "ball"}  # fmt: skip
+    others = {"--bore", "--outer", "--width", "--shaft-limits", "--housing-split"}
+    assert set(given) | others == {option.name for option in OPTIONS}
+    seen = abu("check-fit", *(word for pair in given.items() for word in pair), "--housing-split", "--json")
     shaft = seen.document["result"][0]
     assert shaft["name"] == "spindle" and shaft["asked_interference_um"] == [3, 18]
     assert {loss["name"] for loss in shaft["losses"]} == {"load", "smoothing", "temperature", "centrifugal growth"}
@@ -65,7 +69,7 @@ def test_every_key_has_an_option_that_is_taken():
 
 def test_options_take_what_their_keys_take():
     for option in OPTIONS:
-        if option.key != "asked_interference_um":  # two numbers, LEAST:MOST
+        if option.key not in BANDS:  # two numbers, LEAST:MOST
             annotation = Bearing.model_fields[option.key].annotation
             assert (float in {annotation, *get_args(annotation)} - {NoneType}) == (option.type is float), option.key
 
@@ -142,3 +146,48 @@ def test_zones_stand_where_their_limits_are(part):
         if part[1] - part[0] > 2 * scale:
             assert ("#" in line) == (part[0] < middle < part[1]), line
     assert sum("#" in line for line in lines) >= 1
+
+
+def test_without_fits_it_answers_which_to_write():
+    seen = abu("check-fit", "--designation", "608", "--radial-load-kN", "0.4")
+    assert seen.status == 0 and "Write shaft js5, housing H7, clearance CN (P/C = 0.12)." in " ".join(seen.out.split())
+    by_sizes = abu("check-fit", "--bore", "80", "--outer", "140", "--width", "33", "--radial-load-kN", "3", "--json")
+    shaft, housing = by_sizes.document["result"]
+    assert (shaft["recommended_fit"], shaft["fit_given"], housing["recommended_fit"]) == ("m6", False, "H7")
+    assert by_sizes.status == 0
+
+
+def test_lists_of_fits_stand_side_by_side():
+    seen = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "g6,k5,m5", "--housing", "H7")
+    lines = seen.out.splitlines()
+    table = [line.split() for line in lines[lines.index("") + 1 :][:4]]
+    assert table[0] == ["bearing", "shaft", "housing", "verdict", "write"]
+    assert [row[:3] for row in table[1:]] == [["g6", "g6", "H7"], ["k5", "k5", "H7"], ["m5", "m5", "H7"]]
+    assert "FAIL" in table[1] and "PASS," in table[2] and seen.status == 1
+    seen = abu("check-fit", "--designation", "6205", "--shaft", "j5,k5", "--housing", "H7,J7", "--json")
+    assert [seat["name"] for seat in seen.document["result"][::2]] == ["j5/H7", "j5/J7", "k5/H7", "k5/J7"]
+    wrong = abu("check-fit", "--designation", "6205", "--shaft", "k5,K6")
+    assert wrong.status == 2 and "--shaft" in wrong.err
+
+
+def test_sorting_and_repair_are_told():
+    out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "k6", "--housing", "H7",
+              "--asked-interference", "5:22").out  # fmt: skip
+    assert "group  shaft, µm  bore, µm" in out and "8.5 … 15   -5 … 0" in out
+    out = " ".join(abu("check-fit", "--designation", "6205", "--radial-load-kN", "2", "--shaft-limits", "-14:-6",
+                       "--shaft", "k6").out.split())  # fmt: skip
+    assert "grip left -14 … 4 µm, 5.6 needed" in out and "+2 … +15 µm" in out and "turn down to 20 mm for 6204" in out
+
+
+def test_a_ring_that_needs_no_interference_shows_none():
+    out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--full").out
+    row = next(line for line in out.splitlines() if "required interference" in line)
+    assert row.split()[-1] == "–" and "housing  load" not in out
+
+
+@pytest.mark.parametrize("text", ["P5", "5", "p5"])
+def test_classes_may_be_written_as_people_do(text):
+    seen = abu("check-fit", "--designation", "6205", "--bearing-class", text, "--radial-load-kN", "1", "--json")
+    assert seen.document["result"][0]["ring_limits_um"] == [-6, 0] and seen.status == 0
+    normal = abu("check-fit", "--designation", "6205", "--bearing-class", "Normal", "--json").document["result"][0]
+    assert normal["ring_limits_um"] == [-10, 0]

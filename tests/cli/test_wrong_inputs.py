@@ -47,8 +47,8 @@ def test_a_wrong_file(
         (("size", "avtovaz-707-222", "--set", "machine.mass_kg=5,6"), ("5.6",)),
         (("size", "avtovaz-707-222", "--set", "autobalancer.ball_count=80"), ("autobalancer.ball_count",)),
         (("size", "avtovaz-707-222", "--set", "autobalancer.race_radius_mm=40"), ("autobalancer.race_radius_mm",)),
-        (("check-fit",), ("--bore", "--shaft")),
-        (("check-fit", "--bore", "80"), ("--outer", "--width", "--shaft", "--housing")),
+        (("check-fit",), ("--bore", "--width")),
+        (("check-fit", "--bore", "80"), ("--outer", "--width")),
         (
             ("check-fit", "--bore", "80", "--outer", "70", "--width", "33", "--shaft", "k6", "--housing", "K7"),
             ("--outer",),

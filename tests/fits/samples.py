@@ -3,7 +3,8 @@
 from types import SimpleNamespace
 from typing import Any
 
-from abu_calc.fits.bearing import Bearing, from_table
+from abu_calc.fits.bearing import Bearing
+from abu_calc.fits.reading import from_table
 from abu_calc.fits.seats import BearingSeats, seat_bearing
 
 
@@ -20,7 +21,7 @@ def table(**changes: Any) -> Any:
         "series": "light",
         "inner_ring_load": "rotating",
         "outer_ring_load": "stationary",
-        "bearing_class": "0",
+        "bearing_class": None,
         "shaft_fit": "k6",
         "housing_fit": "K7",
         "shaft_rz_um": None,
@@ -35,6 +36,17 @@ def table(**changes: Any) -> Any:
         "starting_torque_N_m": None,
         "seat_friction": 0.12,
         "asked_interference_um": None,
+        "bearing_type": None,
+        "dynamic_load_rating_kN": None,
+        "static_load_rating_kN": None,
+        "shaft_limits_um": None,
+        "housing_limits_um": None,
+        "housing_temperature_difference_K": None,
+        "temperature_rise_K": None,
+        "shaft_material": "steel",
+        "shaft_strength_MPa": None,
+        "housing_strength_MPa": None,
+        "housing_split": False,
     }
     assert set(changes) <= set(example)
     return SimpleNamespace(**(example | changes))
@@ -42,7 +54,7 @@ def table(**changes: Any) -> Any:
 
 def by_designation(designation: str, **changes: Any) -> Any:
     """A table that leaves the sizes to a designation."""
-    sizes = {"bore_mm": None, "outer_mm": None, "width_mm": None, "chamfer_mm": None}
+    sizes = {"bore_mm": None, "outer_mm": None, "width_mm": None, "chamfer_mm": None, "series": None}
     return table(designation=designation, **(sizes | changes))
 
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from abu_calc.errors import RangeError
-from abu_calc.fits.advice import advised_class
+from abu_calc.fits.intensity import advised_class
 from abu_calc.fits.interference import clearance_probability, probable_interference, theoretical_interference
 from abu_calc.fits.requirement import SERIES_FACTORS, centrifugal_loss, creep_interference, load_loss
 from abu_calc.fits.stress import Tube, contact_pressure, inner_ring_stress, outer_ring_stress

@@ -28,7 +28,14 @@ def check(fit, number: int):
 
 
 @pytest.mark.parametrize(
-    ("fit", "interference", "status"), [("k6", [2, 36], "fail"), ("m6", [11, 45], "pass"), ("n6", [20, 54], "pass")]
+    ("fit", "interference", "status"),
+    [
+        ("j6", [-7, 27], "warn"),
+        ("h6", [-19, 15], "fail"),
+        ("k6", [2, 36], "warn"),
+        ("m6", [11, 45], "pass"),
+        ("n6", [20, 54], "pass"),
+    ],
 )
 def test_shaft_of_the_example(fit, interference, status):
     shaft = seats(shaft_fit=fit).shaft
@@ -72,7 +79,9 @@ def test_a_tight_fit_of_a_stationary_ring_is_called_conservative():
     assert "conservative" in check(housing, 0).message
     assert housing.recommended_fit == "H7"
     assert "conservative" not in check(seats(housing_fit="K7").housing, 0).message
-    assert seats(housing_fit="K7").housing.recommended_fit == "K7"
+    assert [seats(housing_fit=name).housing.recommended_fit for name in ("K7", "H6", "J7", "G7")] == [
+        "H7", "H6", "J7", "H7",
+    ]  # fmt: skip
 
 
 def test_stress_of_the_example():
@@ -95,7 +104,7 @@ def test_load_intensity_of_the_example():
     shaft, housing = seats().seats
     assert 1e-3 * shaft.load_intensity == pytest.approx(186.2, abs=0.05)
     assert "advise js6 (unverified advice)" in shaft.notes[2]
-    assert "advise K7 (unverified advice)" in housing.notes[2]
+    assert "advise K7 (unverified advice)" in housing.notes[1]
 
 
 def test_a_designation_brings_its_sizes_and_type():
@@ -117,7 +126,7 @@ def test_losses_count_only_where_given():
     assert [loss.name for loss in hot.shaft.losses] == ["temperature", "centrifugal growth"]
     assert hot.shaft.losses[0].value == pytest.approx(9.6e-6)
     assert hot.housing.losses == ()
-    assert check(hot.shaft, 0).status == "fail"
+    assert check(hot.shaft, 0).status == "warn"
     assert "temperature 9.6 µm" in check(hot.shaft, 0).message
 
 
@@ -125,7 +134,8 @@ def test_losses_count_only_where_given():
 def test_what_is_not_known_is_not_done(missing, said):
     found = seats(**{missing: None, "width_mm": 33.5})  # no tabulated bearing has these sizes
     shaft = found.shaft
-    assert (shaft.required_interference, shaft.required_by, shaft.recommended_fit) == (None, None, None)
+    assert (shaft.required_interference, shaft.required_by) == (None, None)
+    assert shaft.recommended_fit == "k5" and "is not known: k5 is SKF" in " ".join(shaft.notes)
     assert shaft.load_intensity is None
     assert check(shaft, 0).status == "not-done"
     assert said in check(shaft, 0).message
@@ -136,7 +146,7 @@ def test_what_is_not_known_is_not_done(missing, said):
 
 def test_a_rotating_outer_ring_must_grip():
     housing = seats(housing_fit="M7", outer_ring_load="rotating").housing
-    assert check(housing, 0).status == "fail"
+    assert check(housing, 0).status == "warn"
     assert check(housing, 0).limit == pytest.approx(9.0252, abs=1e-4)  # 0.08·√(140·3000/33)
     assert housing.recommended_fit == "P7"
     assert seats(outer_ring_load="indeterminate").housing.checks[0].status == "fail"
@@ -153,8 +163,8 @@ def test_too_tight_a_seat_fails():
     fit = by_designation("6000", shaft_fit="r6", radial_load_kN=0.1)
     shaft = seat_bearing(fit).shaft
     assert (um(shaft.interference.largest), um(shaft.permitted_interference)) == (36, 10)
-    assert check(shaft, 1).status == "fail"
-    assert check(shaft, 1).code == "ABU602"
+    assert (check(shaft, 1).code, check(shaft, 1).status) == ("ABU602", "fail")
+    assert "400 MPa of the ring (Lamé)" in check(shaft, 1).message
 
 
 def test_no_class_is_recommended_when_none_will_do():
@@ -226,7 +236,7 @@ def test_wrong_inputs_are_refused(changes, said):
 @pytest.mark.parametrize(
     ("key", "value"),
     [("radial_load_kN", -1.0), ("radial_load_kN", float("nan")), ("shaft_rz_um", float("inf")),
-     ("ring_temperature_difference_K", -5.0), ("speed_rpm", float("nan")), ("bore_mm", float("nan")),
+     ("ring_temperature_difference_K", -501.0), ("speed_rpm", float("nan")), ("bore_mm", float("nan")),
      ("bore_mm", 2.0), ("width_mm", 0.0), ("width_mm", float("inf"))],
 )  # fmt: skip
 def test_values_out_of_range_are_refused(key, value):

@@ -18,14 +18,15 @@ def test_the_study_answers_what_the_command_prints():
     assert [dataclasses.asdict(check) for check in result.checks] == document["checks"]
     assert result.status == document["status"] and list(result.warnings) == document["warnings"]
     assert result.provenance.input == document["input"]
-    assert [seat.seat for seat in result.seats] == ["shaft", "housing"]
+    assert [seat.seat for seat in result.seats] == ["shaft", "housing"] * 3
 
 
 def test_a_changed_machine_is_judged_anew():
     machine = read_machine(PRESET)
     before = check_fit(machine)
     after = check_fit(machine.changed({"bearing[0].shaft_fit": "m6"}))
-    assert before.status == "fail" and after.status == "pass"
+    creep = [next(check.status for check in one.checks if check.code == "ABU601") for one in (before, after)]
+    assert creep == ["warn", "pass"]
     assert before.seats[0].recommended_fit == "m6" == after.seats[0].fit
     assert after.provenance.overrides == (("bearing[0].shaft_fit", "m6"),)
     with pytest.raises(dataclasses.FrozenInstanceError):
@@ -38,7 +39,7 @@ def test_only_defaults_of_the_bearings_are_told(tmp_path):
     machine = read_machine(str(file))
     assert ("limits.settling_time_s", 1.0) in machine.defaults_used
     keys = [key for key, _ in check_fit(machine).provenance.defaults]
-    assert "bearing[0].shaft_fit" in keys and all(key.startswith("bearing[") for key in keys)
+    assert "bearing[0].inner_ring_load" in keys and all(key.startswith("bearing[") for key in keys)
 
 
 def test_a_machine_without_bearings_is_refused():

@@ -28,10 +28,10 @@ def test_a_file_with_every_key_is_read(tmp_path: Path) -> None:
 
 
 def test_keys_that_play_no_part_are_told(tmp_path: Path) -> None:
-    text = BASIC.replace('shaft_fit = "k6"', 'housing_material = "steel"')
+    text = BASIC.replace('shaft_fit = "k6"', "seat_friction = 0.2")
     loaded = read(tmp_path, text + '[grinding]\ncontact = "face"\ncontact_stiffness_N_per_m = 1e5\n')
     assert [warning.split()[0] for warning in loaded.warnings] == [
-        "grinding.contact_stiffness_N_per_m", "bearing[0].housing_material",
+        "grinding.contact_stiffness_N_per_m", "bearing[0].seat_friction",
     ]  # fmt: skip
 
 
@@ -84,11 +84,11 @@ def test_defaults_in_force_are_listed(tmp_path: Path) -> None:
         "swing_arm.touch_angle_deg": 2,
         "swing_arm.pressing_moment_N_m": 20,
         "bearing[0].name": "bearing",
-        "bearing[0].series": "light",
         "bearing[0].inner_ring_load": "rotating",
         "bearing[0].outer_ring_load": "stationary",
-        "bearing[0].bearing_class": "0",
-        "bearing[0].housing_fit": "H7",
+        "bearing[0].shaft_material": "steel",
+        "bearing[0].housing_material": "steel",
+        "bearing[0].housing_split": False,
         "limits.settling_time_s": 1,
     }
 
@@ -151,7 +151,8 @@ def test_bearings_alone(tmp_path: Path) -> None:
     assert isinstance(loaded.tables, BearingFile)
     assert [bearing.name for bearing in loaded.tables.bearing] == ["left", "bearing"]
     assert loaded.tables.limits.vibration_level_db == 109
-    assert dict(loaded.defaults_used)["bearing[1].shaft_fit"] == "k6"
+    assert dict(loaded.defaults_used)["bearing[1].housing_material"] == "steel"
+    assert loaded.tables.bearing[1].shaft_fit is None  # which to write is the answer, never a default
 
 
 def test_a_designation_may_have_its_own_chamfer() -> None:
