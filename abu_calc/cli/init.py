@@ -19,16 +19,16 @@ def init(
     scene: Annotated[bool, typer.Option("--scene", help="Write a scene file, for `abu simulate`.")] = False,
 ) -> Outcome:
     """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
-    from abu_calc.report.files import check_target, write
-    from abu_calc.spec.read import read_machine
+    from abu_calc.report.write import Target, check_target
+    from abu_calc.spec.presets import text_of
     from abu_calc.spec.template import scene_template, template
 
     check_target(file, force=how.force, suffixes=(".toml",))
     if scene and preset is not None:
         raise InputError("--scene and --preset exclude each other", remedy="Presets are machines.")
-    write(file, read_machine(preset).text if preset is not None else scene_template() if scene else template())
+    text = text_of(preset) if preset is not None else scene_template() if scene else template()
     next_step = Paragraph(f"{file} is written. Edit it, then: abu {'simulate' if scene else 'size'} {file}", "pass")
-    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,))
+    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,), further=(Target(file, text),))
 
 
 def register(app: typer.Typer) -> None:

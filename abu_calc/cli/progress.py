@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from abu_calc.cli.deliver import Delivery
+from abu_calc.escapes import escaped
 
 SOON = 0.7
 """Seconds that pass in silence: most commands are done by then."""
@@ -27,7 +28,7 @@ def progress(how: Delivery) -> Iterator[Callable[[str], None]]:
     later.daemon = True
     later.start()
     try:
-        yield lambda text: bar.update(task, description=text)
+        yield lambda text: bar.update(task, description=escaped(text))
     finally:
         later.cancel()
         later.join()

@@ -2,9 +2,21 @@
 
 import gc
 import os
+import signal
 import sys
+from typing import Final
 
-INTERRUPTED = 130
+INTERRUPTED: Final = 130
+ENDING: Final = ("SIGTERM", "SIGHUP", "SIGBREAK")
+"""Signals that end a command as Ctrl-C does; no system has all of them."""
+
+
+class EndedBySignal(BaseException):
+    """A signal asked the command to end."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.exit_status = 128 + number
 
 
 def main() -> None:
@@ -16,11 +28,29 @@ def main() -> None:
     gc.set_threshold(100_000)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
+        heed_signals()
         from abu_calc.cli.app import main as run
 
         run()
-    except KeyboardInterrupt:  # before the command has begun, or after it has ended
+    except (KeyboardInterrupt, EndedBySignal) as ended:  # before the command has begun, or after it has ended
         print("Interrupted.", file=sys.stderr)
-        sys.exit(INTERRUPTED)
+        sys.exit(status_of(ended))
     finally:
         gc.freeze()
+
+
+def heed_signals() -> None:
+    """From now on signals end the command in good order; those that are ignored, as under nohup, stay so."""
+    for name in ENDING:
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, _end)
+
+
+def _end(number: int, _: object) -> None:
+    raise EndedBySignal(number)
+
+
+def status_of(ended: BaseException) -> int:
+    """128 and the number of the signal."""
+    return ended.exit_status if isinstance(ended, EndedBySignal) else INTERRUPTED

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from abu_calc.escapes import escaped
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 
 STYLES = {
@@ -67,10 +68,10 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             yield "", ""
         match block:
             case Heading(text):
-                yield fill(text, width, 0, MARGIN), "bold"
+                yield fill(_running(text), width, 0, MARGIN), "bold"
             case Paragraph(text, mark, indent, hang):
                 style = STYLES.get(mark or "", "")
-                yield fill(text, width, indent, hang), style.removeprefix("bold ") if hang else style
+                yield fill(_running(text), width, indent, hang), style.removeprefix("bold ") if hang else style
             case Facts(rows):
                 yield _facts(rows, width)
             case Grid():
@@ -91,6 +92,11 @@ def fill(text: str, width: int, indent: int, hang: int = 0) -> str:
     ).replace(TIE, " ")  # fmt: skip
 
 
+def _running(text: str) -> str:
+    """Running text, in which the remedies of errors stand behind their messages."""
+    return escaped(text.replace("\n  ", " "))
+
+
 def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
     table = Table(box=None, show_header=False, padding=(0, 0, 0, MARGIN))
     label, symbol = FACT_WIDTHS
@@ -98,7 +104,7 @@ def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
     for column in (label, rest) if width < NARROW else (label, symbol, rest - symbol - MARGIN):
         table.add_column(width=column, overflow="fold")
     for name, sign, value in rows:
-        table.add_row(*((name, value) if width < NARROW else (name, sign, value)))
+        table.add_row(*map(escaped, (name, value) if width < NARROW else (name, sign, value)))
     return table
 
 
@@ -107,5 +113,5 @@ def _grid(grid: Grid) -> Table:
     for index, title in enumerate(grid.header):
         table.add_column(title, justify="right" if index in grid.right else "left", overflow="fold")
     for row in grid.rows:
-        table.add_row(*(Text(cell, style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
+        table.add_row(*(Text(escaped(cell), style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
     return table

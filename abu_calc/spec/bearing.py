@@ -5,9 +5,11 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from abu_calc.spec.table import Table, problem
+from abu_calc.spec.table import Name, Table, problem
 from abu_calc.spec.usual import usual
 
+MOST_BEARINGS: Final = 100
+"""In one file; the longest report on them takes some seconds."""
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 RingLoad = Literal["rotating", "stationary", "indeterminate"]
 
@@ -17,13 +19,13 @@ class Bearing(Table):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"designation"})
 
-    name: str = Field(
+    name: Name = Field(
         default="bearing",
         description="Name of the bearing, as reports print it. Default: {default}.",
         examples=["spindle, drive end"],
         min_length=1,
     )
-    designation: str | None = Field(
+    designation: Name | None = Field(
         default=None,
         description="Designation whose sizes are looked up, in quotes; or give bore_mm, outer_mm and width_mm.",
         examples=["6203"],
