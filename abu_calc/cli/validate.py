@@ -13,14 +13,15 @@ from abu_calc.report.outcome import Outcome
 def validate(
     files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Machine or scene files, or names of presets.")],
 ) -> Outcome:
-    """Check machine and scene files: keys, types, ranges, rules between keys, usual ranges. Computes nothing."""
-
+    """Check files: keys, types, ranges, rules between keys, and whether their commands would take them."""
     from abu_calc.spec.read_scene import read_any
+    from abu_calc.studies.usable import refuse_unusable
 
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
             loaded = read_any(file)
+            refuse_unusable(loaded)
         except InputError as error:
             faults.append(error)
             continue
