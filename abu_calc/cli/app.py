@@ -9,7 +9,7 @@ from typing import Final
 import typer
 
 from abu_calc.cli.deliver import fail
-from abu_calc.cli.start import INTERRUPTED, EndedBySignal, status_of
+from abu_calc.cli.signals import INTERRUPTED, EndedBySignal, status_of
 from abu_calc.cli.streams import make_safe
 from abu_calc.errors import AbuError, InputError, OutputError
 from abu_calc.escapes import escaped, shortened

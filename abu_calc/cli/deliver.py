@@ -5,8 +5,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from abu_calc.cli.start import EndedBySignal, status_of
-from abu_calc.errors import AbuError, OutputError
+from abu_calc.cli.signals import EndedBySignal, status_of
+from abu_calc.errors import AbuError
 from abu_calc.escapes import escaped, escaped_lines, shortened
 from abu_calc.report.outcome import Outcome, document, error_document, to_json
 
@@ -32,9 +32,8 @@ class Delivery(NamedTuple):
             check_target(self.output, force=self.force, suffixes=tuple(FORMATS))
 
 
-def deliver(outcome: Outcome, how: Delivery) -> int:
-    """Write the files that are asked for, print the result, return the exit status."""
-    wrote = _write(outcome, how)
+def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
+    """Print the result, return the exit status; `wrote`: files were written, as who interrupts is told."""
     try:
         _print(outcome, how)
     except (KeyboardInterrupt, EndedBySignal) as ended:
@@ -60,23 +59,6 @@ def _print(outcome: Outcome, how: Delivery) -> None:
 
         shown = outcome.blocks if how.full else outcome.screen
         show(shown, color=how.color and not os.environ.get("NO_COLOR"))
-
-
-def _write(outcome: Outcome, how: Delivery) -> bool:
-    """All files, if there are any; where one cannot be written, what was computed is told all the same."""
-    if how.output is None and not outcome.further:
-        return False
-    from abu_calc.report.files import as_file
-    from abu_calc.report.write import Target, write
-
-    own = () if how.output is None else (Target(how.output, as_file(outcome, how.output.suffix.lower())),)
-    try:
-        write((*outcome.further, *own), force=how.force)
-    except OutputError as error:
-        computed = f"What was computed: {outcome.status}, exit status {outcome.exit_status} without the file."
-        error.remedy = " ".join(part for part in (error.remedy, computed) if part)
-        raise
-    return True
 
 
 def fail(command: str, error: BaseException, as_json: bool) -> int:

@@ -2,21 +2,9 @@
 
 import gc
 import os
-import signal
 import sys
-from typing import Final
 
-INTERRUPTED: Final = 130
-ENDING: Final = ("SIGTERM", "SIGHUP", "SIGBREAK")
-"""Signals that end a command as Ctrl-C does; no system has all of them."""
-
-
-class EndedBySignal(BaseException):
-    """A signal asked the command to end."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
-        self.exit_status = 128 + number
+from abu_calc.cli.signals import EndedBySignal, heed_signals, status_of
 
 
 def main() -> None:
@@ -37,20 +25,3 @@ def main() -> None:
         sys.exit(status_of(ended))
     finally:
         gc.freeze()
-
-
-def heed_signals() -> None:
-    """From now on signals end the command in good order; those that are ignored, as under nohup, stay so."""
-    for name in ENDING:
-        number = getattr(signal, name, None)
-        if number is not None and signal.getsignal(number) == signal.SIG_DFL:
-            signal.signal(number, _end)
-
-
-def _end(number: int, _: object) -> None:
-    raise EndedBySignal(number)
-
-
-def status_of(ended: BaseException) -> int:
-    """128 and the number of the signal."""
-    return ended.exit_status if isinstance(ended, EndedBySignal) else INTERRUPTED

@@ -9,7 +9,6 @@ import io
 import os
 import sys
 import time
-from pathlib import Path
 from typing import Any, Final
 
 PLAIN: Final = str.maketrans(
@@ -89,7 +88,7 @@ def _fill_gaps() -> None:
 def _safe(stream: Any) -> tuple[io.TextIOWrapper, Outlet]:
     buffer = getattr(stream, "buffer", None)
     if buffer is None:  # closed, or none of the system's
-        outlet = Outlet(Path(os.devnull).open("wb", buffering=0))
+        outlet = Outlet(io.FileIO(os.devnull, "w"))
         return io.TextIOWrapper(io.BufferedWriter(outlet), encoding="utf-8", errors="spelled"), outlet
     outlet = Outlet(getattr(buffer, "raw", buffer))
     encoding = "utf-8" if os.name == "nt" and not outlet.isatty() else stream.encoding

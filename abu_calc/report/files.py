@@ -11,7 +11,6 @@ from abu_calc.report.text import as_text
 from abu_calc.studies.quantity import flattened
 from abu_calc.units import unit_of
 
-
 FORMULAS: Final = ("=", "+", "-", "@")
 """With what texts begin that spreadsheets take for formulas."""
 

@@ -40,5 +40,3 @@ def _scene(description: SceneDescription) -> None:
 
     with description.located():
         lasting(scene_from(description.scene), None, "scene.duration_s")
-
-
