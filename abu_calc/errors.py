@@ -10,9 +10,12 @@ Statuses 0 and 1 are no errors: they tell whether every check of a result passed
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from abu_calc.escapes import escaped, shortened
+
+LONGEST_FILE_NAME: Final = 1000
+"""Characters of it that messages show."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class Place:
     key: str | None = None
 
     def __str__(self) -> str:
-        where = escaped(self.file or "")
+        where = shortened(escaped(self.file or ""), LONGEST_FILE_NAME)
         if self.line is not None:
             where += f":{self.line}" if where else f"line {self.line}"
         return ": ".join(part for part in (where, shortened(escaped(self.key or ""))) if part)

@@ -18,11 +18,18 @@ def progress(how: Delivery) -> Iterator[Callable[[str], None]]:
     if how.quiet or not sys.stderr.isatty():
         yield lambda _: None
         return
-    from rich.console import Console
+    import shutil
+
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+    from abu_calc.report.text import console
+
     columns = SpinnerColumn("line"), TextColumn("{task.description}", markup=False), TimeElapsedColumn()
-    bar = Progress(*columns, console=Console(stderr=True, no_color=not how.color), transient=True)
+    bar = Progress(
+        *columns,
+        console=console(shutil.get_terminal_size().columns, stderr=True, no_color=not how.color),
+        transient=True,
+    )
     task = bar.add_task("", total=None)
     later = threading.Timer(SOON, bar.start)
     later.daemon = True

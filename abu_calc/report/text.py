@@ -7,6 +7,7 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -27,6 +28,8 @@ WORDS = {"WARN": "warn", "FAIL": "fail", "NOT DONE": "not-done"}
 WIDEST = 100
 MARGIN = 2
 """Blanks before each column of a table, and before running text."""
+HEADING_HANG = 6
+"""Before further lines of a heading, so that no word of a long name stands where verdicts do."""
 FACT_WIDTHS = (35, 17)
 """Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
 
@@ -44,15 +47,21 @@ def show(blocks: Iterable[Block], *, color: bool = True) -> None:
     if not (color and (sys.stdout.isatty() or os.environ.get("FORCE_COLOR"))):
         print(as_text(blocks, width), end="")
         return
-    out = Console(width=width, markup=False, highlight=False, emoji=False)
+    out = console(width)
     for part in _parts(blocks, width):
         out.print(Text(*part) if isinstance(part, tuple) else part)
+
+
+def console(width: int, **how: Any) -> Console:
+    """A console of so many columns: Rich does not bear everything that COLUMNS and LINES may be."""
+    plain = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
+    return Console(width=width, markup=False, highlight=False, emoji=False, _environ=plain, **how)
 
 
 def as_text(blocks: Iterable[Block], width: int = 80) -> str:
     """Blocks as plain text for a file or a pipe, no blanks at the ends of lines."""
     buffer = io.StringIO()
-    out = Console(file=buffer, width=width, markup=False, highlight=False, emoji=False, color_system=None)
+    out = console(width, file=buffer, color_system=None)
     for part in _parts(blocks, width):
         if isinstance(part, tuple):
             buffer.write(part[0] + "\n")
@@ -68,10 +77,10 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             yield "", ""
         match block:
             case Heading(text):
-                yield fill(_running(text), width, 0, MARGIN), "bold"
+                yield fill(escaped(text), width, 0, HEADING_HANG), "bold"
             case Paragraph(text, mark, indent, hang):
                 style = STYLES.get(mark or "", "")
-                yield fill(_running(text), width, indent, hang), style.removeprefix("bold ") if hang else style
+                yield fill(escaped(text), width, indent, hang), style.removeprefix("bold ") if hang else style
             case Facts(rows):
                 yield _facts(rows, width)
             case Grid():
@@ -90,11 +99,6 @@ def fill(text: str, width: int, indent: int, hang: int = 0) -> str:
         together, width, initial_indent=" " * indent, subsequent_indent=" " * (indent + hang), break_long_words=False,
         break_on_hyphens=False,
     ).replace(TIE, " ")  # fmt: skip
-
-
-def _running(text: str) -> str:
-    """Running text, in which the remedies of errors stand behind their messages."""
-    return escaped(text.replace("\n  ", " "))
 
 
 def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:

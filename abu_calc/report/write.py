@@ -51,9 +51,12 @@ def write(targets: Iterable[Target], *, force: bool) -> None:
         for temporary, path in ready:
             _place(temporary, path, force=force)
             named += f"{', ' if named else 'Written is: '}{path}"
+    except OutputError as error:
+        error.remedy = ". ".join(part for part in ((error.remedy or "").removesuffix("."), named) if part) + "."
+        raise
     except OSError as error:
         message = f"cannot be written: {error.strerror or error}"
-        raise OutputError(message, place=Place(str(path)), remedy=named or None) from error
+        raise OutputError(message, place=Place(str(path)), remedy=f"{named}." if named else None) from error
     finally:
         for temporary, _ in ready:
             with contextlib.suppress(OSError):
