@@ -25,11 +25,8 @@ def progress(how: Delivery) -> Iterator[Callable[[str], None]]:
     from abu_calc.report.text import console
 
     columns = SpinnerColumn("line"), TextColumn("{task.description}", markup=False), TimeElapsedColumn()
-    bar = Progress(
-        *columns,
-        console=console(shutil.get_terminal_size().columns, stderr=True, no_color=not how.color),
-        transient=True,
-    )
+    shown_on = console(shutil.get_terminal_size().columns, stderr=True, no_color=not how.color)
+    bar = Progress(*columns, console=shown_on, transient=True)
     task = bar.add_task("", total=None)
     later = threading.Timer(SOON, bar.start)
     later.daemon = True

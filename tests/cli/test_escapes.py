@@ -87,8 +87,8 @@ def test_names_of_files_are_harmless_in_reports(tmp_path: Path, name: str) -> No
 def test_a_long_name_forges_no_verdict(tmp_path: Path) -> None:
     """Lines of a name that is wrapped stand deeper than verdicts."""
     seen = abu("check-fit", str(named(tmp_path, "x" * 76 + " PASS: all good")))
-    verdicts = [line for line in seen.out.splitlines() if re.match(r" {0,2}(PASS|FAIL|NOT DONE)\\b", line)]
-    assert len(verdicts) == 1 and verdicts[0] != "  PASS: all good"
+    assert "PASS: all good" in seen.out
+    assert not [line for line in seen.out.splitlines() if re.match(r" {0,2}PASS", line)]
 
 
 @pytest.mark.parametrize("arguments", [

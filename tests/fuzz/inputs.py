@@ -195,12 +195,8 @@ def command_lines(draw: st.DrawFn) -> tuple[str, ...]:
             options.append(draw(st.sampled_from(WORDS + ODD_TEXTS)))
     # Without a file all presets are verified, for seconds.
     first = (FILE,) if command == "verify" else ()
-    return (
-        command,
-        *first,
-        *draw(st.lists(st.sampled_from((FILE, FILE, "-", "x.toml", "msh-230")), max_size=2)),
-        *options,
-    )
+    files = draw(st.lists(st.sampled_from((FILE, FILE, "-", "x.toml", "msh-230")), max_size=2))
+    return (command, *first, *files, *options)
 
 
 def files_of(kind: Kind) -> st.SearchStrategy[Input]:
