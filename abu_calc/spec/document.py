@@ -70,10 +70,12 @@ class Reading:
             yield
         except InputError as error:
             key = error.place.key
-            if error.place.file is not None or not self.file or (key or "").startswith("--"):
+            if error.place.file is not None or (key or "").startswith("--"):
                 raise
             if given := self._override_of(key or ""):
                 raise given.blamed(error) from None
+            if not self.file:
+                raise
             raise error.at(Place(self.file, self.lines.get(key) if key else None, key)) from None
 
     def _override_of(self, key: str) -> "Override | None":

@@ -9,7 +9,7 @@ from typing import Final
 from abu_calc.errors import InputError, Place
 from abu_calc.spec import presets
 
-LARGEST_FILE: Final = 1_000_000
+LARGEST_FILE: Final = 200_000
 """Bytes of the largest file that is read; ours have a few thousand."""
 STANDARD_INPUT: Final = "-"
 

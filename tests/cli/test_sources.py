@@ -11,6 +11,7 @@ import pytest
 import abu_calc
 from abu_calc.analysis.simulate import simulate
 from abu_calc.sizing import size
+from abu_calc.spec import bounds, lines
 from abu_calc.spec.bearing import MOST_BEARINGS
 from abu_calc.studies.subject import subject_of
 from tests.cli.runner import abu
@@ -73,6 +74,14 @@ def test_what_looks_deep_and_is_not(tmp_path: Path) -> None:
     text = BASIC.replace("imbalance_g_mm = 150.0", f"measured_level_db = [{levels}] # {dots}")
     file.write_text(text.replace('"straight grinder"', f"'''{dots}'''"), encoding="utf-8")
     assert abu("validate", str(file)).status == 0
+
+
+@pytest.mark.parametrize("text", ['a = "' + '\\"' * 5000, "a = '''" + "'x" * 5000, 'a = """' + 'x"' * 5000])
+@pytest.mark.parametrize("token", [bounds._TOKEN, lines._TOKEN])
+def test_a_string_without_end_is_looked_through_once(text: str, token: re.Pattern[str]) -> None:
+    """Time would grow with the square of the length, if its end were looked for from each quote in it."""
+    found = [one[0] for one in token.finditer(text)]
+    assert "".join(found) == text and len(found) <= 6
 
 
 @pytest.mark.parametrize(("header", "key"), [("[[bearing]]\ndesignation = '6203'\n", "bearing"),

@@ -128,7 +128,7 @@ def damaged(draw: st.DrawFn, text: str) -> bytes:
             where, raw = draw(st.integers(0, len(text))), text.encode()
             return raw[:where] + draw(st.binary(max_size=8)) + raw[where:]
         case "deep":
-            piece = draw(st.sampled_from(("a.", "[", "{a=", "[a.", '"a".')))
+            piece = draw(st.sampled_from(("a.", "[", "{a=", "[a.", '"a".', '\\"', '"', "'''x", '"""x')))
             lines.insert(at, piece * draw(st.sampled_from((10, 40, 3000))))
         case "many":
             row = draw(st.sampled_from(("[[bearing]]", "[[machine.handle]]", "k{} = 1", "[t{}]", "[[scene.race]]")))
