@@ -10,7 +10,12 @@ Statuses 0 and 1 are no errors: they tell whether every check of a result passed
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
+
+from abu_calc.escapes import escaped, shortened
+
+LONGEST_FILE_NAME: Final = 1000
+"""Characters of it that messages show."""
 
 
 @dataclass(frozen=True)
@@ -22,10 +27,10 @@ class Place:
     key: str | None = None
 
     def __str__(self) -> str:
-        where = self.file or ""
+        where = shortened(escaped(self.file or ""), LONGEST_FILE_NAME)
         if self.line is not None:
             where += f":{self.line}" if where else f"line {self.line}"
-        return ": ".join(part for part in (where, self.key) if part)
+        return ": ".join(part for part in (where, shortened(escaped(self.key or ""))) if part)
 
 
 class AbuError(Exception):
@@ -51,7 +56,8 @@ class InputError(AbuError):
         remedy: str | None = None,
     ) -> None:
         super().__init__(message)
-        self.message, self.place, self.found, self.allowed, self.remedy = message, place, found, allowed, remedy
+        self.message, self.place, self.allowed, self.remedy = message, place, allowed, remedy
+        self.found = None if found is None else shortened(found)
 
     def at(self, place: Place, more: str = "") -> "InputError":
         """The same error at another place (a reader knows file and line, a formula only the quantity).
@@ -63,10 +69,10 @@ class InputError(AbuError):
 
     def __str__(self) -> str:
         head = f"{self.place}: {self.message}" if str(self.place) else self.message
-        facts = [f"found {self.found}"] if self.found is not None else []
-        facts += [f"allowed: {self.allowed}"] if self.allowed is not None else []
+        facts = [f"found {escaped(self.found)}"] if self.found is not None else []
+        facts += [f"allowed: {escaped(self.allowed)}"] if self.allowed is not None else []
         text = head + (f" ({'; '.join(facts)})" if facts else "")
-        return text + (f"\n  {self.remedy}" if self.remedy else "")
+        return text + (f"\n  {escaped(self.remedy)}" if self.remedy else "")
 
 
 class RangeError(InputError):

@@ -21,6 +21,7 @@ from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas import motion
 from abu_calc.progress import Progress, silent
+from abu_calc.scenes.from_scene import lasting
 
 ACCURACY = motion.ACCURACY
 
@@ -87,7 +88,7 @@ def simulate(
     reaches the accuracy: the motion is then chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
-    scene, warnings = with_parted_balls(scene)
+    scene, warnings = with_parted_balls(lasting(scene, None, "scene.duration"))
     wanted = np.asarray(sample_times, dtype=float)
     if not np.all((wanted >= 0) & (wanted <= scene.duration)):
         raise InputError("sample times must lie within the run", allowed=f"0 … {scene.duration:g} s")

@@ -1,17 +1,30 @@
 """The command line: parse, run one command, render its outcome, end with its exit status."""
 
-import codecs
 import importlib
 import os
 import sys
 import warnings
+from typing import Final
 
 import typer
 
 from abu_calc.cli.deliver import fail
-from abu_calc.cli.start import INTERRUPTED
+from abu_calc.cli.signals import INTERRUPTED, EndedBySignal, status_of
+from abu_calc.cli.streams import make_safe
 from abu_calc.errors import AbuError, InputError, OutputError
+from abu_calc.escapes import escaped, shortened
 from abu_calc.version import __version__
+
+LONGEST_MESSAGE: Final = 400
+"""Characters of what the parser of command lines says, which repeats what it was given."""
+
+MEANINGS: Final = {
+    0: "no check failed",
+    1: "a check failed or could not be done",
+    2: "the input or the options are wrong",
+    3: "no trustworthy number could be computed",
+}
+"""What each exit status tells."""
 
 COMMANDS = (
     "size",
@@ -64,20 +77,22 @@ def _main(
 
 def main(arguments: list[str] | None = None) -> None:
     """Run `abu` and leave the process with its exit status."""
-    _make_streams_safe()
+    outlet = make_safe()
     warnings.showwarning = _warn
-    given = sys.argv[1:] if arguments is None else arguments
-    status = run(given)
-    try:
-        sys.stdout.flush()
-    except OSError:  # nobody reads on, or the disk is full: what could be printed is printed
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    status = run(sys.argv[1:] if arguments is None else arguments)
+    sys.stdout.flush()
+    if outlet.fault:
+        print(
+            f"abu: standard output cannot be written: {outlet.fault}; {MEANINGS.get(status, 'interrupted')}.",
+            file=sys.stderr,
+        )
+        status = OutputError.exit_status
     sys.exit(status)
 
 
 def _warn(message: Warning | str, *_: object, **__: object) -> None:
     """What goes wrong and is done without: a line, not a line of code."""
-    print(f"warning: {message}", file=sys.stderr)
+    print(f"warning: {escaped(str(message))}", file=sys.stderr)
 
 
 def run(arguments: list[str]) -> int:
@@ -89,46 +104,20 @@ def run(arguments: list[str]) -> int:
         status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
     except AbuError as error:
         return fail(command, error, as_json)
-    except (KeyboardInterrupt, typer.Abort):
+    except (KeyboardInterrupt, EndedBySignal) as ended:
+        status = status_of(ended)
+    except typer.Abort:
         status = INTERRUPTED
-    except BrokenPipeError:
-        return 0
     except OSError as error:
-        return fail(command, OutputError(f"cannot be written: {error.strerror}"), as_json=False)
+        return fail(command, OutputError(f"refused by the system: {error.strerror or error}"), as_json)
     except Exception as error:
         # Errors of the parser of command lines, whichever Typer brings along, word themselves so.
         if worded := getattr(error, "format_message", None):
             asked = f"Try `abu {command} --help`." if command in COMMANDS else "Try `abu --help`."
-            return fail(command, InputError(worded(), remedy=asked), as_json)
+            return fail(command, InputError(shortened(escaped(worded()), LONGEST_MESSAGE), remedy=asked), as_json)
         if os.environ.get("ABU_DEBUG"):
             raise
         return fail(command, error, as_json)
-    if status == INTERRUPTED:
+    if isinstance(status, int) and status >= INTERRUPTED - 2:
         print("Interrupted; nothing was written.", file=sys.stderr)
     return status if isinstance(status, int) else 0
-
-
-PLAIN = str.maketrans(
-    {"µ": "u", "×": "x", "·": "*", "Ø": "dia ", "√": "sqrt", "…": "...", "→": "->", "−": "-", "–": "-", "±": "+-",
-     "≤": "<=", "≥": ">=", "°": " deg", "²": "^2", "³": "^3", "Ω": "Omega", "ω": "omega", "Δ": "Delta", "ε": "eps",
-     "β": "beta", "ρ": "rho", "σ": "sigma", "κ": "kappa", "θ": "theta",
-     "α": "alpha", "φ": "phi", "γ": "gamma", "π": "pi", "₀": "0"}
-)  # fmt: skip
-
-
-def _spelled(error: UnicodeError) -> tuple[str, int]:
-    """What a console without a sign gets instead of it, "?" where there is nothing better."""
-    if not isinstance(error, UnicodeEncodeError):
-        raise error
-    text = error.object[error.start : error.end].translate(PLAIN)
-    return "".join(sign if sign.isascii() else "?" for sign in text), error.end
-
-
-def _make_streams_safe() -> None:
-    """A character that a console cannot show must not end a calculation; pipes on Windows get UTF-8."""
-    codecs.register_error("spelled", _spelled)
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            if os.name == "nt" and not stream.isatty():
-                stream.reconfigure(encoding="utf-8")
-            stream.reconfigure(errors="spelled")

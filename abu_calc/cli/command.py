@@ -12,6 +12,7 @@ from typing import Annotated, Any, get_args
 import typer
 
 from abu_calc.cli.deliver import Delivery, deliver
+from abu_calc.cli.filing import write_files
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
 
@@ -60,7 +61,7 @@ def add_command(
         wanted = {"how": how} if "how" in own else {}
         with _naming_options(options):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
-        status = deliver(outcome, how)
+        status = deliver(outcome, how, wrote=write_files(outcome, how))
         if status:
             raise typer.Exit(status)
 

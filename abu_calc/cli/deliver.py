@@ -5,7 +5,9 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from abu_calc.cli.signals import EndedBySignal, status_of
 from abu_calc.errors import AbuError
+from abu_calc.escapes import escaped, escaped_lines, shortened
 from abu_calc.report.outcome import Outcome, document, error_document, to_json
 
 BUG = 3
@@ -24,21 +26,30 @@ class Delivery(NamedTuple):
     def check(self) -> None:
         """Refuse before computing what could not be written after."""
         if self.output is not None:
-            from abu_calc.report.files import FORMATS, check_target
+            from abu_calc.report.files import FORMATS
+            from abu_calc.report.write import check_target
 
             check_target(self.output, force=self.force, suffixes=tuple(FORMATS))
 
 
-def deliver(outcome: Outcome, how: Delivery) -> int:
-    """Write the file if one is asked for, print the result, return the exit status."""
-    if how.output is not None:
-        from abu_calc.report.files import as_file, write
+def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
+    """Print the result, return the exit status; `wrote`: files were written, as who interrupts is told."""
+    try:
+        _print(outcome, how)
+    except (KeyboardInterrupt, EndedBySignal) as ended:
+        if not wrote:
+            raise
+        print("Interrupted; the files were written.", file=sys.stderr)
+        sys.exit(status_of(ended))
+    return outcome.exit_status
 
-        write(how.output, as_file(outcome, how.output.suffix.lower()))
+
+def _print(outcome: Outcome, how: Delivery) -> None:
+    """On standard output; where that is for programs, people read the warnings on standard error."""
     if how.json:
         print(to_json(document(outcome)))
         for warning in () if how.quiet else outcome.warnings:
-            print(f"warning: {warning}", file=sys.stderr)
+            print(f"warning: {escaped(warning)}", file=sys.stderr)
     elif how.quiet:
         pass
     elif outcome.plain is not None:
@@ -48,19 +59,18 @@ def deliver(outcome: Outcome, how: Delivery) -> int:
 
         shown = outcome.blocks if how.full else outcome.screen
         show(shown, color=how.color and not os.environ.get("NO_COLOR"))
-    return outcome.exit_status
 
 
 def fail(command: str, error: BaseException, as_json: bool) -> int:
     """Tell an error: a line or two on standard error, the envelope on standard output if JSON was asked for."""
     if as_json:
         print(to_json(error_document(command, error)))
-    head = " ".join(part for part in ("abu", command) if part)
+    head = " ".join(part for part in ("abu", shortened(escaped(command))) if part)
     if isinstance(error, AbuError):
-        print(f"{head}: {error}", file=sys.stderr)
+        print(f"{head}: {escaped_lines(str(error))}", file=sys.stderr)
         return error.exit_status
     print(
-        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {error}\n"
+        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {shortened(escaped(str(error)))}\n"
         "  Set ABU_DEBUG=1 to see where, and report it with your file.",
         file=sys.stderr,
     )

@@ -22,8 +22,9 @@ def init(
     ] = False,
 ) -> Outcome:
     """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
-    from abu_calc.report.files import check_target, write
+    from abu_calc.report.write import Target, check_target
     from abu_calc.spec.kinds import BY_NAME, kind_of
+    from abu_calc.spec.presets import text_of
     from abu_calc.spec.read_file import read_file
 
     check_target(file, force=how.force, suffixes=(".toml",))
@@ -32,14 +33,12 @@ def init(
         options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
         raise InputError(f"{' and '.join(options)} exclude each other", remedy="A preset is of the kind it is.")
     if preset is not None:
-        copied = read_file(preset)
-        kind, text = kind_of(copied.document.content), copied.text
+        text, kind = text_of(preset), kind_of(read_file(preset).document.content)
     else:
         kind = BY_NAME[asked[0] if asked else "machine"]
         text = kind.call("template")
-    write(file, text)
     next_step = Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")
-    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,))
+    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,), further=(Target(file, text),))
 
 
 def register(app: typer.Typer) -> None:

@@ -11,11 +11,11 @@ from abu_calc.report.outcome import Outcome
 
 def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Print this preset.")] = None) -> Outcome:
     """List the files that come with abu-calc, or print one."""
-    from abu_calc.spec.presets import names
+    from abu_calc.spec.presets import names, text_of
     from abu_calc.spec.read_file import read_file
 
     if name is not None:
-        text = read_file(name).text
+        text = text_of(name)
         return Outcome("presets", {"name": name, "text": text}, (), plain=text)
     listed = [{"name": each, "machine": read_file(each).title} for each in names()]
     blocks = (

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from abu_calc.cli.deliver import Delivery
+from abu_calc.escapes import escaped
 
 SOON = 0.7
 """Seconds that pass in silence: most commands are done by then."""
@@ -17,17 +18,21 @@ def progress(how: Delivery) -> Iterator[Callable[[str], None]]:
     if how.quiet or not sys.stderr.isatty():
         yield lambda _: None
         return
-    from rich.console import Console
+    import shutil
+
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+    from abu_calc.report.text import console
+
     columns = SpinnerColumn("line"), TextColumn("{task.description}", markup=False), TimeElapsedColumn()
-    bar = Progress(*columns, console=Console(stderr=True, no_color=not how.color), transient=True)
+    shown_on = console(shutil.get_terminal_size().columns, stderr=True, no_color=not how.color)
+    bar = Progress(*columns, console=shown_on, transient=True)
     task = bar.add_task("", total=None)
     later = threading.Timer(SOON, bar.start)
     later.daemon = True
     later.start()
     try:
-        yield lambda text: bar.update(task, description=text)
+        yield lambda text: bar.update(task, description=escaped(text))
     finally:
         later.cancel()
         later.join()

@@ -1,5 +1,6 @@
 """`abu simulate MACHINE|SCENE`: integrate one scene to the accuracy asked for."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -37,9 +38,9 @@ def simulate(
     ] = False,
 ) -> Outcome:
     """Integrate one scene: amplitude, level, settling time, where the balls end."""
-    from abu_calc.report.files import write
     from abu_calc.report.simulate_text import simulate_blocks, simulate_screen
     from abu_calc.report.trajectory import trajectory_csv
+    from abu_calc.report.write import Target
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.simulate import simulate as study
 
@@ -58,14 +59,14 @@ def simulate(
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )
-    if trajectory and result.motion:  # when nothing can fail or be interrupted for long any more
-        write(trajectory, trajectory_csv(result.motion))
-    return Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
+    found = Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
+    moved = (Target(trajectory, trajectory_csv(result.motion)),) if trajectory and result.motion else ()
+    return replace(found, further=moved)
 
 
 def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) -> None:
     """Refuse what cannot be written before anything is computed."""
-    from abu_calc.report.files import check_target
+    from abu_calc.report.write import check_target
 
     if trajectory is None:
         if samples is not None:

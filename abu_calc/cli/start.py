@@ -4,7 +4,7 @@ import gc
 import os
 import sys
 
-INTERRUPTED = 130
+from abu_calc.cli.signals import EndedBySignal, heed_signals, status_of
 
 
 def main() -> None:
@@ -16,11 +16,12 @@ def main() -> None:
     gc.set_threshold(100_000)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
+        heed_signals()
         from abu_calc.cli.app import main as run
 
         run()
-    except KeyboardInterrupt:  # before the command has begun, or after it has ended
+    except (KeyboardInterrupt, EndedBySignal) as ended:  # before the command has begun, or after it has ended
         print("Interrupted.", file=sys.stderr)
-        sys.exit(INTERRUPTED)
+        sys.exit(status_of(ended))
     finally:
         gc.freeze()

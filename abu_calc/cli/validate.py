@@ -15,14 +15,15 @@ def validate(
         list[str], typer.Argument(metavar="FILE...", help="Files of machines, scenes or readings, or names of presets.")
     ],
 ) -> Outcome:
-    """Check files: keys, types, ranges, rules between keys, usual ranges. Computes nothing."""
-
+    """Check files: keys, types, ranges, rules between keys, and whether their commands would take them."""
     from abu_calc.spec.read_file import read_file
+    from abu_calc.studies.usable import refuse_unusable
 
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
             loaded = read_file(file)
+            refuse_unusable(loaded)
         except InputError as error:
             faults.append(error)
             continue

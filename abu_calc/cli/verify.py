@@ -1,6 +1,5 @@
 """`abu verify [FILE|FOLDER …]`: hold files of machines and readings to the results they expect."""
 
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +8,7 @@ import typer
 from abu_calc.cli.command import add_command
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
-from abu_calc.errors import InputError, Place
+from abu_calc.errors import InputError, OutputError, Place
 from abu_calc.report.blocks import Paragraph
 from abu_calc.report.outcome import Outcome
 
@@ -50,36 +49,54 @@ def verify(
 
 def _updated(machines: "list[Reading]", tell: "Progress") -> Outcome:
     """All files with their present values written into [expected]."""
-    results, blocks = [], []
-    for index, machine in enumerate(machines, 1):
+    from abu_calc.report.write import Target, write
+
+    paths = [_path_of(machine) for machine in machines]
+    results, blocks, targets = [], [], []
+    for index, (path, machine) in enumerate(zip(paths, machines, strict=True), 1):
         tell(f"{index}/{len(machines)} {machine.file}")
-        written = _update(machine)
-        results.append({"file": machine.file, "written": written})
-        blocks.append(Paragraph(f"{machine.file}: {written} values written", "pass"))
+        text, count = _updated_text(machine)
+        targets.append(Target(path, text))
+        results.append({"file": machine.file, "written": count})
+        blocks.append(Paragraph(f"{machine.file}: {count} values written", "pass"))
+    for machine in machines:
+        _refuse_changed(machine)
+    write(targets, force=True)
     return Outcome("verify", {"files": results}, tuple(blocks))
 
 
-def _update(machine: "Reading") -> int:
-    """Write the values into the file's [expected], its comments and layout kept; how many."""
-    import tomlkit
-
-    from abu_calc.report.files import write
-    from abu_calc.studies.verify import present_values
-
+def _path_of(machine: "Reading") -> Path:
+    """The file that holds a machine."""
     path = Path(machine.file)
     if not path.is_file():
         raise InputError(
-            "a preset cannot be updated by name",
+            "only a file can be updated, not a preset by name, nor standard input",
             place=Place(machine.file),
             remedy="Name its file, or `abu init` a copy.",
         )
+    return path
+
+
+def _updated_text(machine: "Reading") -> tuple[str, int]:
+    """The file with its values in [expected], its comments and layout kept; how many these are."""
+    import tomlkit
+
+    from abu_calc.studies.verify import present_values
+
     document = tomlkit.parse(machine.text)
     table = document.setdefault("expected", tomlkit.table())
     values = present_values(machine)
     for key, value in values.items():
         table[key] = value
-    write(path, tomlkit.dumps(document))
-    return len(values)
+    return tomlkit.dumps(document), len(values)
+
+
+def _refuse_changed(machine: "Reading") -> None:
+    """Nothing is written over what was edited while its results were computed."""
+    from abu_calc.spec.document import open_document
+
+    if open_document(machine.file).sha256 != machine.sha256:
+        raise OutputError("changed while it was recomputed", place=Place(machine.file), remedy="Run it again.")
 
 
 def _named(files: list[str] | None) -> list[str]:
@@ -104,12 +121,13 @@ def _may_expect(path: Path) -> bool:
     """Whether a file in a folder is of a kind that can expect something and does; one that cannot be read is not passed
     over.
     """
+    from abu_calc.spec.document import open_document
     from abu_calc.spec.kinds import kind_of
 
     try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
-        return True
+        tables = open_document(str(path)).content
+    except InputError:
+        return not path.is_dir()
     return "expected" in tables and kind_of(tables).name != "scene" and bool({"machine", "rotor"} & tables.keys())
 
 

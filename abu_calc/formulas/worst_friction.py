@@ -18,6 +18,8 @@ FINER = 96
 """Displacements tried between the two that an end lies between, twice: to 1e-5."""
 SWEEPS = 12
 """Rounds in which each ball moves once."""
+MOST_CORNERS = 12
+"""Beginnings of an arc. With one for each ball the work would grow with the fourth power of their number."""
 SLACK, STILL = 1e-9, 1e-6
 """On imbalances in m·R_p, and by how much a round may change them at the end."""
 
@@ -189,10 +191,14 @@ def _against(pulled: "Complexes", balls: int, half: "Reals") -> "Reals":
 
 
 def _at_corners(balls: int, half: "Reals") -> "Reals":
-    """So many balls at the upper corner of their arc, the rest at the lower one, for none to all."""
+    """So many balls at the upper corner of their arc, the rest at the lower one, for none to all.
+
+    Of many balls some of these numbers stand for the others, since from there each ball moves.
+    """
     import numpy as np
 
-    upper = np.arange(balls) < np.arange(balls + 1)[:, None]
+    counts = np.unique(np.linspace(0, balls, min(balls, MOST_CORNERS) + 1).round())
+    upper = np.arange(balls) < counts[:, None]
     return np.asarray(np.where(upper, 1.0, -1.0)[:, None, :] * half[:, None])
 
 

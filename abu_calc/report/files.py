@@ -1,38 +1,46 @@
-"""Results as files: the suffix chooses the format, the file is written whole or not at all."""
+"""Results as files: the suffix chooses the format."""
 
 import csv
 import io
-import os
-import tempfile
-from collections.abc import Callable, Iterable
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
+from typing import Any, Final
 
-from abu_calc.errors import OutputError
+from abu_calc.escapes import escaped, escaped_toml
 from abu_calc.report.outcome import Outcome, document, to_json
 from abu_calc.report.text import as_text
 from abu_calc.studies.quantity import flattened
 from abu_calc.units import unit_of
+
+FORMULAS: Final = ("=", "+", "-", "@")
+"""With what texts begin that spreadsheets take for formulas."""
 
 
 def as_toml(outcome: Outcome) -> str:
     """The JSON document as TOML; what is null there is left out, since TOML has no null."""
     import tomli_w
 
-    return tomli_w.dumps(_without_null(document(outcome)))
+    return escaped_toml(tomli_w.dumps(_without_null(document(outcome))))
 
 
 def as_csv(outcome: Outcome) -> str:
-    """One row per number or text of the result: path, value, unit."""
+    """One row per number or text of the result: path, value, unit; no text is a formula to a spreadsheet."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(("path", "value", "unit"))
     for path, value in flattened({"status": outcome.status, **_named(outcome.result)}):
         key = next((part for part in reversed(path.split(".")) if not part.isdigit()), path)
-        writer.writerow((path, "" if value is None else value, unit_of(key)))
+        writer.writerow((_cell(path), _cell(value), unit_of(key)))
     for path, value in flattened({"abu": document(outcome)["abu"], "input": outcome.provenance.input or {}}):
-        writer.writerow((path, value, ""))
+        writer.writerow((_cell(path), _cell(value), ""))
     return buffer.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    """A number as it is; text on one line, quoted where a spreadsheet would compute it."""
+    if value is None or not isinstance(value, str):
+        return "" if value is None else value
+    text = escaped(value)
+    return f"'{text}" if text.startswith(FORMULAS) else text
 
 
 def as_file(outcome: Outcome, suffix: str) -> str:
@@ -46,44 +54,6 @@ FORMATS: dict[str, Callable[[Outcome], str]] = {
     ".csv": as_csv,
     ".txt": lambda outcome: as_text(outcome.blocks),
 }
-
-
-def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> None:
-    """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force."""
-    if suffixes and path.suffix.lower() not in suffixes:
-        raise OutputError("unknown format", found=str(path), allowed="a name ending in " + " ".join(suffixes))
-    if path.is_dir():
-        raise OutputError(f"{path} is a folder", remedy="Give a file's name.")
-    if not path.absolute().parent.is_dir():
-        raise OutputError(f"{path}: the folder does not exist", remedy="Make it first.")
-    if path.exists() and not force:
-        raise OutputError(f"{path} exists already", remedy="Choose another name, or overwrite it with --force.")
-
-
-def write(path: Path, text: str | Iterable[str]) -> None:
-    """Write a file whole or not at all: beside it first, then put in its place. A long text may come in pieces."""
-    try:
-        _write(path, [text] if isinstance(text, str) else text)
-    except OSError as error:
-        raise OutputError(f"{path} cannot be written: {error.strerror}") from error
-
-
-def _write(path: Path, pieces: Iterable[str]) -> None:
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.absolute().parent)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.writelines(pieces)
-        Path(name).chmod(path.stat().st_mode if path.exists() else 0o666 & ~_umask())
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-
-
-def _umask() -> int:
-    current = os.umask(0)
-    os.umask(current)
-    return current
 
 
 def _named(result: Any) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from abu_calc.errors import AbuError, InputError
 from abu_calc.report.blocks import Block
 
 if TYPE_CHECKING:
+    from abu_calc.report.write import Target
     from abu_calc.studies.result import Provenance, Result
 
 SCHEMA = 1
@@ -33,6 +34,8 @@ class Outcome:
     """The one screen that stands in a terminal for blocks that take more."""
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
+    further: tuple["Target", ...] = ()
+    """Files that were asked for beside the result's own."""
 
     @classmethod
     def of(

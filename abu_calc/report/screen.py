@@ -35,8 +35,8 @@ def one_screen(
     last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
     warnings, groups = warning_lines(result.warnings), unlike(result.checks)
     room = LINES - height([*about, *last])
-    kept = min(2 + height(warnings), LEAST) if warnings else 0
-    taken = room - kept - min(1 + height(body), LEAST)
+    kept = min(2 + _height(warnings), LEAST) if warnings else 0
+    taken = room - kept - min(1 + _height(body), LEAST)
     told = _fitted([reason(alike) for alike in groups], [[one.code for one in alike] for alike in groups], taken)
     room -= height(told)
     shown = cut(body, room - kept - 1)
@@ -48,18 +48,25 @@ def one_screen(
 
 def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:
     """As many as there is room for, the rest as a count; `codes`: of the checks that each tells, none: of warnings."""
-    if height(lines) <= room:
+    if _height(lines) <= room:
         return list(lines)
-    fit = max(bisect_right(range(len(lines)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
+    fit = max(bisect_right(range(min(len(lines), LINES)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
     left = [code for each in codes[fit:] for code in each]
     more = many(len(left), "more check") if codes else many(len(lines) - fit, "more warning")
     named = f" ({', '.join(dict.fromkeys(left))})" if left else ""
     return [*lines[:fit], Paragraph(f"And {more}{named}: --full.")] if lines else []
 
 
+def _height(blocks: Sequence[Block]) -> int:
+    """How many lines blocks take; of what is taller than a screen no more is laid out than tells that it is."""
+    tall = LINES + 1
+    seen = [one._replace(rows=one.rows[:tall]) if isinstance(one, Grid) else one for one in blocks[: 2 * tall]]
+    return height(seen)
+
+
 def cut(blocks: Sequence[Block], room: int) -> list[Block]:
     """Blocks as far as there is room for them, of tables the first rows; then a line that says so."""
-    if height(blocks) <= room:
+    if _height(blocks) <= room:
         return list(blocks)
     kept: list[Block] = []
     for block in blocks:
@@ -72,11 +79,11 @@ def cut(blocks: Sequence[Block], room: int) -> list[Block]:
 def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
     """A block, the first rows of a table, or nothing; a heading where some lines fit below it."""
     lines = [BLANK] * 3 if isinstance(block, Heading) else []
-    if height([*above, block, *lines]) <= room:
+    if _height([*above, block, *lines]) <= room:
         return [block]
     if not isinstance(block, Grid):
         return []
-    parts = [block._replace(rows=block.rows[:count]) for count in range(len(block.rows))]
+    parts = [block._replace(rows=block.rows[:count]) for count in range(min(len(block.rows), LINES))]
     fitting = bisect_right(parts, room - 1, key=lambda part: height([*above, part]))
     more = many(len(block.rows) - fitting + 1, "more row")
     return [parts[fitting - 1], Paragraph(f"And {more}: --full.")] if fitting > 1 else []

@@ -7,11 +7,13 @@ import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from abu_calc.escapes import escaped
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 
 STYLES = {
@@ -26,6 +28,8 @@ WORDS = {"WARN": "warn", "FAIL": "fail", "NOT DONE": "not-done"}
 WIDEST = 100
 MARGIN = 2
 """Blanks before each column of a table, and before running text."""
+HEADING_HANG = 6
+"""Before further lines of a heading, so that no word of a long name stands where verdicts do."""
 FACT_WIDTHS = (35, 17)
 """Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
 
@@ -43,15 +47,21 @@ def show(blocks: Iterable[Block], *, color: bool = True) -> None:
     if not (color and (sys.stdout.isatty() or os.environ.get("FORCE_COLOR"))):
         print(as_text(blocks, width), end="")
         return
-    out = Console(width=width, markup=False, highlight=False, emoji=False)
+    out = console(width)
     for part in _parts(blocks, width):
         out.print(Text(*part) if isinstance(part, tuple) else part)
+
+
+def console(width: int, **how: Any) -> Console:
+    """A console of so many columns: Rich does not bear everything that COLUMNS and LINES may be."""
+    plain = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
+    return Console(width=width, markup=False, highlight=False, emoji=False, _environ=plain, **how)
 
 
 def as_text(blocks: Iterable[Block], width: int = 80) -> str:
     """Blocks as plain text for a file or a pipe, no blanks at the ends of lines."""
     buffer = io.StringIO()
-    out = Console(file=buffer, width=width, markup=False, highlight=False, emoji=False, color_system=None)
+    out = console(width, file=buffer, color_system=None)
     for part in _parts(blocks, width):
         if isinstance(part, tuple):
             buffer.write(part[0] + "\n")
@@ -67,10 +77,10 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             yield "", ""
         match block:
             case Heading(text):
-                yield fill(text, width, 0, MARGIN), "bold"
+                yield fill(escaped(text), width, 0, HEADING_HANG), "bold"
             case Paragraph(text, mark, indent, hang):
                 style = STYLES.get(mark or "", "")
-                yield fill(text, width, indent, hang), style.removeprefix("bold ") if hang else style
+                yield fill(escaped(text), width, indent, hang), style.removeprefix("bold ") if hang else style
             case Facts(rows):
                 yield _facts(rows, width)
             case Grid():
@@ -98,7 +108,7 @@ def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
     for column in (label, rest) if width < NARROW else (label, symbol, rest - symbol - MARGIN):
         table.add_column(width=column, overflow="fold")
     for name, sign, value in rows:
-        table.add_row(*((name, value) if width < NARROW else (name, sign, value)))
+        table.add_row(*map(escaped, (name, value) if width < NARROW else (name, sign, value)))
     return table
 
 
@@ -107,5 +117,5 @@ def _grid(grid: Grid) -> Table:
     for index, title in enumerate(grid.header):
         table.add_column(title, justify="right" if index in grid.right else "left", overflow="fold")
     for row in grid.rows:
-        table.add_row(*(Text(cell, style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
+        table.add_row(*(Text(escaped(cell), style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
     return table

@@ -74,9 +74,9 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
 def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":
     if not machine.bearing:
         return ()
-    from abu_calc.fits.seats import seat_bearing
+    from abu_calc.fits.each import seat_bearings
 
-    return tuple(seat_bearing(bearing) for bearing in machine.bearing)
+    return seat_bearings(machine.bearing)
 
 
 def _arm(case: Case, imbalance: float, added_mass: float) -> "SwingArmBounds | None":

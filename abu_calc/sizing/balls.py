@@ -24,6 +24,8 @@ from abu_calc.units import from_si, to_si
 
 RUNNERS_UP = 4
 LARGER_RACES = 12
+USUAL_PAIRS = 1000
+"""Of diameter and count in the envelope of a hand grinder; where there are more, fewer larger races are tried."""
 DOZEN = 12
 """More balls than this are proposed where nothing else fits only: they touch often, cost much, and settle late."""
 
@@ -103,7 +105,8 @@ def candidates(case: Case, imbalance: float) -> list[Candidate]:
         if (radii := race_radii(case, diameter))
         for count in ball_counts(case, diameter, radii[-1])
     ]
-    found = [_smallest(case, imbalance, *each) for each in tried]
+    larger = max(1, LARGER_RACES * USUAL_PAIRS // max(len(tried), USUAL_PAIRS))
+    found = [_smallest(case, imbalance, *each, larger) for each in tried]
     return [one for one in found if one] or [
         evaluate(case, imbalance, count, diameter, radii[-1]) for diameter, count, radii in tried
     ]
@@ -129,8 +132,10 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     )
 
 
-def _smallest(case: Case, imbalance: float, diameter: float, count: int, radii: tuple[float, ...]) -> Candidate | None:
-    """The smallest race with enough capacity; if it rests too far off, one of a dozen larger ones that does not.
+def _smallest(
+    case: Case, imbalance: float, diameter: float, count: int, radii: tuple[float, ...], most: int
+) -> Candidate | None:
+    """The smallest race with enough capacity; if it rests too far off, one of `most` larger ones that does not.
 
     The band of friction may narrow at first with the race, while the balls open.
     """
@@ -151,7 +156,7 @@ def _smallest(case: Case, imbalance: float, diameter: float, count: int, radii: 
     if smallest.budget.within:
         return smallest
     larger = radii[first + 1 :]
-    tried = (evaluate(case, imbalance, count, diameter, each) for each in larger[:: len(larger) // LARGER_RACES + 1])
+    tried = (evaluate(case, imbalance, count, diameter, each) for each in larger[:: len(larger) // most + 1])
     return next((one for one in tried if one.budget.within), smallest)
 
 

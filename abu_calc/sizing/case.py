@@ -64,6 +64,13 @@ class Case:
 
 def read_case(machine: MachineFile) -> Case:
     """The case of a machine file; refused where the file has no [autobalancer]."""
+    if not isinstance(machine, MachineFile):
+        raise InputError(
+            "not the tables of a whole machine",
+            place=Place(key="machine"),
+            found=type(machine).__name__,
+            remedy='abu_calc.read("machine.toml").whole() returns them, where there are suspension and wheel.',
+        )
     abu, top = machine.autobalancer, machine.machine
     if abu is None:
         raise InputError(

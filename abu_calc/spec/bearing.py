@@ -1,7 +1,7 @@
 """A rolling bearing and its two seats."""
 
 import itertools
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -9,6 +9,8 @@ from abu_calc.spec.rolling_bearing import SIZES, RollingBearing
 from abu_calc.spec.table import problem
 from abu_calc.spec.usual import usual
 
+MOST_BEARINGS: Final = 100
+"""In one file; the longest report on them takes some seconds."""
 SeatMaterial = Literal["steel", "stainless-steel", "cast-iron", "aluminium", "magnesium"]
 Pair = Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)]
 

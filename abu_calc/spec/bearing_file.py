@@ -1,12 +1,13 @@
 """A file for bearing seats alone, and the tables it shares with a whole machine's."""
 
-from typing import Annotated, Protocol
+import sys
+from typing import Annotated, Final, Protocol
 
 from pydantic import AfterValidator, Field, WithJsonSchema
 
-from abu_calc.spec.bearing import Bearing
-from abu_calc.spec.table import Table, problem
-from abu_calc.spec.text import is_number, shown_short
+from abu_calc.spec.bearing import MOST_BEARINGS, Bearing
+from abu_calc.spec.table import Name, Table, problem
+from abu_calc.spec.text import BARE_KEY, is_number, shown_short
 from abu_calc.spec.usual import usual
 
 NAME = "Name of the machine, as reports print it."
@@ -14,20 +15,56 @@ NAME = "Name of the machine, as reports print it."
 TOLERANCE = "tolerance"
 
 
+MOST_EXPECTED: Final = 1000
+LONGEST_PATH: Final = 200
+MOST_DIGITS: Final = 6
+"""Of a place in a list."""
+
+
 def _checked_expectations(expected: dict[str, object]) -> dict[str, object]:
+    if len(expected) > MOST_EXPECTED:
+        raise problem("too many expected values", found=str(len(expected)), allowed=f"at most {MOST_EXPECTED}")
     for path, value in expected.items():
         if path == TOLERANCE and isinstance(value, dict):
             _check_tolerances(value, expected)
-        elif isinstance(value, dict):
-            raise problem(
-                "an expected value is a number, text, true, false or a list",
-                path,
-                found="a table",
-                remedy=f'put the whole path in quotes: "{path}.…" = …',
-            )
-        elif isinstance(value, (int, float)) and not isinstance(value, bool) and not is_number(value):
-            raise problem("a finite number is expected", path, found=shown_short(value))
+            continue
+        _check_path(path)
+        if isinstance(value, dict):
+            raise problem(EXPECTED_KINDS, path, found="a table", remedy=f'put the whole path in quotes: "{path}.…" = …')
+        for each in value if isinstance(value, list) else [value]:
+            _check_value(path, each)
     return expected
+
+
+def _check_path(path: str) -> None:
+    """Refuse what can be no path in a result: keys of plain letters, places in lists, points between them."""
+    parts = path.split(".")
+    plain = all(BARE_KEY.fullmatch(part) for part in parts)
+    if not plain or len(path) > LONGEST_PATH or any(part.isdigit() and len(part) > MOST_DIGITS for part in parts):
+        raise problem(
+            "not a path in a result",
+            path,
+            allowed="keys and places in lists with points between them",
+            remedy='such as "autobalancer.ball_count" or "fits.0.fit"',
+        )
+
+
+def _check_value(path: str, value: object) -> None:
+    """Refuse what no result holds: dates and times, tables, numbers that are not finite or beyond all floats."""
+    if not isinstance(value, (int, float, str, list)):
+        raise problem(EXPECTED_KINDS, path, found=shown_short(value))
+    if isinstance(value, list):
+        for each in value:
+            _check_value(path, each)
+    elif (
+        isinstance(value, (int, float))
+        and not isinstance(value, bool)
+        and not (is_number(value) and abs(value) <= sys.float_info.max)
+    ):
+        raise problem("a finite number is expected", path, found=shown_short(value))
+
+
+EXPECTED_KINDS: Final = "an expected value is a number, text, true, false or a list of them"
 
 
 def _check_tolerances(tolerances: dict[str, object], expected: dict[str, object]) -> None:
@@ -69,7 +106,7 @@ EXPECTED = (
 class MachineName(Table):
     """The machine, of which a file for bearing seats alone needs the name only."""
 
-    name: str = Field(description=NAME, examples=["fleshing roll"], min_length=1)
+    name: Name = Field(description=NAME, examples=["fleshing roll"], min_length=1)
 
 
 class Limits(Table):
@@ -97,8 +134,8 @@ class BearingFile(Table):
     """Bearings alone, for `abu check-fit`."""
 
     machine: MachineName
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, min_length=1)] = Field(
-        description="Bearings and their seats: [[bearing]], at least one."
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, min_length=1, max_length=MOST_BEARINGS)] = Field(
+        description="Bearings and their seats: [[bearing]], one or more, up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
     expected: Expected = Field(default_factory=dict, description=EXPECTED)

@@ -1,13 +1,14 @@
 """The machine itself, what it hangs on, and what is asked of it."""
 
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from abu_calc.spec.bearing_file import NAME
-from abu_calc.spec.table import Table, boxed, problem
+from abu_calc.spec.table import Name, Table, boxed, problem
 from abu_calc.spec.usual import usual
 
+MOST_HANDLES: Final = 100
 Speed = Annotated[float, Field(ge=1, le=300_000)]
 Frequency = Annotated[float, Field(gt=0, le=10_000)]
 DampingRatio = Annotated[float, Field(ge=0, le=10)]
@@ -16,7 +17,7 @@ DampingRatio = Annotated[float, Field(ge=0, le=10)]
 class Handle(Table):
     """A place where vibration levels are wanted; without any, levels are those in the wheel plane."""
 
-    name: str = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
+    name: Name = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
     from_center_of_mass_mm: float = Field(
         description="Where it stands along the spindle axis, from the centre of mass, positive toward the wheel "
         "[mm]; {range}, at a grinder -300 … 200.",
@@ -30,7 +31,7 @@ class Handle(Table):
 class MachineTable(Table):
     """The machine: its mass, its speed, its shape."""
 
-    name: str = Field(description=NAME, examples=["straight grinder"], min_length=1)
+    name: Name = Field(description=NAME, examples=["straight grinder"], min_length=1)
     layout: Literal["straight", "face", "angle"] = Field(
         description="Kind of machine: straight (the wheel's rim works, spindle along the body), face (the wheel's "
         "face works) or angle (spindle across the body).",
@@ -97,8 +98,8 @@ class MachineTable(Table):
         le=200,
         json_schema_extra=usual(60, 130),
     )
-    handle: Annotated[tuple[Handle, ...], Field(strict=False)] = Field(
-        default=(), description="Places where levels are wanted: [[machine.handle]], any number."
+    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=MOST_HANDLES)] = Field(
+        default=(), description="Places where levels are wanted: [[machine.handle]], up to 100."
     )
 
     @property

@@ -10,21 +10,21 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
 from abu_calc.errors import InputError, Place
-from abu_calc.spec import presets
+from abu_calc.spec.bounds import check_nesting
 from abu_calc.spec.remarks import Source, remarks
+from abu_calc.spec.source import LARGEST_FILE, bytes_of
 from abu_calc.spec.table import Table
 from abu_calc.spec.text import Part, key_path
 
 if TYPE_CHECKING:
     from abu_calc.spec.overrides import Override
 
-LARGEST_FILE: Final = 1_000_000
-"""Bytes of the largest file that is read; ours have a few thousand."""
+__all__ = ["LARGEST_FILE", "Document", "Reading", "named", "open_document", "parsed_overrides", "validate"]
 
 Model = TypeVar("Model", bound=Table)
 
@@ -76,10 +76,12 @@ class Reading:
             yield
         except InputError as error:
             key = error.place.key
-            if error.place.file is not None or not self.file or (key or "").startswith("--"):
+            if error.place.file is not None or (key or "").startswith("--"):
                 raise
             if given := self._override_of(key or ""):
                 raise given.blamed(error) from None
+            if not self.file:
+                raise
             raise error.at(Place(self.file, self.lines.get(key) if key else None, key)) from None
 
     def _override_of(self, key: str) -> "Override | None":
@@ -104,7 +106,7 @@ def named(source: object) -> str:
 
 def open_document(source: str) -> Document:
     """The document of a file, or of a preset by its name. Raises InputError with file, line, key and remedy."""
-    raw = _bytes(source)
+    raw = bytes_of(source)
     text = _decoded(raw, source)
     content = _parsed(text, source)
     if not content:
@@ -163,46 +165,13 @@ def parsed_overrides(overrides: Sequence[str]) -> "tuple[Override, ...]":
 
 
 def _parsed(text: str, source: str) -> dict[str, object]:
+    check_nesting(text, source)
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         from abu_calc.spec.syntax import reworded
 
         raise reworded(text, source, error) from None
-
-
-def _bytes(source: str) -> bytes:
-    path, place = _path(source), Place(source)
-    try:
-        with path.open("rb") as stream:
-            raw = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror or error}", place=place) from None
-    if len(raw) > LARGEST_FILE:
-        raise InputError("the file is too large", place=place, allowed=f"at most {LARGEST_FILE} bytes")
-    return raw
-
-
-def _path(source: str) -> Path:
-    """The file that is meant: one that exists before a preset."""
-    path, place = Path(source), Place(source or None)
-    try:
-        if source and path.is_dir():
-            raise InputError("a folder, not a file", place=place, remedy="name the machine file inside")
-        if source and path.exists():
-            return path
-    except (OSError, ValueError):
-        raise InputError("not a file name", place=place) from None
-    if preset := presets.find(source):
-        return preset
-    from abu_calc.spec.names import nearest
-
-    known = presets.names()
-    if close := nearest(path.stem, known):
-        remedy = f'the nearest preset is "{close}"'
-    else:
-        remedy = f"presets: {', '.join(known)}" if known else "`abu init FILE` writes a new file"
-    raise InputError("no such file, and no preset of this name", place=place, remedy=remedy)
 
 
 def _decoded(raw: bytes, source: str) -> str:

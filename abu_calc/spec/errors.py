@@ -15,6 +15,8 @@ from abu_calc.spec.text import Part, is_number, key_path, quoted, shown, shown_s
 from abu_calc.spec.usual import usual_of
 
 MOST_LISTED: Final = 10
+MOST_EXPLAINED: Final = 40
+"""Unknown keys that are asked what they were meant to be; the library lists all errors."""
 MUCH: Final = 1e12
 """No unit makes more of it a usual number."""
 
@@ -86,6 +88,7 @@ _Words = tuple[str, str | None, str | None]
 def input_error(error: ValidationError, origin: Origin) -> InputError:
     """The findings of the models in words: one error, or all of them in one."""
     errors: list[InputError] = []
+    strays = 0
     meant: set[tuple[Part, ...]] = set()
     missing: list[tuple[tuple[Part, ...], InputError]] = []
     for detail in error.errors(include_url=False):
@@ -96,7 +99,9 @@ def input_error(error: ValidationError, origin: Origin) -> InputError:
         if kind == "too_short" and len(detail["input"]) >= facts["min_length"]:
             continue  # Long enough; what is wrong with its values has errors of its own.
         if kind == "extra_forbidden":
-            key, remedy = _stray(finding)
+            strays += 1
+            # What a key was meant to be takes long to find, and more than the first ones are not listed.
+            key, remedy = _stray(finding) if strays <= MOST_EXPLAINED else (None, None)
             meant |= {(*path[:-1], key)} if key else set()
             message = "unknown table" if len(path) == 1 and isinstance(finding.value, (dict, list)) else "unknown key"
             errors.append(InputError(message, place=origin.place(path), remedy=remedy))
@@ -235,6 +240,8 @@ def _too_few(finding: _Finding) -> _Words:
 
 def _too_many(finding: _Finding) -> _Words:
     allowed = f"at most {finding.facts['max_length']}"
+    if subtable(finding.table, finding.key):
+        return "too many tables", allowed, "share them out among several files"
     return "too many values in the list", allowed, "the decimal sign is a point; the comma parts the numbers"
 
 

@@ -15,9 +15,11 @@ _HEADER: Final = re.compile(rf"(\[\[?)[ \t]*{_DOTTED}[ \t]*\]")
 _ASSIGNMENT: Final = re.compile(rf"{_DOTTED}[ \t]*=")
 _REST_OF_LINE: Final = re.compile(r"[^\n]*")
 # A value ends at the first line end outside of strings, comments and brackets. Multi-line strings may end in two
-# quotes of their own before the closing three.
+# quotes of their own before the closing three. A string that is not closed takes the rest of its line, or of the text:
+# to look for its end again and again would take time that grows with the square of its length.
 _TOKEN: Final = re.compile(
-    r'''"""(?:[^\\]|\\.)*?"{3,5}|\'\'\'.*?'{3,5}|"(?:[^"\\\n]|\\.)*"|'[^'\n]*'|\#[^\n]*|[\[\]{}\n]|[^"'\#\[\]{}\n]+|["']''',
+    r'''"""(?:[^\\]|\\.)*?(?:"{3,5}|\Z)|\'\'\'.*?(?:'{3,5}|\Z)|"(?:[^"\\\n]|\\[^\n])*"?|'[^'\n]*'?'''
+    r"""|\#[^\n]*|[\[\]{}\n]|[^"'\#\[\]{}\n]+""",
     re.DOTALL,
 )
 

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Self
 from pydantic import Field, model_validator
 
 from abu_calc.spec.autobalancer import Autobalancer
-from abu_calc.spec.bearing import Bearing
+from abu_calc.spec.bearing import MOST_BEARINGS, Bearing
 from abu_calc.spec.bearing_file import (
     EXPECTED,
     BearingFile,
@@ -55,8 +55,8 @@ class MachineFile(Table):
     run_up: RunUp | None = None
     motor: Motor | None = None
     swing_arm: SwingArm | None = None
-    bearing: Annotated[tuple[Bearing, ...], Field(strict=False)] = Field(
-        default=(), description="Bearings and their seats: [[bearing]], any number."
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
+        default=(), description="Bearings and their seats: [[bearing]], up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
     expected: Expected = Field(default_factory=dict, description=EXPECTED)

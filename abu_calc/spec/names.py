@@ -2,6 +2,7 @@
 
 import difflib
 from collections.abc import Iterable
+from functools import cache
 from typing import Final
 
 from abu_calc.spec.table import Table, all_tables, is_array, subtable
@@ -70,12 +71,18 @@ def meant_key(root: type[Table], path: tuple[Part, ...], table: type[Table], key
         return meant, f"write {meant}, {unit_note}"
     if meant := nearest(key, known):
         return meant, f"the nearest known key is {meant}"
-    elsewhere = {
-        name: homes for _, other in all_tables(root) for name in other.model_fields if (homes := _homes(root, name))
-    }
+    elsewhere = _all_homes(root)
     if far := other_unit(key, elsewhere) or nearest(key, elsewhere):
         return None, f"the nearest known key is {far} of {elsewhere[far]}"
     return None, f"known keys of {header(root, path)}: {', '.join(known)}"
+
+
+@cache
+def _all_homes(root: type[Table]) -> dict[str, str]:
+    """Every key, and the tables that know it."""
+    return {
+        name: homes for _, other in all_tables(root) for name in other.model_fields if (homes := _homes(root, name))
+    }
 
 
 def _homes(root: type[Table], key: str) -> str:

@@ -6,6 +6,7 @@ from numbers import Integral, Number
 from typing import Any, Final
 
 from abu_calc.errors import InputError, Place
+from abu_calc.spec.bounds import DEEPEST
 
 ALLOWED: Final = "text, numbers, Python's True and False, dates, and lists, tuples or dictionaries of them"
 LONGEST_FOUND: Final = 60
@@ -25,8 +26,12 @@ def plain_number(value: object) -> int | float | None:
         return None
 
 
-def plain_value(value: object, key: str) -> Any:
+def plain_value(value: object, key: str, depth: int = 0) -> Any:
     """A copy with lists for tuples. Raises InputError, naming the key, for what no file can hold, such as None."""
+    if depth > DEEPEST:
+        raise InputError(
+            "nested too deeply", place=Place(key=key), allowed=f"at most {DEEPEST} lists or dictionaries in one another"
+        )
     number = plain_number(value)
     if number is not None:
         return number
@@ -35,9 +40,9 @@ def plain_value(value: object, key: str) -> Any:
     if isinstance(value, str):
         return str.__str__(value)  # of a subclass, such as NumPy's, too
     if isinstance(value, (list, tuple)):
-        return [plain_value(each, key) for each in value]
+        return [plain_value(each, key, depth + 1) for each in value]
     if isinstance(value, Mapping) and all(isinstance(inner, str) for inner in value):
-        return {str.__str__(inner): plain_value(each, f"{key}.{inner}") for inner, each in value.items()}
+        return {str.__str__(inner): plain_value(each, f"{key}.{inner}", depth + 1) for inner, each in value.items()}
     remedy = "Leave the entry out; to be without what the file has, read a file that does not have it."
     raise InputError(
         "not a value that a file can hold",

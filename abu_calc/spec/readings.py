@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from abu_calc.spec.bearing_file import EXPECTED, Expected
 from abu_calc.spec.readings_errors import Errors
 from abu_calc.spec.readings_run import Reading, Run, Trial
-from abu_calc.spec.table import Table, problem
+from abu_calc.spec.table import Name, Table, problem
 from abu_calc.spec.usual import usual
 from abu_calc.spec.wheel import BalanceGrade
 
@@ -65,7 +65,7 @@ class Rotor(Table):
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({*OF_THE_RIG})
 
-    name: str = Field(default="roll", description="Name, as reports print it. Default: {default}.", min_length=1)
+    name: Name = Field(default="roll", description="Name, as reports print it. Default: {default}.", min_length=1)
     mass_kg: float | None = Field(
         default=None,
         description="M3, mass of the roll [kg]; {range}.",

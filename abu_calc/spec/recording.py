@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError, Place
+from abu_calc.spec.source import regular_file
 
 LARGEST: Final = 300_000_000
 """Bytes of the largest record that is read."""
@@ -52,9 +53,10 @@ def read_recording(path: Path) -> Recording:
 def _text(path: Path) -> str:
     place = Place(str(path))
     try:
-        if path.stat().st_size > LARGEST:
+        raw = regular_file(path, LARGEST)
+        if len(raw) > LARGEST:
             raise InputError("the record is too large", place=place, allowed=f"at most {LARGEST} bytes")
-        return path.read_text(encoding="utf-8-sig")
+        return raw.decode("utf-8-sig")
     except OSError as error:
         raise InputError(f"the record cannot be read: {error.strerror or error}", place=place) from None
     except UnicodeDecodeError:

@@ -4,7 +4,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from abu_calc.spec.table import Table, problem
+from abu_calc.spec.table import Name, Table, problem
 from abu_calc.spec.usual import usual
 from abu_calc.standards.maker_fits import RingLoad
 
@@ -20,13 +20,13 @@ def _class_as_iso_has_it(value: object) -> object:
 class RollingBearing(Table):
     """A rolling bearing by its designation or its sizes, with its load."""
 
-    name: str = Field(
+    name: Name = Field(
         default="bearing",
         description="Name of the bearing, as reports print it. Default: {default}.",
         examples=["spindle, drive end"],
         min_length=1,
     )
-    designation: str | None = Field(
+    designation: Name | None = Field(
         default=None,
         description="Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the "
         "like may follow (6203-2RS), C3 and P5 count. Or give bore_mm, outer_mm and width_mm.",

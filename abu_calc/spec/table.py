@@ -1,12 +1,13 @@
 """What all tables of a file share: strictness, the defaults in force, the rules between keys."""
 
 from collections.abc import Iterator
-from typing import ClassVar, get_args
+from typing import Annotated, ClassVar, get_args
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import AfterValidator, BaseModel, ConfigDict
 from pydantic_core import PydanticCustomError, PydanticKnownError
 
-from abu_calc.spec.text import Part
+from abu_calc.escapes import LINE_BREAKS
+from abu_calc.spec.text import Part, shown_short
 from abu_calc.spec.wording import described
 
 RULE = "rule"
@@ -126,6 +127,17 @@ def problem(
     """A broken rule between keys, placed at `key` (a path below the table that raises it)."""
     facts = {"message": message, "key": key, "found": found, "allowed": allowed, "remedy": remedy}
     return PydanticCustomError(RULE, "{message}", facts)
+
+
+def one_line(text: str) -> str:
+    """A name as it is, refused where it has lines: reports print it, and it may not begin one of its own."""
+    if any(sign in LINE_BREAKS for sign in text):
+        raise problem("a name stands on one line", found=shown_short(text), remedy="write it without line breaks")
+    return text
+
+
+Name = Annotated[str, AfterValidator(one_line)]
+"""What people call a thing, as reports print it."""
 
 
 def boxed(value: object) -> object:

@@ -4,13 +4,15 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from abu_calc.spec.table import Table, boxed, problem
+from abu_calc.spec.table import Name, Table, boxed, problem
 from abu_calc.spec.usual import usual
 
 Level = Annotated[float, Field(ge=0, le=200)]
 BalanceGrade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
 """The grades of ISO 21940-11:2016, table 1."""
 
+MOST_LEVELS: Final = 1000
+"""Measured one after another."""
 SOURCES: Final = ("imbalance_g_mm", "balance_grade", "measured_level_db")
 RUNOUTS: Final = ("runout_mm", "runout_tir_mm")
 
@@ -76,8 +78,12 @@ class Wheel(Table):
     measured_level_db: (
         Annotated[
             tuple[Level, ...],
-            Field(strict=False, min_length=1),
-            BeforeValidator(boxed, json_schema_input_type=Level | Annotated[tuple[Level, ...], Field(min_length=1)]),
+            Field(strict=False, min_length=1, max_length=MOST_LEVELS),
+            BeforeValidator(
+                boxed,
+                json_schema_input_type=Level
+                | Annotated[tuple[Level, ...], Field(min_length=1, max_length=MOST_LEVELS)],
+            ),
         ]
         | None
     ) = Field(
@@ -87,7 +93,7 @@ class Wheel(Table):
         examples=[111.0],
         json_schema_extra=usual(85, 135),
     )
-    measured_at: str | None = Field(
+    measured_at: Name | None = Field(
         default=None,
         description="With measured_level_db: name of the handle where it was measured. Without it: the wheel plane.",
         examples=["front"],

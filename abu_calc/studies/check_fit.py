@@ -4,7 +4,8 @@ from dataclasses import replace
 from typing import Any, ClassVar
 
 from abu_calc.errors import InputError, Place
-from abu_calc.fits.seats import BearingSeats, seat_bearing
+from abu_calc.fits.each import seat_bearings
+from abu_calc.fits.seats import BearingSeats
 from abu_calc.spec.read import Machine
 from abu_calc.studies.arguments import checked
 from abu_calc.studies.quantity import record
@@ -57,4 +58,4 @@ def judged_seats(machine: Machine) -> tuple[BearingSeats, ...]:
             "the file has no bearings", place=Place(machine.file, key="bearing"), remedy="Add a table [[bearing]]."
         )
     with machine.located():
-        return tuple(map(seat_bearing, machine.tables.bearing))
+        return seat_bearings(machine.tables.bearing)

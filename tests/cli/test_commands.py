@@ -13,7 +13,7 @@ from hypothesis import given, settings
 
 import abu_calc
 from abu_calc.analysis import ensemble, machine
-from abu_calc.cli import app
+from abu_calc.cli.signals import INTERRUPTED
 from abu_calc.report.explain import explanation_blocks
 from abu_calc.report.numbers import number
 from abu_calc.studies import size as size_module
@@ -365,7 +365,7 @@ def test_an_interruption_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch, tmp_
     monkeypatch.setattr("abu_calc.studies.size.size_design", interrupt)
     output = tmp_path / "design.json"
     seen = abu("size", "msh-230", "--output", str(output))
-    assert seen.status == app.INTERRUPTED and "Interrupted" in seen.err and not output.exists()
+    assert seen.status == INTERRUPTED and "Interrupted" in seen.err and not output.exists()
 
 
 def test_entries_replaced_are_shown_as_a_file_would_have_them() -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from abu_calc.cli import app, start
+from abu_calc.cli.signals import INTERRUPTED
 from abu_calc.dynamics.integrators.compiled import code
 from tests.cli.runner import abu
 from tests.spec.scenes import SCENE
@@ -49,7 +50,7 @@ def test_a_long_simulation_is_interrupted(integrator: str, tmp_path: Path) -> No
             out, err = process.communicate(timeout=60)
         finally:
             process.kill()
-    assert process.returncode in (app.INTERRUPTED, -signal.SIGINT)
+    assert process.returncode in (INTERRUPTED, -signal.SIGINT)
     assert (out, err) == ("", "Interrupted; nothing was written.\n")
     assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
 
@@ -63,7 +64,7 @@ def test_interrupted_while_starting(monkeypatch: pytest.MonkeyPatch, capsys: pyt
     monkeypatch.setattr(app, "main", _interrupt)
     with pytest.raises(SystemExit) as left:
         start.main()
-    assert left.value.code == app.INTERRUPTED == 130
+    assert left.value.code == INTERRUPTED == 130
     assert capsys.readouterr() == ("", "Interrupted.\n")
 
 
@@ -73,5 +74,5 @@ def test_interrupted_in_the_audit(monkeypatch: pytest.MonkeyPatch, tmp_path: Pat
     scene, motion = tmp_path / "scene.toml", tmp_path / "motion.csv"
     scene.write_text(SCENE, encoding="utf-8")
     seen = abu("simulate", str(scene), "--duration", "10", "--audit", "--trajectory", str(motion))
-    assert (seen.status, seen.err) == (app.INTERRUPTED, "Interrupted; nothing was written.\n")
+    assert (seen.status, seen.err) == (INTERRUPTED, "Interrupted; nothing was written.\n")
     assert not motion.exists()

@@ -38,7 +38,7 @@ def _loaded_modules(*arguments: str) -> set[str]:
     [
         ("--help",),
         ("size", "--help"),
-        ("validate", "avtovaz-707-222"),
+        ("validate", "mmg-3200k-knife-shaft"),
         ("schema",),
         ("presets",),
         ("check-fit", "mmg-3200k-knife-shaft"),

@@ -7,7 +7,18 @@ import pytest
 
 from tests.house.structure import PACKAGE, circles, files, imports, lines
 
-GROUND = ("version", "errors", "units", "checks", "check_codes", "validity", "formula", "progress", "parallel")
+GROUND = (
+    "version",
+    "errors",
+    "units",
+    "checks",
+    "check_codes",
+    "validity",
+    "formula",
+    "progress",
+    "parallel",
+    "escapes",
+)
 ROOMS = (
     *("standards", "spec", "formulas", "fits", "sizing", "dynamics", "scenes", "analysis", "studies", "report", "cli"),
 )

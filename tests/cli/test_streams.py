@@ -1,0 +1,127 @@
+"""Closed, broken and full streams, and signals: the result keeps its meaning, nothing misleading is said."""
+
+import io
+import os
+import shlex
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from abu_calc.cli import signals
+from abu_calc.cli.streams import Outlet
+from tests.spec.samples import BEARINGS
+
+posix = pytest.mark.skipif(os.name == "nt", reason="shells of POSIX")
+FAILING = ("check-fit", "mmg-3200k-knife-shaft")
+"""A quick command whose checks fail; `presets` is one that passes."""
+
+
+def shell(line: str) -> subprocess.CompletedProcess[str]:
+    """A line of a shell, in which abu stands for the command."""
+    abu = f"{shlex.quote(sys.executable)} -m abu_calc"
+    return subprocess.run(["bash", "-c", line.replace("abu ", f"{abu} ")], capture_output=True, text=True, check=False)
+
+
+@posix
+@pytest.mark.parametrize(
+    ("line", "status"),
+    [
+        ("abu presets | true; exit ${PIPESTATUS[0]}", 0),
+        (f"abu {' '.join(FAILING)} --json | true; exit ${{PIPESTATUS[0]}}", 1),
+        ("abu --help | true; exit ${PIPESTATUS[0]}", 0),
+        (f"abu {' '.join(FAILING)} >&-", 1),
+        ("abu presets >&- 2>&- <&-", 0),
+    ],
+)
+def test_nobody_reads_on(line: str, status: int) -> None:
+    done = shell(line)
+    assert (done.returncode, done.stderr) == (status, "")
+
+
+@posix
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_full_disk_is_told_with_what_was_computed() -> None:
+    done = shell(f"abu {' '.join(FAILING)} > /dev/full")
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1 and "standard output cannot be written" in done.stderr
+    assert "a check failed or could not be done" in done.stderr
+
+
+@posix
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_signals_end_a_command_as_ctrl_c_does(name: str, tmp_path: Path) -> None:
+    """One line, 128 and the number, and nothing written."""
+    number = getattr(signal, name)
+    # The process sends itself the signal in the middle of the work, so that no time has to be guessed.
+    code = (
+        "import os\nfrom abu_calc.studies import check_fit\nfrom abu_calc.cli.start import main\n"
+        f"check_fit.judged_seats = lambda *_: os.kill(os.getpid(), {int(number)})\nmain()"
+    )
+    command = (sys.executable, "-c", code, *FAILING, "--output", str(tmp_path / "out.json"))
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (128 + number, "")
+    assert done.stderr == "Interrupted; nothing was written.\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_system_without_these_signals_does_without(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in signals.ENDING:
+        monkeypatch.delattr(signal, name, raising=False)
+    signals.heed_signals()
+
+
+@posix
+def test_what_is_ignored_stays_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As nohup asks."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    kept = {name: signal.getsignal(getattr(signal, name)) for name in ("SIGTERM",)}
+    try:
+        signals.heed_signals()
+        assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+        signal.signal(signal.SIGTERM, kept["SIGTERM"])
+
+
+class Raising(io.RawIOBase):
+    """A stream that takes a byte at a time, then none, then fails."""
+
+    def __init__(self, error: Exception) -> None:
+        super().__init__()
+        self.taken, self.error = b"", error
+
+    def write(self, data: object) -> int | None:
+        """One byte, every second time none."""
+        if len(self.taken) == 3:
+            raise self.error
+        one = bytes(data)[:1]  # type: ignore[call-overload]
+        if self.taken[-1:] == one:
+            return None
+        self.taken += one
+        return 1
+
+
+@pytest.mark.parametrize(
+    ("error", "fault"),
+    [
+        (BrokenPipeError(), None),
+        (ConnectionResetError(), None),
+        (ValueError("closed"), None),
+        (OSError(28, "No space left on device"), "No space left on device"),
+    ],
+)
+def test_an_outlet_takes_all_and_raises_nothing(error: Exception, fault: str | None) -> None:
+    outlet = Outlet(raw := Raising(error))
+    assert outlet.write(b"abcdef") == 6 and outlet.write(b"more") == 4
+    assert (raw.taken, outlet.fault) == (b"abc", fault)
+
+
+@posix
+def test_consoles_of_few_signs_get_others(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(BEARINGS.replace("fleshing", "µ²\\uD7FF"), encoding="utf-8")
+    done = shell(f"LC_ALL=C PYTHONUTF8=0 PYTHONIOENCODING=ascii COLUMNS=0 TERM= abu check-fit {file}")
+    assert done.returncode in (0, 1) and done.stderr == "" and "u^2?" in done.stdout

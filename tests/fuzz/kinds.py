@@ -1,0 +1,90 @@
+"""The kinds of files there are: what a right one looks like, and which quick commands take it."""
+
+from typing import Final, NamedTuple
+
+from abu_calc.spec.presets import text_of
+from tests.spec.samples import BEARINGS
+from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING
+
+FILE: Final = "@"
+"""Stands for the file in a command."""
+
+
+class Kind(NamedTuple):
+    """Texts that are right, from which others are made, and commands for them."""
+
+    name: str
+    texts: tuple[str, ...]
+    commands: tuple[tuple[str, ...], ...]
+
+
+# One ball size and one count, so that sizing has little to choose from.
+MACHINE: Final = """\
+[machine]
+name = "straight grinder"
+layout = "straight"
+mass_kg = 5.6
+speed_rpm = 5800
+speed_range_rpm = [5000, 5800]
+spindle_axis = "horizontal"
+transverse_inertia_kg_m2 = 0.1
+center_of_mass_to_wheel_mm = 200.0
+power_W = 1000.0
+[[machine.handle]]
+name = "front"
+from_center_of_mass_mm = 100.0
+[[machine.handle]]
+name = "rear"
+from_center_of_mass_mm = -150.0
+[suspension]
+model = "springs"
+natural_frequencies_hz = [2.5, 2.5]
+damping_ratios = [0.5, 0.5]
+[wheel]
+mass_kg = 0.6
+diameter_mm = 150.0
+runout_mm = 0.04
+imbalance_g_mm = 150.0
+[autobalancer]
+max_outer_diameter_mm = 68.0
+max_width_mm = 32.0
+ball_count = 2
+ball_diameter_mm = 12.0
+race_radius_mm = 26.0
+[grinding]
+press_force_N = 45.0
+cutting_coefficient = 0.35
+[run_up]
+time_s = 1.0
+[[bearing]]
+name = "drive end"
+designation = "6203"
+radial_load_kN = 0.8
+shaft_fit = "k6"
+[limits]
+vibration_level_db = 109.0
+settling_time_s = 1.0
+"""
+
+EXPECTATIONS: Final = """\
+[expected]
+status = "fail"
+"fits.0.fit" = "k6"
+"fits.0.interference_um" = [2.0, 31.0]
+"fits.1.clearance_probability" = 0.5
+[expected.tolerance]
+"fits.0.interference_um" = 0.01
+"""
+
+KINDS: Final = (
+    Kind("machine", (MACHINE,), (("validate", FILE), ("check-fit", FILE), ("validate", FILE, FILE, "--json"))),
+    Kind("bearings", (BEARINGS,), (("validate", FILE), ("check-fit", FILE), ("check-fit", FILE, "--json"))),
+    Kind("scene", (SCENE, PLANAR, TILTING, ARM), (("validate", FILE), ("validate", FILE, "--json"), ("effects", FILE))),
+    Kind(
+        "readings",
+        (text_of("sapropel-screw-rig"),),
+        (("validate", FILE), ("balance", FILE), ("balance", FILE, "--json")),
+    ),
+    Kind("expected", (BEARINGS + EXPECTATIONS,), (("verify", FILE), ("verify", FILE, "--json"), ("verify", "."))),
+)
+"""All kinds of files."""
