@@ -34,7 +34,7 @@ def _standard_input() -> bytes:
 
 
 def regular_file(path: Path, most: int = LARGEST_FILE) -> bytes:
-    """Its bytes, one more than `most` at most; a pipe or a device, which may never end or never begin, is not even waited for."""
+    """At most so many of its bytes and one; a pipe or a device, which may never end or begin, is not waited for."""
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
     with os.fdopen(handle, "rb") as stream:
         if not stat.S_ISREG(os.fstat(handle).st_mode):
