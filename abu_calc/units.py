@@ -37,6 +37,8 @@ SI_PER_UNIT: Final[dict[str, float]] = {
     "MPa": 1e6,
     "GPa": 1e9,
     "mm_per_s": 1e-3,
+    "m_per_s": 1.0,
+    "m_per_s2": 1.0,
     "kg_m2": 1.0,
     "K": 1.0,
 }
@@ -53,6 +55,8 @@ SYMBOLS: Final[dict[str, str]] = {
     "N_per_m": "N/m",
     "N_s_per_m": "N·s/m",
     "mm_per_s": "mm/s",
+    "m_per_s": "m/s",
+    "m_per_s2": "m/s²",
     "kg_m2": "kg·m²",
     "db": "dB",
 }
