@@ -21,9 +21,11 @@ if TYPE_CHECKING:
     from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
     from abu_calc.spec.read import Machine, read
     from abu_calc.spec.read_scene import SceneDescription, read_scene
+    from abu_calc.spec.recording import Recording, read_recording
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
+    from abu_calc.studies.levels import LevelsResult, levels
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
     from abu_calc.studies.stability import StabilityResult, stability
@@ -37,9 +39,11 @@ _ROOMS: Final = {
     "errors": ("AbuError", "InputError", "NotTrustworthyError", "OutputError", "RangeError"),
     "spec.read": ("Machine", "read"),
     "spec.read_scene": ("SceneDescription", "read_scene"),
+    "spec.recording": ("Recording", "read_recording"),
     "studies.accuracy": ("AccuracyResult", "accuracy"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
     "studies.effects": ("EffectsResult", "effects"),
+    "studies.levels": ("LevelsResult", "levels"),
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
@@ -54,11 +58,13 @@ __all__ = [
     "CheckFitResult",
     "EffectsResult",
     "InputError",
+    "LevelsResult",
     "Machine",
     "NotTrustworthyError",
     "OutputError",
     "Race",
     "RangeError",
+    "Recording",
     "Scene",
     "SceneDescription",
     "SimulateResult",
@@ -69,8 +75,10 @@ __all__ = [
     "accuracy",
     "check_fit",
     "effects",
+    "levels",
     "planar",
     "read",
+    "read_recording",
     "read_scene",
     "simulate",
     "size",

@@ -20,6 +20,7 @@ COMMANDS = (
     "stability",
     "effects",
     "accuracy",
+    "levels",
     "verify",
     "validate",
     "init",

@@ -102,7 +102,7 @@ def _loaded_warnings(loaded: Loaded | None) -> list[str]:
 def _body_warnings(case: Case) -> list[str]:
     if case.body.is_rigid:
         return []
-    found = " and the imbalance found from it" if case.table.wheel.measured_level_db else ""
+    found = " and the imbalance found from it" if case.table.wheel.shown else ""
     handles = "; every handle moves alike" if case.handles else ""
     return [
         f"The machine is taken as a point mass: a level at a handle{found} is uncertain by a factor of two to three"

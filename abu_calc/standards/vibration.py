@@ -1,28 +1,14 @@
-"""Vibration of hand-held machines: limits by octaves, weighting by third octaves, exposure.
-
-Nothing is computed from them yet; the default limit of a file is held to them.
-"""
+"""Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure."""
 
 import math
-import tomllib
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from abu_calc.errors import RangeError
+from abu_calc.formula import formula
+from abu_calc.standards.tables import toml_table
 from abu_calc.units import from_si, to_si
-
-_Band = TypeVar("_Band", "Octave", "ThirdOctave")
-
-
-DATA = Path(__file__).parent / "data"
-
-
-@cache
-def toml_table(name: str) -> dict[str, Any]:
-    """A data file of this folder."""
-    return tomllib.loads((DATA / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True)
@@ -35,44 +21,60 @@ class Limit:
 
 @dataclass(frozen=True)
 class Octave:
-    """An octave from `low` up to, not including, `high` [rad/s]; `nominal` centre as printed [rad/s]."""
+    """An octave from `low` up to, not including, `high` about its `centre` [rad/s].
+
+    `nominal`: the centre as printed [Hz]; `share`: of its velocity in the corrected total.
+    """
 
     nominal: float
+    centre: float
     low: float
     high: float
     limit: Limit
+    share: float
 
 
 @dataclass(frozen=True)
 class ThirdOctave:
-    """A third octave from `low` up to, not including, `high` [rad/s] and its factor W_h."""
+    """A third octave about its `centre` [rad/s] and its factor W_h; `nominal`: the centre as printed [Hz]."""
 
     nominal: float
-    low: float
-    high: float
+    centre: float
     weight: float
 
 
 @cache
 def octaves() -> tuple[Octave, ...]:
-    """The octaves 8 … 1000 Hz with their limits; bounds f/√2 … f·√2 of the exact centre. Source: GOST 17770-86."""
+    """The octaves 8 … 1000 Hz with their limits. Sources: IEC 61260-1:2014 (bands), GOST 17770-86 (limits)."""
+    ratio, found = toml_table("octave_bands")["ratio"], []
     rows = toml_table("vibration_limits")["octaves"]
-    return tuple(
-        Octave(to_si(nominal, "hz"), to_si(f / math.sqrt(2), "hz"), to_si(f * math.sqrt(2), "hz"), Limit(v, level))
-        for nominal, f, v, level in rows
-    )
+    lowest = min(velocity for _, _, velocity, _ in rows)
+    for nominal, k, velocity, level in rows:
+        centre = to_si(1000 * ratio**k, "hz")
+        edges = centre / math.sqrt(ratio), centre * math.sqrt(ratio)
+        found.append(Octave(nominal, centre, *edges, Limit(velocity, level), lowest / velocity))
+    return tuple(found)
 
 
 def octave(frequency: float) -> Octave:
     """The octave that a frequency [rad/s] lies in, with the limit there.
 
-    Range: 5.52 … 1414 Hz, else RangeError. Source: GOST 17770-86.
+    Range: 5.62 … 1413 Hz, else RangeError. Sources: IEC 61260-1:2014 (bands), GOST 17770-86 (limits).
 
     >>> found = octave(to_si(5800, "rpm"))
-    >>> round(from_si(found.nominal, "hz")), round(from_si(found.low, "hz"), 1), found.limit.level
-    (125, 88.4, 109)
+    >>> found.nominal, round(from_si(found.low, "hz"), 1), found.limit.level
+    (125, 89.1, 109)
     """
-    return _band(frequency, octaves())
+    for band in octaves():
+        if band.low <= frequency < band.high:
+            return band
+    low, high = from_si(octaves()[0].low, "hz"), from_si(octaves()[-1].high, "hz")
+    raise RangeError(
+        "no octave of the standard holds this frequency",
+        found=f"{from_si(frequency, 'hz'):g} Hz",
+        allowed=f"{low:.4g} … {high:.4g} Hz",
+        remedy="The standard says nothing outside; judge such a frequency by other means.",
+    )
 
 
 def corrected_limit() -> Limit:
@@ -86,21 +88,49 @@ def corrected_limit() -> Limit:
 
 @cache
 def third_octaves() -> tuple[ThirdOctave, ...]:
-    """The third octaves 6.3 … 1250 Hz with W_h; bounds 10^((n ∓ ½)/10) Hz. Source: ISO 5349-1:2001, table A.2."""
+    """The third octaves 6.3 … 1250 Hz with W_h, centres 10^(n/10) Hz. Source: ISO 5349-1:2001, table A.2."""
     rows = toml_table("hand_arm_weighting")["bands"]
-    bounds = [(nominal, 10 ** ((n - 0.5) / 10), 10 ** ((n + 0.5) / 10), weight) for nominal, n, weight in rows]
-    return tuple(ThirdOctave(to_si(f, "hz"), to_si(low, "hz"), to_si(high, "hz"), w) for f, low, high, w in bounds)
+    return tuple(ThirdOctave(nominal, to_si(10 ** (n / 10), "hz"), weight) for nominal, n, weight in rows)
+
+
+@formula(
+    "Weighting of hand-transmitted accelerations by frequency",
+    "W_h = s²ω₂²/((s²+ω₁s/Q₁+ω₁²)(s²+ω₂s/Q₁+ω₂²)) · (s+ω₃)ω₃/(s²+ω₃s/Q₂+ω₃²)",
+    "1",
+    where="s = iω; ω₁, ω₂, ω₃ = 2π·6.310, 2π·1258.9, 2π·15.915 1/s, Q₁ = 0.71, Q₂ = 0.64. Within 1 % of table A.2.",
+    source="ISO 5349-1:2001, annex A",
+)
+def hand_arm_response(s: Any) -> Any:
+    """Of numbers and of arrays alike.
+
+    >>> round(abs(hand_arm_response(1j * to_si(5800, "rpm"))), 4)
+    0.1658
+    """
+    given = toml_table("hand_arm_weighting")["filter"]
+    low, high, bend = (to_si(given[name], "hz") for name in ("f1", "f2", "f3"))
+    band, knee = given["q1"], given["q2"]
+    limits = s * s * high**2 / ((s * s + low * s / band + low**2) * (s * s + high * s / band + high**2))
+    return limits * (s + bend) * bend / (s * s + bend * s / knee + bend**2)
 
 
 def hand_arm_weight(frequency: float) -> float:
-    """The factor W_h by which an rms acceleration at a frequency [rad/s] counts: that of its third octave.
+    """The factor |W_h| by which an rms acceleration at a frequency [rad/s] counts.
 
-    Range: 5.62 … 1413 Hz, else RangeError. Source: ISO 5349-1:2001, table A.2.
+    Range: 5.62 … 1413 Hz, the third octaves of the table, else RangeError. Source: ISO 5349-1:2001, annex A.
 
-    >>> hand_arm_weight(to_si(5800, "rpm"))
-    0.16
+    >>> round(hand_arm_weight(to_si(16, "hz")), 2)
+    0.89
     """
-    return _band(frequency, third_octaves()).weight
+    bands, half = third_octaves(), 10**0.05
+    low, high = bands[0].centre / half, bands[-1].centre * half
+    if not low <= frequency <= high:
+        raise RangeError(
+            "W_h is not defined at this frequency",
+            found=f"{from_si(frequency, 'hz'):g} Hz",
+            allowed=f"{from_si(low, 'hz'):.4g} … {from_si(high, 'hz'):.4g} Hz",
+            remedy="Give the acceleration without weighting.",
+        )
+    return float(abs(hand_arm_response(1j * frequency)))
 
 
 def exposure_action_value() -> float:
@@ -113,14 +143,25 @@ def exposure_limit_value() -> float:
     return float(toml_table("hand_arm_weighting")["exposure"]["limit"])
 
 
-def _band(frequency: float, bands: tuple[_Band, ...]) -> _Band:
-    for band in bands:
-        if band.low <= frequency < band.high:
-            return band
-    low, high = from_si(bands[0].low, "hz"), from_si(bands[-1].high, "hz")
-    raise RangeError(
-        "no band of the standard holds this frequency",
-        found=f"{from_si(frequency, 'hz'):g} Hz",
-        allowed=f"{low:.4g} … {high:.4g} Hz",
-        remedy="The standard says nothing outside; judge such a frequency by other means.",
-    )
+def largest_total_of_one_axis() -> float:
+    """The vector total of three axes is at most so many times one axis, the largest. Source: ISO 5349-1:2001, 4.5."""
+    return float(toml_table("hand_arm_weighting")["largest_total_of_one_axis"])
+
+
+WORKING_DAY = 8 * 3600.0
+"""T₀ [s] of ISO 5349-1:2001."""
+
+
+@formula(
+    "Daily exposure to hand-transmitted vibration",
+    "A(8) = a_hv·√(T/T₀)",
+    "m/s²",
+    where="a_hv vector total of the weighted accelerations, rms [m/s²], T time of exposure a day [s], T₀ = 8 h.",
+    source="ISO 5349-1:2001, equation (2)",
+)
+def daily_exposure(total: float, seconds: float) -> float:
+    """
+    >>> daily_exposure(5.0, 2 * 3600)
+    2.5
+    """
+    return total * math.sqrt(seconds / WORKING_DAY)

@@ -22,6 +22,8 @@ WORDS: Final = {
     "Machine": "a machine that was read",
     "SceneDescription": "a scene file that was read",
     "Scene": "an abu_calc.Scene",
+    "Recording": "a recording that was read",
+    "Path": "a path",
 }
 """What an argument of each type takes."""
 
