@@ -1,4 +1,4 @@
-"""What levels say of the limits: octaves and corrected total of GOST 17770-86, daily exposure of Directive 2002/44/EC."""
+"""What levels say of the limits: octaves, corrected total (GOST 17770-86), daily exposure (Directive 2002/44/EC)."""
 
 import math
 from collections.abc import Sequence
@@ -63,10 +63,8 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     if highest > exposure * (1 + 1e-9):
         message += f"; by axes that were not measured up to {highest:.3g} m/s²"
     passed, safe = exposure <= limit, highest <= action
-    minutes_left = 480 * (action / found) ** 2 if found > 0 else math.inf
-    remedy = (
-        None if passed and safe else f"Less vibration, or less time: {min(minutes_left, 480):.0f} minutes reach it."
-    )
+    reach = min(minutes * (action / exposure) ** 2, 1440.0) if exposure > 0 else 1440.0
+    remedy = None if exposure <= action else f"{reach:.3g} minutes a day of it reach {action:g} m/s²."
     return coded("ABU413", verdict(passed, safe), message, exposure, limit, "m/s²", remedy)
 
 

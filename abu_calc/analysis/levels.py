@@ -96,7 +96,7 @@ def _band(signal: Signal, octave: Octave) -> Band:
 
 
 def _whole(signal: Signal, bands: Sequence[Band]) -> float | None:
-    """Rms velocity [m/s]; of places by a spline of the fifth degree, whose slope is exact to 0.1 % at 8 samples a turn."""
+    """Rms velocity [m/s]; of places by a spline of the fifth degree, its slope within 0.1 % at 8 samples a turn."""
     first = min(math.ceil(signal.start * signal.rate), len(signal.samples) - 2)
     if signal.derivative == 1:
         known = [band.velocity for band in bands if band.velocity is not None]

@@ -15,6 +15,8 @@ CONVENTIONS = (
     "three quarters of an octave; an instrument of class 1 may show a tone near an edge up to 3 dB lower. Limits: GOST "
     "17770-86. Weighted: W_h of ISO 5349-1:2001, a_hv the vector sum of the axes there are; A(8) = a_hv·√(T/8 h)."
 )
+LEAST_DB = 20.0
+"""Below it a level says nothing: 0.5 µm/s."""
 
 
 def levels_blocks(result: LevelsResult) -> tuple[Block, ...]:
@@ -74,11 +76,12 @@ def _octaves(places: Sequence[PlaceLevel]) -> list[Block]:
 
 
 def _tenths(value: float | None) -> str:
-    return "–" if value is None else f"{value:.1f}"
+    """Levels of nothing but rounding are not told."""
+    return "–" if value is None else f"{value:.1f}" if value >= LEAST_DB else f"<{LEAST_DB:g}"
 
 
 def _totals(result: LevelsResult) -> list[Block]:
-    """Per place: level, velocity, weighted acceleration, exposure, load of the hand; columns that nobody has are out."""
+    """Per place: level, velocity, weighted acceleration, exposure, load of the hand, as far as they are known."""
     columns: list[tuple[str, Callable[[PlaceLevel], str]]] = [
         ("level, dB", lambda one: _tenths(one.level_db)),
         ("before, dB", lambda one: _tenths(one.level_before_db)),

@@ -26,14 +26,14 @@ def measured_after_line(one: MeasuredAfter) -> str:
     """Measured, predicted, the difference in words."""
     measured = f"Measured with the autobalancer, {one.place}: {one.measured}"
     if one.unit != "dB":
-        measured += f" = {one.measured_level_db:.1f} dB"
+        measured += f", that is {one.measured_level_db:.1f} dB"
     if one.predicted_level_db is None or one.difference_db is None:
         return f"{measured}; no level is predicted."
-    predicted = f"predicted {one.predicted_level_db:.1f} dB"
+    predicted = f"{one.predicted_level_db:.1f} dB"
     if one.unit != "dB" and one.predicted_value is not None:
-        predicted += f" ({number(one.predicted_value, 3)} {one.unit} as the instrument shows it)"
+        predicted += f" ({number(one.predicted_value, 3)} {one.unit} on that instrument)"
     word = "above" if one.difference_db >= 0 else "below"
-    return f"{measured}; {predicted}: {abs(one.difference_db):.1f} dB {word} it."
+    return f"{measured}: {abs(one.difference_db):.1f} dB {word} what is predicted, {predicted}."
 
 
 def measured_after_blocks(one: MeasuredAfter | None) -> list[Block]:

@@ -3,9 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
 from abu_calc.sizing.imbalance import measured_velocity
 from abu_calc.spec.measured import Shown
 from abu_calc.units import level_from_velocity, velocity_from_level
@@ -13,7 +13,7 @@ from abu_calc.units import level_from_velocity, velocity_from_level
 
 @dataclass(frozen=True)
 class Compared:
-    """A measured and a predicted rms velocity of one axis [m/s] at a place; `predicted` None where balls cannot balance.
+    """A measured and a predicted rms velocity of one axis [m/s] at a place; no `predicted` where balls cannot balance.
 
     `shown`: as the instrument showed it; `speed` [rad/s]: of the spindle, by which it is converted.
     """
@@ -49,13 +49,15 @@ def compared(case: Case, level: float | None) -> Compared | None:
     return Compared(shown, measured_place(case, shown)[0], case.speed, measured, predicted)
 
 
-def compared_design(case: Case, imbalance: float, one: Candidate, possible: bool) -> Compared | None:
+def compared_design(design: Design) -> Compared | None:
     """Against what the accuracy budget leaves, idle at the rated speed, background included."""
+    case, one, possible = design.case, design.autobalancer, design.frequency.balancing_possible
     table = case.table.measured_after
     if table is None or table.shown is None:
         return None
-    place = measured_place(case, table.shown)[1]
-    rest = accuracy_budget(case, imbalance, one.requirement, one.balls, one.budget.resting_angles, case.speed).residual
-    moved = rest * case.body.transmission(place, one.mass)
+    budget = accuracy_budget(
+        case, design.imbalance.value, one.requirement, one.balls, one.budget.resting_angles, case.speed
+    )
+    moved = budget.residual * case.body.transmission(measured_place(case, table.shown)[1], one.mass)
     known = possible and math.isfinite(moved) and moved > 0
     return compared(case, displacement_level(moved, case.speed, case.background_level) if known else None)

@@ -119,7 +119,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
             "sampled too slowly for any octave",
             place=Place(recorded.file),
             found=f"{recorded.rate:.4g} samples a second",
-            allowed=f"at least {needed_rate(lowest):.3g}; for all octaves {needed_rate(octave_filter(octaves()[-1])):.4g}",
+            allowed=f"at least {needed_rate(lowest):.3g}",
             remedy="Is the time in another unit than its name says?",
         )
     start, derivative = _start(recorded, from_s), QUANTITIES.index(recorded.quantity)
@@ -162,7 +162,9 @@ def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
         change = halves_differ(signal)
         if change is not None and abs(change) > UNSTEADY_DB:
             word = "louder" if change > 0 else "quieter"
-            yield f"{name}: the second half is {abs(change):.1f} dB {word} than the first; --from S leaves the start out."
+            yield (
+                f"{name}: the second half is {abs(change):.1f} dB {word} than the first; --from S leaves the start out."
+            )
 
 
 def _of_motion(

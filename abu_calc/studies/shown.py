@@ -1,9 +1,10 @@
 """Levels as instruments show them, and what was measured beside what is predicted."""
 
-from typing import Annotated, Self
+from typing import Annotated, ClassVar, Self
 
 from abu_calc.sizing.compared import Compared
 from abu_calc.sizing.instruments import UNITS, as_shown, in_words, readings
+from abu_calc.sizing.vibration import Place
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, level_from_velocity, velocity_from_level
 
@@ -30,6 +31,35 @@ class Readings(Record):
             acceleration_m_per_s2=found.acceleration,
             weighted_m_per_s2=found.weighted,
             total_m_per_s2=found.total,
+        )
+
+
+@record
+class HandleLevels(Record):
+    """Levels at one place where the machine is held."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"shown_before", "shown_after"})
+
+    name: Annotated[str, Quantity("place")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
+    shown_before: Readings | None = None
+    shown_after: Readings | None = None
+
+    @classmethod
+    def of(cls, place: Place, speed: float | None = None) -> Self:
+        """Of one place; with the speed [rad/s] also as instruments show it."""
+        levels = place.levels
+        return cls(
+            name=place.name,
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            reduction_db=levels.reduction,
+            effective_mass_kg=place.effective_mass,
+            shown_before=None if speed is None else Readings.of(levels.before, speed),
+            shown_after=None if speed is None else Readings.of(levels.after, speed),
         )
 
 
