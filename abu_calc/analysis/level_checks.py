@@ -55,7 +55,7 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     totals = [one.total for one in places]
     found = largest(totals)
     if found is None or None in totals:
-        reason = next(axis.weighted_reason for one in places for axis in one.axes if axis.weighted is None)
+        reason = next(axis.reason for one in places for axis in one.axes if axis.weighted is None)
         return coded("ABU413", "not-done", reason or "not known", None, limit, "m/s²", LONGER)
     exposure = daily_exposure(found, 60 * minutes)
     highest = daily_exposure(max(map(_highest_total, places)), 60 * minutes)

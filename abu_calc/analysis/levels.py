@@ -1,14 +1,26 @@
 """Velocity levels of a motion by octaves, its corrected total, and its weighted acceleration, axis by axis."""
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
-from abu_calc.analysis.octaves import Signal, band_rms, hand_arm_filter, octave_filter, why_not
+from abu_calc.analysis.octaves import (
+    Signal,
+    band_rms,
+    flat_filter,
+    hand_arm_filter,
+    octave_filter,
+    weighted_rms,
+    why_not,
+)
 from abu_calc.standards.vibration import Octave, octaves
 from abu_calc.units import level_from_velocity
+
+ENDS: Final = 0.1
+"""Share of a record at either end over which its mean rises and falls: parts of periods count for less."""
 
 
 @dataclass(frozen=True)
@@ -22,13 +34,17 @@ class Band:
 
 @dataclass(frozen=True)
 class AxisLevels:
-    """One axis of a place: rms velocity of the whole motion [m/s], by octaves, and weighted acceleration a_h [m/s²]."""
+    """One axis of a place, rms: velocity of the whole motion [m/s], by octaves; displacement [m], acceleration [m/s²]
+    and weighted acceleration a_h [m/s²] within 6 to 1260 Hz, as instruments take them; None with the reason.
+    """
 
     name: str
     velocity: float | None
     bands: tuple[Band, ...]
+    displacement: float | None
+    acceleration: float | None
     weighted: float | None
-    weighted_reason: str | None = None
+    reason: str | None = None
 
     @property
     def corrected(self) -> float | None:
@@ -60,6 +76,10 @@ class PlaceLevels:
         parts = [axis.weighted for axis in self.axes if axis.weighted is not None]
         return math.hypot(*parts) if len(parts) == len(self.axes) else None
 
+    def louder(self, part: str) -> float | None:
+        """The largest of the axes: velocity, displacement, acceleration or weighted."""
+        return largest(getattr(axis, part) for axis in self.axes)
+
     @property
     def complete(self) -> bool:
         """Whether every octave is known."""
@@ -83,10 +103,10 @@ def level(velocity: float | None) -> float | None:
 def axis_levels(name: str, signal: Signal) -> AxisLevels:
     """Of a signal. Its whole velocity: rms about the mean from its start on, of accelerations that of the octaves."""
     bands = tuple(_band(signal, octave) for octave in octaves())
-    weighting = hand_arm_filter()
-    reason = why_not(signal, weighting)
-    weighted = band_rms(signal, weighting) if reason is None else None
-    return AxisLevels(name, _whole(signal, bands), bands, weighted, reason)
+    wide = flat_filter(-1), flat_filter(1), hand_arm_filter()
+    reason = why_not(signal, wide[0])
+    place, acceleration, weighted = (band_rms(signal, one) if reason is None else None for one in wide)
+    return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason)
 
 
 def _band(signal: Signal, octave: Octave) -> Band:
@@ -109,7 +129,8 @@ def _whole(signal: Signal, bands: Sequence[Band]) -> float | None:
 
         values = make_interp_spline(np.arange(len(values)), values, k=5).derivative()(np.arange(len(values)))
         values = values * signal.rate
-    return float(np.std(values[first:]))
+    # A simulated window is of few turns, all alike.
+    return weighted_rms(values[first:], 0.5 if signal.whole and signal.start else ENDS)
 
 
 def halves_differ(signal: Signal) -> float | None:
@@ -121,43 +142,39 @@ def halves_differ(signal: Signal) -> float | None:
 
 def carried(place: PlaceLevels, name: str, share: float) -> PlaceLevels:
     """The levels of another place, which moves `share` times as much."""
-    axes = tuple(
-        AxisLevels(
-            axis.name,
-            None if axis.velocity is None else share * axis.velocity,
-            tuple(
-                Band(band.octave, None if band.velocity is None else share * band.velocity, band.reason)
-                for band in axis.bands
-            ),
-            None if axis.weighted is None else share * axis.weighted,
-            axis.weighted_reason,
-        )
-        for axis in place.axes
-    )
+    axes = tuple(_each(axis, lambda value, _: share * value) for axis in place.axes)
     return PlaceLevels(name, axes)
 
 
-def with_tone(place: PlaceLevels, velocity: float, weighted: float, frequency: float) -> PlaceLevels:
-    """The levels with a tone of a frequency [rad/s] added as energy to every axis: rms velocity and weighted one."""
+def with_tone(place: PlaceLevels, velocity: float, weight: float, frequency: float) -> PlaceLevels:
+    """The levels with a tone of a frequency [rad/s] added as energy to every axis: rms velocity [m/s], `weight` W_h."""
+    parts = {
+        "velocity": velocity,
+        "displacement": velocity / frequency,
+        "acceleration": velocity * frequency,
+        "weighted": weight * velocity * frequency,
+    }
 
-    def added(value: float | None, more: float) -> float | None:
-        return None if value is None else math.hypot(value, more)
+    def added(value: float, part: str | Octave) -> float:
+        if isinstance(part, Octave):
+            return math.hypot(value, velocity if part.low <= frequency < part.high else 0.0)
+        return math.hypot(value, parts[part])
 
-    axes = tuple(
-        AxisLevels(
-            axis.name,
-            added(axis.velocity, velocity),
-            tuple(
-                Band(
-                    band.octave,
-                    added(band.velocity, velocity if band.octave.low <= frequency < band.octave.high else 0.0),
-                    band.reason,
-                )
-                for band in axis.bands
-            ),
-            added(axis.weighted, weighted),
-            axis.weighted_reason,
-        )
-        for axis in place.axes
+    return PlaceLevels(place.name, tuple(_each(axis, added) for axis in place.axes))
+
+
+def _each(axis: AxisLevels, change: Callable[[float, str | Octave], float]) -> AxisLevels:
+    """An axis with all that is known of it changed."""
+
+    def changed(value: float | None, part: str | Octave) -> float | None:
+        return None if value is None else change(value, part)
+
+    bands = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.bands)
+    return replace(
+        axis,
+        bands=bands,
+        velocity=changed(axis.velocity, "velocity"),
+        displacement=changed(axis.displacement, "displacement"),
+        acceleration=changed(axis.acceleration, "acceleration"),
+        weighted=changed(axis.weighted, "weighted"),
     )
-    return PlaceLevels(place.name, axes)

@@ -7,12 +7,12 @@ at the edges of a band, causal, so that only the start of a record has to be lef
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.standards.vibration import Octave, hand_arm_response, octaves
+from abu_calc.standards.vibration import Octave, band_limits, hand_arm_response, octaves
 from abu_calc.units import from_si
 
 Array = NDArray[np.float64]
@@ -25,6 +25,8 @@ FADED: Final = 0.3
 """Share of that time over which the record is faded in: a jump at its start would ring longer."""
 RAMP: Final = 4.0
 """Periods over which the mean begins, and over which it ends: parts of periods then count for nothing."""
+WIDE_PERIOD: Final = 1 / 50
+"""Period [s] that times of the filters over all octaves are counted in."""
 LEAST: Final = SETTLED + 2 * RAMP
 """Periods of a band's centre that a record must last."""
 SHARE_OF_NYQUIST: Final = 0.9
@@ -76,9 +78,19 @@ def octave_filter(band: Octave) -> Filter:
 
 
 def hand_arm_filter() -> Filter:
-    """W_h of ISO 5349-1:2001 with its band limits; as a motion's acceleration it asks for a tenth of a second."""
+    """W_h of ISO 5349-1:2001 with its band limits, from a velocity to an acceleration."""
+    return _wide(lambda s: s * hand_arm_response(s))
+
+
+def flat_filter(derivative: int) -> Filter:
+    """The band limits of ISO 5349-1:2001 alone, from a velocity to a place (−1) or an acceleration (1)."""
+    return _wide(lambda s: s**derivative * band_limits(s))
+
+
+def _wide(response: Callable[[NDArray[np.complex128]], Any]) -> Filter:
+    """All octaves together; of low order, so that 20 ms stand for its period."""
     edges = octaves()[0].low, octaves()[-1].high
-    return Filter(1 / 50, *edges, lambda s: np.asarray(s * hand_arm_response(s), dtype=np.complex128))
+    return Filter(WIDE_PERIOD, *edges, lambda s: np.asarray(response(s), dtype=np.complex128))
 
 
 def needed_rate(band: Filter) -> float:
@@ -89,11 +101,11 @@ def needed_rate(band: Filter) -> float:
 def why_not(signal: Signal, band: Filter) -> str | None:
     """Why a record does not tell a band's velocity, in words; None where it does."""
     if band.high > SHARE_OF_NYQUIST * math.pi * signal.rate:
-        return f"{signal.rate:.6g} samples a second are too few, {needed_rate(band):.4g} are needed"
+        return f"{signal.rate:.6g} samples a second are too few: {2 / SHARE_OF_NYQUIST:.2g} times its upper edge"
     if signal.duration < LEAST * band.period * (1 - 1e-9):
-        return f"the record is too short, {signal.duration:.3g} s: {LEAST * band.period:.2g} s are needed"
+        return f"{signal.duration:.3g} s are too short a record: {LEAST:g} of its periods"
     if not signal.whole and signal.duration - signal.start < 2 * RAMP * band.period:
-        return f"too little is left from {signal.start:g} s on: {2 * RAMP * band.period:.2g} s are needed"
+        return f"too little is left from {signal.start:g} s on: {2 * RAMP:g} of its periods"
     return None
 
 
@@ -116,9 +128,16 @@ def band_rms(signal: Signal, band: Filter) -> float:
     return math.sqrt(power / total)
 
 
+def weighted_rms(values: Array, share: float) -> float:
+    """Rms about the mean, weights rising and falling as sin² over a share of the values at either end."""
+    weights = _ramps(0, len(values), share * len(values))(np.arange(len(values), dtype=float))
+    mean = float(weights @ values) / float(weights.sum())
+    return math.sqrt(float(weights @ (values - mean) ** 2) / float(weights.sum()))
+
+
 def _ramps(first: int, count: int, length: float) -> Callable[[Array], Array]:
     """Weights of the samples from `first` on: they rise and fall as sin² over `length` samples."""
-    length = min(length, (count - first) / 2)
+    length = max(min(length, (count - first) / 2), 1.0)
 
     def weights(index: Array) -> Array:
         inward = np.minimum(index - first + 0.5, count - index - 0.5) / length

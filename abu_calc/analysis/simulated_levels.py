@@ -1,19 +1,17 @@
 """Levels of a simulated motion: at the axis of a scene, or where a machine is held."""
 
 import math
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
-from abu_calc.analysis.levels import AxisLevels, PlaceLevels, axis_levels, carried, with_tone
+from abu_calc.analysis.levels import PlaceLevels, axis_levels, carried, with_tone
 from abu_calc.analysis.octaves import LEAST, Array, Signal
 from abu_calc.analysis.response import axis_velocity
 from abu_calc.analysis.simulate import Simulation
 from abu_calc.dynamics.scene import Scene
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.instruments import readings
-from abu_calc.standards.vibration import octaves
+from abu_calc.standards.vibration import hand_arm_response, octaves
 
 SLOWEST: Final = 4096.0
 """Samples a second at least: enough for all octaves."""
@@ -36,20 +34,9 @@ def times_for(scene: Scene) -> Array:
 def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
     """Of the axis, along x and y, from the states of a run that was sampled at these times."""
     velocities = axis_velocity(run.scene, run.trajectory.at(times))
-    rate = (len(times) - 1) / float(times[-1] - times[0])
-    start = LAST * float(times[-1])
-    axes = tuple(
-        axis_levels(axis, Signal(np.asarray(values), rate, 0, start, whole=True))
-        if np.ptp(values) > 0
-        else _still(axis)
-        for axis, values in zip("xy", velocities, strict=True)
-    )
-    return PlaceLevels(name, axes)
-
-
-def _still(axis: str) -> AxisLevels:
-    silent = axis_levels(axis, Signal(np.zeros(8), SLOWEST, 0))
-    return AxisLevels(axis, 0.0, tuple(type(band)(band.octave, 0.0) for band in silent.bands), 0.0)
+    rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * float(times[-1])
+    signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
+    return PlaceLevels(name, tuple(map(axis_levels, "xy", signals)))
 
 
 def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]:
@@ -59,10 +46,8 @@ def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]
     Without the background, whose octaves are not known.
     """
     case = design.case
-    places: Sequence[tuple[str, float]] = [(h.name, h.place) for h in case.handles] or [
-        ("wheel plane", case.body.wheel)
-    ]
-    return tuple(moved_at(design, at_race, name, place) for name, place in places)
+    held = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
+    return tuple(moved_at(design, at_race, name, place) for name, place in held)
 
 
 def moved_at(design: Design, at_race: PlaceLevels, name: str, place: float) -> PlaceLevels:
@@ -73,4 +58,4 @@ def moved_at(design: Design, at_race: PlaceLevels, name: str, place: float) -> P
     moved = carried(at_race, name, abs(body.inertance(place, race, added)) / body.inertance(race, race, added))
     rest = imbalance * body.inertance(place, body.wheel, added) - balls * body.inertance(place, race, added)
     tone = abs(rest) * case.speed / math.sqrt(2)
-    return with_tone(moved, tone, readings(tone, case.speed).weighted or 0.0, case.speed) if tone else moved
+    return with_tone(moved, tone, abs(hand_arm_response(1j * case.speed)), case.speed) if tone else moved

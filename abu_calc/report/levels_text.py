@@ -83,17 +83,25 @@ def _tenths(value: float | None) -> str:
 def _totals(result: LevelsResult) -> list[Block]:
     """Per place: level, velocity, weighted acceleration, exposure, load of the hand, as far as they are known."""
     columns: list[tuple[str, Callable[[PlaceLevel], str]]] = [
-        ("level, dB", lambda one: _tenths(one.level_db)),
         ("before, dB", lambda one: _tenths(one.level_before_db)),
+        ("dB", lambda one: _tenths(one.level_db)),
         ("mm/s", lambda one: _short(one.velocity_rms_mm_per_s)),
-        ("a_hv, m/s²", lambda one: _short(one.weighted_acceleration_m_per_s2)),
-        ("A(8), m/s²", lambda one: _short(one.daily_exposure_m_per_s2)),
-        ("hand, N", lambda one: _short(one.static_load_N)),
-        ("without, N", lambda one: _short(one.static_load_without_N)),
+        ("µm", lambda one: _short(one.displacement_rms_um)),
+        ("m/s²", lambda one: _short(one.acceleration_m_per_s2)),
+        ("a_h", lambda one: _short(one.weighted_axis_m_per_s2)),
+        ("a_hv", lambda one: _short(one.weighted_acceleration_m_per_s2)),
+        ("A(8)", lambda one: _short(one.daily_exposure_m_per_s2)),
     ]
     told = [(name, cell) for name, cell in columns if any(cell(one) != "–" for one in result.places)]
     rows = tuple((one.name, *(cell(one) for _, cell in told)) for one in result.places)
     blocks: list[Block] = [Grid(("", *(name for name, _ in told)), rows, frozenset(range(1, len(told) + 1)))]
+    loads = [
+        f"{one.name} {_short(one.static_load_N)} N ({_short(one.static_load_without_N)} N without autobalancer)"
+        for one in result.places
+        if one.static_load_N is not None
+    ]
+    if loads:
+        blocks.append(Paragraph(f"Held still in the air, the hands carry: {', '.join(loads)}."))
     if result.minutes is None:
         blocks.append(Paragraph("For the daily exposure A(8) give --minutes M, of work a day."))
     return blocks

@@ -107,10 +107,18 @@ def hand_arm_response(s: Any) -> Any:
     0.1658
     """
     given = toml_table("hand_arm_weighting")["filter"]
-    low, high, bend = (to_si(given[name], "hz") for name in ("f1", "f2", "f3"))
-    band, knee = given["q1"], given["q2"]
-    limits = s * s * high**2 / ((s * s + low * s / band + low**2) * (s * s + high * s / band + high**2))
-    return limits * (s + bend) * bend / (s * s + bend * s / knee + bend**2)
+    bend, knee = to_si(given["f3"], "hz"), given["q2"]
+    return band_limits(s) * (s + bend) * bend / (s * s + bend * s / knee + bend**2)
+
+
+def band_limits(s: Any) -> Any:
+    """The first factor of W_h: what an instrument lets through without weighting, s = iω [rad/s], arrays too.
+
+    Source: ISO 5349-1:2001, annex A.
+    """
+    given = toml_table("hand_arm_weighting")["filter"]
+    low, high, band = to_si(given["f1"], "hz"), to_si(given["f2"], "hz"), given["q1"]
+    return s * s * high**2 / ((s * s + low * s / band + low**2) * (s * s + high * s / band + high**2))
 
 
 def hand_arm_weight(frequency: float) -> float:

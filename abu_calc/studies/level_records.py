@@ -45,6 +45,8 @@ class AxisLevel(Record):
     level_db: Annotated[float | None, Quantity("level", "L")]
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
+    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s", 3)]
+    acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted")]
     weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3)]
 
     @classmethod
@@ -55,6 +57,8 @@ class AxisLevel(Record):
             level_db=level(axis.velocity),
             velocity_rms_mm_per_s=None if axis.velocity is None else from_si(axis.velocity, "mm_per_s"),
             octave_levels_db=tuple(level(band.velocity) for band in axis.bands),
+            displacement_rms_um=None if axis.displacement is None else from_si(axis.displacement, "um"),
+            acceleration_m_per_s2=axis.acceleration,
             weighted_acceleration_m_per_s2=axis.weighted,
         )
 
@@ -72,6 +76,9 @@ class PlaceLevel(Record):
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octaves: tuple[OctaveLevel, ...]
     corrected_level_db: Annotated[float | None, Quantity("corrected level", "L", 4, "of the octaves that are known")]
+    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s", 3, "of the louder axis")]
+    acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted, louder axis")]
+    weighted_axis_m_per_s2: Annotated[float | None, Quantity("weighted acceleration of one axis", "a_h", 3)]
     weighted_acceleration_m_per_s2: Annotated[
         float | None, Quantity("weighted acceleration", "a_hv", 3, "vector total of the axes that there are")
     ]
@@ -87,7 +94,7 @@ class PlaceLevel(Record):
         loads: tuple[float, float] | None = None,
     ) -> Self:  # fmt: skip
         """In user units; `minutes` of a day, level `before` [dB], `loads` [N] without and with the autobalancer."""
-        velocity, total = place.velocity, place.total
+        velocity, moved, total = place.velocity, place.louder("displacement"), place.total
         count = len(place.axes[0].bands)
         return cls(
             name=place.name,
@@ -95,6 +102,9 @@ class PlaceLevel(Record):
             velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
             octaves=tuple(OctaveLevel.of(place.loudest(index)) for index in range(count)),
             corrected_level_db=level(place.corrected),
+            displacement_rms_um=None if moved is None else from_si(moved, "um"),
+            acceleration_m_per_s2=place.louder("acceleration"),
+            weighted_axis_m_per_s2=place.louder("weighted"),
             weighted_acceleration_m_per_s2=total,
             daily_exposure_m_per_s2=None if minutes is None or total is None else daily_exposure(total, 60 * minutes),
             axes=tuple(map(AxisLevel.of, place.axes)),
