@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
+    from abu_calc.studies.factory import FactoryResult, factory
     from abu_calc.studies.levels import LevelsResult, levels
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
@@ -43,6 +44,7 @@ _ROOMS: Final = {
     "studies.accuracy": ("AccuracyResult", "accuracy"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
     "studies.effects": ("EffectsResult", "effects"),
+    "studies.factory": ("FactoryResult", "factory"),
     "studies.levels": ("LevelsResult", "levels"),
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
@@ -57,6 +59,7 @@ __all__ = [
     "Check",
     "CheckFitResult",
     "EffectsResult",
+    "FactoryResult",
     "InputError",
     "LevelsResult",
     "Machine",
@@ -75,6 +78,7 @@ __all__ = [
     "accuracy",
     "check_fit",
     "effects",
+    "factory",
     "levels",
     "planar",
     "read",

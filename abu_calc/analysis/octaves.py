@@ -99,13 +99,17 @@ def needed_rate(band: Filter) -> float:
 
 
 def why_not(signal: Signal, band: Filter) -> str | None:
-    """Why a record does not tell a band's velocity, in words; None where it does."""
+    """Why a record does not tell a band's velocity, in words that suit several bands; None where it does."""
     if band.high > SHARE_OF_NYQUIST * math.pi * signal.rate:
-        return f"{signal.rate:.6g} samples a second are too few: {2 / SHARE_OF_NYQUIST:.2g} times its upper edge"
+        needed = f"{2 / SHARE_OF_NYQUIST:.2g} times its upper edge"
+        return f"sampled too slowly, at {signal.rate:.5g} Hz: {needed} are needed"
     if signal.duration < LEAST * band.period * (1 - 1e-9):
-        return f"{signal.duration:.3g} s are too short a record: {LEAST:g} of its periods"
+        needed = f"{LEAST:g} of its periods"
+        return f"the record is too short, {signal.duration:.3g} s: {needed} are needed"
     if not signal.whole and signal.duration - signal.start < 2 * RAMP * band.period:
-        return f"too little is left from {signal.start:g} s on: {2 * RAMP:g} of its periods"
+        needed = f"{2 * RAMP:g} of its periods"
+        left = signal.duration - signal.start
+        return f"too little is left of the record, {left:.3g} s: {needed} are needed"
     return None
 
 

@@ -21,6 +21,7 @@ COMMANDS = (
     "effects",
     "accuracy",
     "levels",
+    "factory",
     "verify",
     "validate",
     "init",
