@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from abu_calc.dynamics.supports.planar import planar
     from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
     from abu_calc.spec.read import Machine, read
+    from abu_calc.spec.read_recording import read_recording
     from abu_calc.spec.read_scene import SceneDescription, read_scene
-    from abu_calc.spec.recording import Recording, read_recording
+    from abu_calc.spec.recording import Recording
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
@@ -40,7 +41,8 @@ _ROOMS: Final = {
     "errors": ("AbuError", "InputError", "NotTrustworthyError", "OutputError", "RangeError"),
     "spec.read": ("Machine", "read"),
     "spec.read_scene": ("SceneDescription", "read_scene"),
-    "spec.recording": ("Recording", "read_recording"),
+    "spec.read_recording": ("read_recording",),
+    "spec.recording": ("Recording",),
     "studies.accuracy": ("AccuracyResult", "accuracy"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
     "studies.effects": ("EffectsResult", "effects"),

@@ -42,8 +42,8 @@ def levels(
     """Velocity levels by octaves against their limits, weighted acceleration, daily exposure."""
     from abu_calc.errors import InputError, Place
     from abu_calc.report.levels_text import levels_blocks, levels_screen
+    from abu_calc.spec.read_recording import is_recording, read_recording
     from abu_calc.spec.read_scene import read_any
-    from abu_calc.spec.recording import is_recording, read_recording
     from abu_calc.studies.levels import levels as study
 
     picked = tuple(part.strip() for part in (channels or "").split(",") if part.strip())

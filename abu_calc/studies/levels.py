@@ -26,8 +26,9 @@ from abu_calc.progress import Progress, silent
 from abu_calc.sizing.compared import Compared, compared, measured_place
 from abu_calc.sizing.design import Design
 from abu_calc.spec.read import Machine
+from abu_calc.spec.read_recording import is_recording, read_recording
 from abu_calc.spec.read_scene import SceneDescription, read_any
-from abu_calc.spec.recording import QUANTITIES, Recording, is_recording, read_recording
+from abu_calc.spec.recording import QUANTITIES, Recording
 from abu_calc.standards.vibration import octaves
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.level_records import OctaveLevel, PlaceLevel
