@@ -9,10 +9,11 @@ import numpy as np
 
 from abu_calc.analysis.octaves import (
     Signal,
+    acceleration_filter,
     band_rms,
-    flat_filter,
     hand_arm_filter,
     octave_filter,
+    place_filter,
     weighted_rms,
     why_not,
 )
@@ -103,7 +104,7 @@ def level(velocity: float | None) -> float | None:
 def axis_levels(name: str, signal: Signal) -> AxisLevels:
     """Of a signal. Its whole velocity: rms about the mean from its start on, of accelerations that of the octaves."""
     bands = tuple(_band(signal, octave) for octave in octaves())
-    wide = flat_filter(-1), flat_filter(1), hand_arm_filter()
+    wide = place_filter(), acceleration_filter(), hand_arm_filter()
     reason = why_not(signal, wide[0])
     place, acceleration, weighted = (band_rms(signal, one) if reason is None else None for one in wide)
     return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason)

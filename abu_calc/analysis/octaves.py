@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.standards.vibration import Octave, band_limits, hand_arm_response, octaves
+from abu_calc.standards.vibration import Octave, band_limits, hand_arm_response, high_pass, octaves
 from abu_calc.units import from_si
 
 Array = NDArray[np.float64]
@@ -82,9 +82,14 @@ def hand_arm_filter() -> Filter:
     return _wide(lambda s: s * hand_arm_response(s))
 
 
-def flat_filter(derivative: int) -> Filter:
-    """The band limits of ISO 5349-1:2001 alone, from a velocity to a place (−1) or an acceleration (1)."""
-    return _wide(lambda s: s**derivative * band_limits(s))
+def place_filter() -> Filter:
+    """The band limits of ISO 5349-1:2001, from a velocity to a place; the lower one twice: places drift."""
+    return _wide(lambda s: high_pass(s) * band_limits(s) / s)
+
+
+def acceleration_filter() -> Filter:
+    """The band limits of ISO 5349-1:2001 alone, from a velocity to an acceleration."""
+    return _wide(lambda s: s * band_limits(s))
 
 
 def _wide(response: Callable[[NDArray[np.complex128]], Any]) -> Filter:
@@ -162,7 +167,10 @@ def _filtered(signal: Signal, band: Filter, first: int) -> Iterator[tuple[Array,
         part = np.asarray(signal.samples[early:end], dtype=float) - mean
         faded = min(math.ceil(FADED * SETTLED * band.period * signal.rate), len(part))
         part[:faded] *= np.sin(math.pi / 2 * np.arange(faded) / faded) ** 2
-        # Behind it room for what rings on, so that it does not come back at the start.
+        # It goes on behind its end and fades, so that no jump rings; then room for what rings on.
+        behind = min(math.ceil(RAMP * band.period * signal.rate), len(part) - 1)
+        beyond = 2 * part[-1] - part[-2 : -2 - behind : -1]
+        part = np.concatenate([part, beyond * np.cos(math.pi / 2 * np.arange(1, behind + 1) / (behind + 1)) ** 2])
         size = next_fast_len(len(part) + lead, real=True)
         if size not in responses:
             responses[size] = _response(signal, band, 2 * math.pi * rfftfreq(size, 1 / signal.rate))

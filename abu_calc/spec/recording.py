@@ -76,6 +76,7 @@ def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int
             raise InputError(
                 "no such channel", place=Place(path), found=asked,
                 allowed=", ".join(f"{k} ({name})" for k, name in enumerate(names, 1)),
+                remedy="--channels takes numbers or names (Python: channels=).",
             )  # fmt: skip
         if index in found:
             raise InputError("the same channel twice", place=Place(path), found=asked)

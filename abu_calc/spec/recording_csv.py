@@ -105,6 +105,8 @@ def _table(path: str, text: str, told: list[str]) -> Lines:
             found=rows[0][1].strip()[:60], remedy="Keep one line of names, or begin the others with #.",
         )  # fmt: skip
     delimiter = _delimiter(rows[first][1])
+    if delimiter and rows[first][1].rstrip().endswith(delimiter):  # every row ends so
+        rows = [(number, line.rstrip().removesuffix(delimiter)) for number, line in rows]
     heads = [[cell.strip().strip('"') for cell in _cells(line, delimiter)] for _, line in rows[:first]]
     if delimiter != "," and "," in rows[first][1]:
         rows = [(number, _pointed(path, number, line) if k >= first else line) for k, (number, line) in enumerate(rows)]
@@ -137,7 +139,7 @@ def _delimiter(line: str) -> str | None:
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
-    return line.strip().removesuffix(delimiter or "\0").split(delimiter)
+    return line.strip().split(delimiter)
 
 
 def _pointed(path: str, number: int, line: str) -> str:
@@ -150,7 +152,7 @@ def _values(
     path: str, names: Sequence[str], numbers: Sequence[int], lines: Sequence[str], delimiter: str | None
 ) -> NDArray[np.float64]:
     """Numbers, row by row; the first cell that is none is told with its line and column."""
-    plain = [line.strip().removesuffix(delimiter or "\0").replace('"', "") for line in lines]
+    plain = [line.strip().replace('"', "") for line in lines]
     try:
         found = np.loadtxt(plain, delimiter=delimiter, ndmin=2, comments=None)
         if np.isfinite(found).all() and found.shape[1] == len(names):

@@ -59,7 +59,7 @@ def _full_scale(path: str, name: str, values: NDArray[Any], rate: int) -> NDArra
     if len(bad):
         raise InputError("a sample is no number", place=Place(path, key=name), found=f"at {bad[0] / rate:.6g} s")
     step = 1 / full if kind in WHOLE else 2.0**-23
-    limit = 1 - 1.5 / 2.0**15 if kind in WHOLE else 1.0
+    limit = 1 - 1.5 * step if kind in WHOLE else 1.0
     cut = flat_tops(found, step) if float(np.abs(found).max()) >= limit else None
     if cut is not None:
         raise InputError(

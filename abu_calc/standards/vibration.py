@@ -117,8 +117,15 @@ def band_limits(s: Any) -> Any:
     Source: ISO 5349-1:2001, annex A.
     """
     given = toml_table("hand_arm_weighting")["filter"]
-    low, high, band = to_si(given["f1"], "hz"), to_si(given["f2"], "hz"), given["q1"]
-    return s * s * high**2 / ((s * s + low * s / band + low**2) * (s * s + high * s / band + high**2))
+    high, band = to_si(given["f2"], "hz"), given["q1"]
+    return high_pass(s) * high**2 / (s * s + high * s / band + high**2)
+
+
+def high_pass(s: Any) -> Any:
+    """The lower of the band limits alone, likewise."""
+    given = toml_table("hand_arm_weighting")["filter"]
+    low, band = to_si(given["f1"], "hz"), given["q1"]
+    return s * s / (s * s + low * s / band + low**2)
 
 
 def hand_arm_weight(frequency: float) -> float:

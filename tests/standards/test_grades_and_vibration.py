@@ -92,7 +92,7 @@ def test_bands_leave_no_gap_and_do_not_overlap(hertz):
 @pytest.mark.parametrize("hertz", [5.5, 1415.0, 0.0, -10.0, math.nan, math.inf])
 def test_frequencies_outside_are_refused(hertz):
     for look_up in (vibration.octave, vibration.hand_arm_weight):
-        with pytest.raises(RangeError, match="(no octave of the standard|not defined)"):
+        with pytest.raises(RangeError, match=r"(no octave of the standard|not defined)"):
             look_up(to_si(hertz, "hz"))
 
 
