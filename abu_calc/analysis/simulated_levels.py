@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from abu_calc.analysis.levels import PlaceLevels, axis_levels, carried, with_tone
-from abu_calc.analysis.octaves import LEAST, Array, Signal
+from abu_calc.analysis.octaves import LEAST, RAMP, SETTLED, Array, Signal
 from abu_calc.analysis.response import axis_velocity
 from abu_calc.analysis.simulate import Simulation
 from abu_calc.dynamics.scene import Scene
@@ -22,19 +22,26 @@ LAST: Final = 0.95
 
 def duration_for(scene: Scene) -> float:
     """How long [s] to simulate, that every octave is known of what is left when a scene's own time is over."""
-    return scene.duration + LEAST * 2 * math.pi / octaves()[0].centre
+    return scene.duration + LEAST * _slowest_period()
 
 
 def times_for(scene: Scene) -> Array:
-    """Equally spaced times [s] of a run, often enough for its fastest octave and its revolutions."""
-    rate = max(SLOWEST, PER_REVOLUTION / scene.revolution)
-    return np.linspace(0.0, scene.duration, math.ceil(scene.duration * rate) + 1)
+    """Equally spaced times [s] of a run, often enough for its fastest octave and its revolutions; as much of its end
+    as the slowest octave asks for.
+    """
+    rate, end, period = max(SLOWEST, PER_REVOLUTION / scene.revolution), scene.duration, _slowest_period()
+    begin = max(0.0, min(LAST * end, end - 2 * RAMP * period) - SETTLED * period)
+    return np.linspace(begin, end, math.ceil((end - begin) * rate) + 1)
+
+
+def _slowest_period() -> float:
+    return 2 * math.pi / octaves()[0].centre
 
 
 def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
     """Of the axis, along x and y, from the states of a run that was sampled at these times."""
     velocities = axis_velocity(run.scene, run.trajectory.at(times))
-    rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * float(times[-1])
+    rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * run.scene.duration - float(times[0])
     signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
     return PlaceLevels(name, tuple(map(axis_levels, "xy", signals)))
 

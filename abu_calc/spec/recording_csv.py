@@ -1,7 +1,7 @@
 """CSV files of a motion: a column of time, and columns of acceleration, velocity or displacement with their units."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -10,41 +10,10 @@ from numpy.typing import NDArray
 
 from abu_calc.errors import InputError, Place
 from abu_calc.spec.recording import Asked, MotionQuantity, Recording, chosen, flat_tops, recording
-from abu_calc.units import GRAVITY
+from abu_calc.spec.recording_columns import AXIS, Column, column_of
 
-TIME: Final = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0}
-MOTION: Final[dict[str, tuple[MotionQuantity, float]]] = {
-    **dict.fromkeys(("m/s²", "m/s^2", "m/s2", "m/s/s", "m_per_s2", "m_s2", "ms-2", "m·s⁻²"), ("acceleration", 1.0)),
-    **dict.fromkeys(("mm/s²", "mm/s^2", "mm/s2", "mm_per_s2"), ("acceleration", 0.001)),
-    **dict.fromkeys(("g", "gn", "g0"), ("acceleration", GRAVITY)),
-    **dict.fromkeys(("m/s", "m_per_s"), ("velocity", 1.0)),
-    **dict.fromkeys(("mm/s", "mm_per_s"), ("velocity", 0.001)),
-    **dict.fromkeys(("um/s", "µm/s", "um_per_s"), ("velocity", 1e-06)),
-    **dict.fromkeys(("cm/s", "cm_per_s"), ("velocity", 0.01)),
-    **dict.fromkeys(("m",), ("displacement", 1.0)),
-    **dict.fromkeys(("mm",), ("displacement", 0.001)),
-    **dict.fromkeys(("um", "µm", "micron"), ("displacement", 1e-06)),
-}
-"""Units of a column: its quantity, and the value in SI."""
-WORDS: Final[dict[str, MotionQuantity]] = {
-    **dict.fromkeys(("a", "ax", "ay", "az", "acc", "accel", "acceleration"), "acceleration"),
-    **dict.fromkeys(("v", "vx", "vy", "vz", "vel", "velocity"), "velocity"),
-    **dict.fromkeys(("x", "y", "z", "disp", "displacement"), "displacement"),
-}
-TIMES: Final = frozenset({"t", "time", "times", "zeit", "время"})
-BRACKETS: Final = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
 EVEN: Final = 0.05
 """Of a step, by which times may stray from their grid: more is not the rounding of printed times."""
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column by its name: its quantity (None: not known), time or not, SI per unit (None: no unit is named)."""
-
-    name: str
-    quantity: MotionQuantity | None
-    is_time: bool
-    unit: float | None
 
 
 @dataclass(frozen=True)
@@ -90,7 +59,8 @@ def _text(path: str, content: bytes) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return content.decode("latin-1")
+        # Two letters of the upper half side by side are a Cyrillic word of Windows; alone they are µ or ².
+        return content.decode("cp1251" if re.search(rb"[\xc0-\xff]{2}", content[:4096]) else "latin-1", "replace")
 
 
 def _table(path: str, text: str, told: list[str]) -> Lines:
@@ -181,25 +151,6 @@ def _check_cell(place: Place, cell: str) -> None:
         raise InputError("not a number", place=place, found=cell or "nothing", remedy="Every row needs every number.")
 
 
-def column_of(name: str) -> Column:
-    """What a name says, "vx_mm_per_s", "a [m/s^2]", "Time (ms)".
-
-    >>> column_of("vx_mm_per_s").quantity, column_of("t_s").is_time, column_of("a [g]").unit
-    ('velocity', True, 9.80665)
-    """
-    match = BRACKETS.match(name)
-    word, unit = (match[1], match[2].replace(" ", "")) if match else (name, "")
-    bare = re.split(r"[_\s]", word.strip().lower())[0]
-    if not match:
-        endings = (key for key in (*MOTION, *TIME) if word.endswith(f"_{key}"))
-        unit = max(endings, key=len, default="")
-    known = MOTION.get(unit) or MOTION.get(unit.lower())
-    if bare in TIMES or unit.lower() in TIME:
-        return Column(name, None, True, TIME.get(unit.lower()))
-    quantity, size = known or (WORDS.get(bare), None)
-    return Column(name, quantity, False, size)
-
-
 def _rate(table: Lines, time: int, column: Column) -> float:
     """Samples a second of times that are equally spaced but for the rounding of their digits."""
     t, path, count = table.values[:, time], table.path, len(table.values)
@@ -214,24 +165,44 @@ def _rate(table: Lines, time: int, column: Column) -> float:
     if len(back):
         k = int(back[0]) + 1
         raise InputError("the times do not ascend", place=place(k), found=f"{t[k]:.12g} after {t[k - 1]:.12g}")
-    usual = float(np.median(steps))
-    gap = np.flatnonzero(steps > 1.5 * usual)
-    stray = np.abs(t - np.linspace(t[0], t[-1], count)) / ((t[-1] - t[0]) / (count - 1))
-    if len(gap) and steps[gap[0]] > 1.9 * usual:
-        k = int(gap[0]) + 1
-        raise InputError(
-            "a gap in the times", place=place(k), found=f"{steps[gap[0]]:.6g} after steps of {usual:.6g}",
+    usual = float(t[-1] - t[0]) / (count - 1)
+    stray = float(np.abs(t - np.linspace(t[0], t[-1], count)).max())
+    rounded = stray <= 1.01 * _resolution(t) <= 1.01 * usual and not _gaps(steps)
+    if stray > EVEN * usual and not rounded:
+        raise _uneven(steps, place)
+    return 1 / (usual * (column.unit or 1.0))
+
+
+def _resolution(t: NDArray[np.float64]) -> float:
+    """One unit of the last digit that the times are written with, decimals; 0 for more than nine."""
+    for digits in range(10):
+        scaled = t * 10.0**digits
+        if float(np.abs(scaled - np.round(scaled)).max()) < 1e-6 * max(1.0, float(np.abs(scaled).max()) * 1e-6):
+            return float(10.0**-digits)
+    return 0.0
+
+
+def _gaps(steps: NDArray[np.float64]) -> list[int]:
+    """Steps of time that are twice as wide as others or wider, if they are few."""
+    wide = np.flatnonzero(steps > 1.9 * float(np.median(steps)))
+    return [int(k) for k in wide] if len(wide) <= max(3, len(steps) // 1000) else []
+
+
+def _uneven(steps: NDArray[np.float64], place: Callable[[int], Place]) -> InputError:
+    """What is wrong with steps of time: a gap, if they are alike but for few, or no fixed rate."""
+    usual, gaps = float(np.median(steps)), _gaps(steps)
+    if gaps:
+        k = gaps[0]
+        return InputError(
+            "a gap in the times", place=place(k + 1), found=f"{steps[k]:.6g} after steps of {usual:.6g}",
             remedy="Cut the file there, and take its longest part.",
         )  # fmt: skip
-    worst = int(np.argmax(np.abs(steps - usual)))
-    if float(stray.max()) > EVEN or abs(steps[worst] - usual) > 2 * EVEN * usual:
-        k = worst + 1
-        raise InputError(
-            "the times are not equally spaced", place=place(k),
-            found=f"a step of {steps[worst]:.6g} among steps of {usual:.6g}",
-            remedy="Record at a fixed rate, or write the times with more digits.",
-        )  # fmt: skip
-    return (count - 1) / (float(t[-1] - t[0]) * (column.unit or 1.0))
+    k = int(np.argmax(np.abs(steps - usual)))
+    return InputError(
+        "the times are not equally spaced", place=place(k + 1),
+        found=f"a step of {steps[k]:.6g} among steps of {usual:.6g}",
+        remedy="Record at a fixed rate, or write the times with more digits.",
+    )  # fmt: skip
 
 
 def _picked(table: Lines, columns: Sequence[Column], time: int, asked: Asked, *, simulated: bool) -> list[int]:
@@ -250,6 +221,12 @@ def _picked(table: Lines, columns: Sequence[Column], time: int, asked: Asked, *,
         )  # fmt: skip
     if not (wanted or others):
         raise InputError("no column beside the time", place=Place(table.path), remedy="Columns: time, what moved.")
+    strange = [columns[k].name for k in others if not AXIS.fullmatch(columns[k].name)]
+    if not wanted and len(others) > 1 and strange:
+        raise InputError(
+            "which columns are the motion is not clear", place=Place(table.path), found=", ".join(strange),
+            remedy="Name their units (a_m_per_s2, v [mm/s]), or say --channels (Python: channels=).",
+        )  # fmt: skip
     return wanted or others
 
 

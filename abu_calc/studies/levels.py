@@ -192,7 +192,7 @@ def _of_motion(
         source="simulation",
         scene=subject.scene.name,
         quantity="velocity",
-        sampling_rate_hz=(len(times) - 1) / subject.scene.duration,
+        sampling_rate_hz=(len(times) - 1) / float(times[-1] - times[0]),
         duration_s=subject.scene.duration,
         averaged_from_s=LAST * subject.scene.duration,
         minutes=minutes,

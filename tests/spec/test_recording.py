@@ -116,6 +116,7 @@ def test_wrong_rows_are_told_with_line_and_column(
     (table("t_s,a_m_per_s2", [f"{t:.4f},9.81" for t in T]), "same number"),
     (table("one\ntwo\nthree\nt_s,v"), "more lines above"),
     (table("t;v [m/s]", [row.replace(",", ";").replace(".", ",", 1) for row in ROWS]), "both stand for decimals"),
+    (table("t,signal,rpm", [row + ",1.0" + row[-1] for row in ROWS]), "not clear"),
     (table("t_s,v [m/s]", ["0,001,0,5", "0,002,0,6"]), "commas"),
     (b"\x00\x01\x02\x03" * 100, "neither a table"), (b"RIFF\x00\x00\x00\x00WAVE", "--scale"),
 ])  # fmt: skip
@@ -138,6 +139,29 @@ def test_what_is_asked_for_must_be_there(tmp_path: Path) -> None:
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     assert "cannot be read" in str(refused(str(tmp_path / "no.csv")))
     assert "cannot be read" in str(refused(str(tmp_path)))
+
+
+def test_columns_that_others_stand_beside(tmp_path: Path) -> None:
+    more = [f"{row},{k % 7},{20 + k / 1000}" for k, row in enumerate(ROWS)]
+    assert read_recording(written(tmp_path, table("t_s,a [g],rpm,temperature", more))).names == ("a [g]",)
+    plain = read_recording(written(tmp_path, table("time,x,y,z", more)), "acceleration")
+    assert (plain.names, plain.quantity) == (("x", "y", "z"), "acceleration")
+    assert read_recording(written(tmp_path, table("time,signal,rpm,n", more)), channels=["signal"]).names == ("signal",)
+
+
+def test_times_that_are_only_rounded_are_equally_spaced(tmp_path: Path) -> None:
+    """A rate of 3 kHz in steps of 0.1 ms: 3, 3, 4 of them; the rate is that of the whole file."""
+    rows = [f"{k / 3000:.4f},{x:.6f}" for k, x in enumerate(WAVE)]
+    found = read_recording(written(tmp_path, table("t_s,v [m/s]", rows)))
+    assert found.rate == pytest.approx(3000, rel=1e-3)
+    jittered = [f"{k / 3000 + 2e-4 * (k % 3 == 1):.4f},{x:.6f}" for k, x in enumerate(WAVE)]
+    assert "not equally spaced" in str(refused(written(tmp_path, table("t_s,v [m/s]", jittered))))
+
+
+def test_russian_windows(tmp_path: Path) -> None:
+    rows = [row.replace(",", ";").replace(".", ",") for row in ROWS]
+    found = read_recording(written(tmp_path, table("Время [с];Виброскорость [мм/с]", rows).encode("cp1251")))
+    assert found.quantity == "velocity" and largest(found) == pytest.approx(3e-3, rel=1e-6)
 
 
 # WAV
