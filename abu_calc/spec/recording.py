@@ -89,17 +89,12 @@ def flat_tops(values: NDArray[np.float64], least_step: float, run: int = 3) -> i
 
     A crest that is only rounded falls off by a few steps beside such a run, one that is cut off falls steeply.
     """
-    for extreme in (float(values.max()), float(values.min())):
-        at = np.flatnonzero(values == extreme)
-        starts = at[: -run + 1] if len(at) >= run else at[:0]
-        for begin in starts[at[run - 1 :] - starts == run - 1][:1000]:
-            before, after = values[max(begin - 1, 0)], values[begin]
-            end = int(begin)
-            while end + 1 < len(values) and values[end + 1] == extreme:
-                end += 1
-            beyond = values[min(end + 1, len(values) - 1)]
-            if begin and values[begin - 1] == extreme:
-                continue
-            if min(abs(after - before), abs(beyond - extreme)) > 4 * least_step:
-                return int(begin)
+    for extreme in (values.max(), values.min()):
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], values == extreme, [False]])))
+        begins, ends = edges[::2], edges[1::2]
+        before, behind = (values[np.clip(k, 0, len(values) - 1)] for k in (begins - 1, ends))
+        steep = np.minimum(np.abs(before - extreme), np.abs(behind - extreme)) > 4 * least_step
+        cut = begins[(ends - begins >= run) & steep]
+        if len(cut):
+            return int(cut[0])
     return None
