@@ -27,10 +27,10 @@ class OctaveLevel(Record):
         """In user units."""
         octave, velocity = band.octave, band.velocity
         return cls(
-            nominal_hz=octave.nominal,
+            nominal_hz=float(octave.nominal),
             low_hz=from_si(octave.low, "hz"),
             high_hz=from_si(octave.high, "hz"),
-            limit_db=octave.limit.level,
+            limit_db=float(octave.limit.level),
             level_db=level(velocity),
             velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
             why_not=band.reason,

@@ -44,8 +44,12 @@ MINUTES: Final = Range("minutes a day", 0.0, 1440.0, "min", open_low=True, key="
 START: Final = Range("where means begin", 0.0, unit="s", key="from_s")
 FOLDED: Final = 1e-3
 """Share of the power near half the sampling rate, above which faster motion may have been folded into the octaves."""
+USUAL_DB: Final = (60, 140)
 UNSTEADY_DB: Final = 2.0
 """Of two halves of a record, by which they may differ unremarked."""
+ONE_START: Final = (
+    "One start is simulated, balls bunched 20° ahead of the imbalance; others may leave more: abu size runs many."
+)
 
 
 @record
@@ -130,7 +134,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
         Path(recorded.file).name,
         (PlaceLevel.of(place, minutes),),
         checks=level_checks((place,), minutes),
-        warnings=(*recorded.told, *_remarks(recorded, signals)),
+        warnings=(*recorded.told, *_remarks(recorded, signals), *_unusual(level(place.velocity))),
         provenance=Provenance.today(recorded.file, recorded.sha256),
         source="recording",
         quantity=recorded.quantity,
@@ -166,6 +170,15 @@ def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
             yield (
                 f"{name}: the second half is {abs(change):.1f} dB {word} than the first; --from S leaves the start out."
             )
+
+
+def _unusual(found: float | None) -> Iterator[str]:
+    """A level that hardly any machine has."""
+    if found is not None and not USUAL_DB[0] <= found <= USUAL_DB[1]:
+        yield (
+            f"{found:.0f} dB is unusual, {USUAL_DB[0]} … {USUAL_DB[1]} dB is usual: are unit and scale of the file "
+            "what they should be?"
+        )
 
 
 def _of_motion(
@@ -221,6 +234,7 @@ def _held_remarks(design: Design | None) -> Iterator[str]:
     """What the levels lack."""
     if design is None:
         return
+    yield ONE_START
     if design.case.background_level is not None:
         yield (
             f"The background of {design.case.background_level:g} dB is not in these levels: which octaves hold it is "

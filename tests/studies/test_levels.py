@@ -156,6 +156,17 @@ def test_a_background_is_not_in_the_octaves_and_that_is_said() -> None:
     assert any("background of 95 dB" in one for one in found.warnings)
 
 
+def test_a_level_in_the_wrong_unit_is_wondered_at(tmp_path: Path) -> None:
+    file = tmp_path / "v.csv"
+    file.write_text(Path(sine_file(tmp_path)).read_text().replace("t_s,vx_mm_per_s", "time,velocity"))
+    assert any("169 dB is unusual" in one for one in abu_calc.levels(str(file)).warnings)
+    assert not any("unusual" in one for one in abu_calc.levels(str(file), scale=1e-3).warnings)
+
+
+def test_a_machine_is_judged_by_one_start_and_that_is_said() -> None:
+    assert any("One start" in one for one in abu_calc.levels("msh-230").warnings)
+
+
 def test_the_report_on_one_screen(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     for arguments in (("msh-230", "--minutes", "60"), (sine_file(tmp_path, seconds=0.9), "--minutes", "60")):
