@@ -12,9 +12,9 @@ from abu_calc.studies.levels import LevelsResult
 
 CONVENTIONS = (
     "Levels are 20 lg(v / 5e-8 m/s), v rms. Octaves of IEC 61260-1:2014 (base ten), by filters within 0.01 dB over "
-    "three quarters of an octave; an instrument of class 1 may show a tone near an edge up to 3 dB lower. A filter settles over 28 periods of its octave, "
-    "which are in no mean. Limits: GOST "
-    "17770-86. Weighted: W_h of ISO 5349-1:2001, a_hv the vector sum of the axes there are; A(8) = a_hv·√(T/8 h)."
+    "three quarters of an octave; an instrument of class 1 may show a tone near an edge up to 3 dB lower. A filter "
+    "settles over 28 periods of its octave, which are in no mean. Limits: GOST 17770-86. Weighted: W_h of ISO "
+    "5349-1:2001, a_hv the vector sum of the axes there are; A(8) = a_hv·√(T/8 h)."
 )
 LEAST_DB = 20.0
 """Below it a level says nothing: 0.5 µm/s."""
