@@ -124,7 +124,8 @@ def test_place_and_acceleration_beside_the_velocity(derivative: int) -> None:
     # From an acceleration the start of a record of 2 s is still felt.
     assert found.displacement == pytest.approx(1 / w, rel=5e-3 if derivative == 1 else 1e-3)
     assert found.acceleration == pytest.approx(w, rel=1e-3)
-    assert found.velocity == pytest.approx(1.0, rel=1e-3)
+    # That of an acceleration is the sum of the octaves, which overlap a little at their edges: 0.02 dB near one.
+    assert found.velocity == pytest.approx(1.0, rel=2.5e-3 if derivative == 1 else 1e-3)
     assert band_rms(sine(96.67, 4096.0, 2.0, derivative), acceleration_filter()) == found.acceleration
 
 
