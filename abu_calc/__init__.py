@@ -21,11 +21,15 @@ if TYPE_CHECKING:
     from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
     from abu_calc.spec.read import Machine, read
     from abu_calc.spec.read_readings import Readings, read_readings
+    from abu_calc.spec.read_recording import read_recording
     from abu_calc.spec.read_scene import SceneDescription, read_scene
+    from abu_calc.spec.recording import Recording
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
     from abu_calc.studies.balance import BalanceResult, balance
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
+    from abu_calc.studies.factory import FactoryResult, factory
+    from abu_calc.studies.levels import LevelsResult, levels
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
     from abu_calc.studies.stability import StabilityResult, stability
@@ -40,10 +44,14 @@ _ROOMS: Final = {
     "spec.read": ("Machine", "read"),
     "spec.read_readings": ("Readings", "read_readings"),
     "spec.read_scene": ("SceneDescription", "read_scene"),
+    "spec.read_recording": ("read_recording",),
+    "spec.recording": ("Recording",),
     "studies.accuracy": ("AccuracyResult", "accuracy"),
     "studies.balance": ("BalanceResult", "balance"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
     "studies.effects": ("EffectsResult", "effects"),
+    "studies.factory": ("FactoryResult", "factory"),
+    "studies.levels": ("LevelsResult", "levels"),
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
@@ -58,13 +66,16 @@ __all__ = [
     "Check",
     "CheckFitResult",
     "EffectsResult",
+    "FactoryResult",
     "InputError",
+    "LevelsResult",
     "Machine",
     "NotTrustworthyError",
     "OutputError",
     "Race",
     "RangeError",
     "Readings",
+    "Recording",
     "Scene",
     "SceneDescription",
     "SimulateResult",
@@ -76,9 +87,12 @@ __all__ = [
     "balance",
     "check_fit",
     "effects",
+    "factory",
+    "levels",
     "planar",
     "read",
     "read_readings",
+    "read_recording",
     "read_scene",
     "simulate",
     "size",

@@ -163,6 +163,32 @@ _ALL: Final = (
         "A smaller press force or cutting coefficient, or more power.",
     ),
     CheckCode(
+        "ABU411", "octave level",
+        "Whether the rms velocity in each octave of IEC 61260-1 from 8 to 1000 Hz keeps the limit of GOST 17770-86, on "
+        "the loudest axis of the loudest place.",
+        "It is above 115 dB at 8 Hz, or 109 dB in an octave from 16 Hz on. Not done where the record is shorter than "
+        "36 periods of the octave, or sampled too slowly for it.",
+        "A longer record, or one sampled faster, where it is not done; else `abu size`.",
+        "levels",
+    ),
+    CheckCode(
+        "ABU412", "corrected level",
+        "Whether the rms velocity of all octaves together, that of 8 Hz counted at half, keeps the limit of GOST "
+        "17770-86.",
+        "It is above 112 dB. Not done while octaves are missing, unless those that are there exceed it.",
+        "A longer record, or one sampled faster, where it is not done; else `abu size`.",
+        "levels",
+    ),
+    CheckCode(
+        "ABU413", "daily exposure",
+        "Whether the exposure A(8) of ISO 5349-1, by the minutes given, keeps the values of Directive 2002/44/EC.",
+        "It is above the limit of 5 m/s². Warns above the action value of 2.5 m/s², or where axes that were not "
+        "measured may bring it there: a total is up to 1.7 times one axis. Not done where W_h cannot be put on the "
+        "record.",
+        "Less vibration, or fewer minutes.",
+        "levels", ("standards.vibration:daily_exposure", "standards.vibration:hand_arm_response"),
+    ),
+    CheckCode(
         "ABU501", "arm contact stiffness",
         "Whether a swing arm is supercritical at the lowest speed and the worst contact angle.",
         "The contact is stiffer than the safer of two limits, by the series and exact. Necessary, not sufficient.",

@@ -37,18 +37,20 @@ def levels_at_places(design: Design, response: Response) -> tuple[PlaceLevel, ..
     """
     if response.scene not in HELD:
         return ()
+    case = design.case
+    places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
+    return tuple(PlaceLevel(name, level_at(design, response, place)) for name, place in places)
+
+
+def level_at(design: Design, response: Response, place: float) -> float:
+    """The level [dB] at a place [m] from the centre of mass, as `levels_at_places`."""
     case, added = design.case, design.autobalancer.mass
     body, race = case.body, case.race_place
     swing = math.sqrt(2) * response.velocity_rms / case.speed / body.inertance(race, race, added)
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
-
-    def level(place: float) -> float:
-        at_race, at_wheel = body.inertance(place, race, added), body.inertance(place, body.wheel, added)
-        displacement = math.hypot(swing * at_race, imbalance * at_wheel - balls * at_race)
-        return displacement_level(displacement, case.speed, case.background_level)
-
-    places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", body.wheel)]
-    return tuple(PlaceLevel(name, level(place)) for name, place in places)
+    at_race, at_wheel = body.inertance(place, race, added), body.inertance(place, body.wheel, added)
+    displacement = math.hypot(swing * at_race, imbalance * at_wheel - balls * at_race)
+    return displacement_level(displacement, case.speed, case.background_level)
 
 
 def one_run_checks(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from abu_calc.analysis.marks import LONGER, Edge, Passages, passages, smooth
 from abu_calc.errors import InputError
-from abu_calc.spec.recording import Recording
+from abu_calc.spec.rig_record import RigRecord
 from abu_calc.units import from_si
 
 Array = NDArray[np.float64]
@@ -73,7 +73,7 @@ class RecordedRun:
         return self.speed * self.marks.width
 
 
-def recorded_run(record: Recording, edge: Edge | None = None, speed: float | None = None) -> RecordedRun:
+def recorded_run(record: RigRecord, edge: Edge | None = None, speed: float | None = None) -> RecordedRun:
     """Readings from a record; `speed` [rad/s], if given, is held against that of the marks. Raises InputError."""
     marks = passages(record.time, record.mark, edge)
     counts = _counted(marks.times)

@@ -34,6 +34,8 @@ COMMANDS = (
     "balance",
     "effects",
     "accuracy",
+    "levels",
+    "factory",
     "verify",
     "validate",
     "init",

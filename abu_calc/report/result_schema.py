@@ -9,6 +9,8 @@ from abu_calc.studies.accuracy import AccuracyResult
 from abu_calc.studies.balance import BalanceResult
 from abu_calc.studies.check_fit import CheckFitResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
+from abu_calc.studies.factory import FactoryResult
+from abu_calc.studies.levels import LevelsResult
 from abu_calc.studies.quantity import Quantity, Record, hints, quantities
 from abu_calc.studies.result import Result
 from abu_calc.studies.simulate import SimulateResult
@@ -21,7 +23,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
     SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, KnownEffectsResult, AccuracyResult,
-    BalanceResult, VerifyResult,
+    BalanceResult, LevelsResult, FactoryResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}

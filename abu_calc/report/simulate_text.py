@@ -17,6 +17,7 @@ from abu_calc.report.parts import (
     warning_blocks,
 )
 from abu_calc.report.screen import one_screen, verdict_line
+from abu_calc.report.shown_text import measured_after_blocks
 from abu_calc.studies.simulate import SimulateResult
 from abu_calc.studies.simulated_scene import Audit, Cost, EffectEntry, End
 
@@ -51,6 +52,7 @@ def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
         Heading("Motion"),
         Facts((*facts(result, *MOTION).rows, *_levels(result))),
         *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
+        *measured_after_blocks(result.measured_after),
         *_final(result.final),
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
@@ -74,6 +76,7 @@ def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
     body: list[Block] = [
         _numbers(result),
         *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
+        *measured_after_blocks(result.measured_after),
         *([Paragraph(f"The balls end at {ends} from the zero mark.")] if angles else []),
         *([Paragraph(f"Effects left out: {', '.join(left_out)}.")] if left_out else []),
     ]

@@ -7,6 +7,7 @@ from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import limit_in_file
 from abu_calc.report.screen import BLANK, one_screen, verdict_line
+from abu_calc.report.shown_text import measured_after_blocks
 from abu_calc.studies.design_records import Autobalancer, Vibration
 from abu_calc.studies.ensemble_records import EnsembleResult
 from abu_calc.studies.size import SizeResult
@@ -42,15 +43,15 @@ def balls(one: Autobalancer) -> str:
 
 def numbers_that_matter(result: SizeResult) -> list[Block]:
     """Level without and with the autobalancer, settling, mass; each with its limit, and what many starts came to."""
-    many = result.ensemble
+    many, measured = result.ensemble, measured_after_blocks(result.measured_after)
     if many is None:
-        return [BLANK, _table(result, Spread(result.vibration.level_after_db), Spread(None))]
+        return [BLANK, _table(result, Spread(result.vibration.level_after_db), Spread(None)), *measured]
     over_range = (one.level_after_db for one in result.vibration.by_speed or ())
     told = many.level_db.worst, result.vibration.level_after_db, *over_range
     level = Spread(many.level_db.typical, max((one for one in told if one is not None), default=None))
     found = many.settling_time_s
     settling = Spread(found.typical, math.inf if found.worst is None else found.worst)
-    return [BLANK, _table(result, level, settling), Paragraph(_starts(many))]
+    return [BLANK, _table(result, level, settling), Paragraph(_starts(many)), *measured]
 
 
 def _starts(many: EnsembleResult) -> str:

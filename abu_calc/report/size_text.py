@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
+from abu_calc.report.shown_text import measured_after_blocks, shown_blocks
 from abu_calc.report.size_screen import about, balls, numbers_that_matter
 from abu_calc.studies.design_records import Autobalancer, Frequency, StabilityBoundary
 from abu_calc.studies.simulated_scene import SimulatedScene
@@ -139,7 +140,13 @@ def _vibration(result: SizeResult) -> list[Block]:
     if loaded and loaded.parts:
         steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
         blocks.append(Paragraph(f"Wheel and work part: the level after is that of the simulated grinding; {steady}."))
-    return blocks
+    shown = [
+        (f"{place.name}, {state}{when}", one)
+        for state, vibration in states if vibration
+        for place in vibration.handles
+        for when, one in ((", before", place.shown_before), (", after", place.shown_after)) if one
+    ]  # fmt: skip
+    return [*blocks, *shown_blocks(shown), *measured_after_blocks(result.measured_after)]
 
 
 def _tenths(value: float | None) -> str:

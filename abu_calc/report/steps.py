@@ -44,7 +44,7 @@ STEPS: Final[Mapping[str, Step]] = {
         "Imbalance",
         (
             "sizing.imbalance:imbalance_from_level",
-            "sizing.imbalance:mean_level",
+            "sizing.instruments:velocity_shown",
             "standards.balance:permissible_imbalance",
         ),
         step_numbers.imbalance,
@@ -114,6 +114,10 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.drawing:extra_level",
         ),
         step_numbers.vibration,
+    ),
+    "levels": Step(
+        "Levels as instruments show them, weighted acceleration, exposure",
+        ("sizing.instruments:readings", "standards.vibration:hand_arm_response", "standards.vibration:daily_exposure"),
     ),
     "seats": Step(
         "Bearing seats",

@@ -84,6 +84,7 @@ def design_warnings(case: Case, one: Candidate, loaded: Loaded | None) -> tuple[
     """What a reader must know that no check says."""
     return (
         *_body_warnings(case),
+        *_sheet_warnings(case),
         *_contact_warnings(case, one),
         *_choice_warnings(case, one),
         *_loaded_warnings(loaded),
@@ -102,11 +103,22 @@ def _loaded_warnings(loaded: Loaded | None) -> list[str]:
 def _body_warnings(case: Case) -> list[str]:
     if case.body.is_rigid:
         return []
-    found = " and the imbalance found from it" if case.table.wheel.measured_level_db else ""
+    found = " and the imbalance found from it" if case.table.wheel.shown else ""
     handles = "; every handle moves alike" if case.handles else ""
     return [
         f"The machine is taken as a point mass: a level at a handle{found} is uncertain by a factor of two to three"
         f"{handles}. Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm to do better."
+    ]
+
+
+def _sheet_warnings(case: Case) -> list[str]:
+    """What a weighted acceleration is, where an imbalance was found from it."""
+    shown = case.table.wheel.shown
+    if shown is None or shown.weighting != "Wh":
+        return []
+    return [
+        "The imbalance is found from a weighted acceleration. If that is a data sheet's, it was measured with a test "
+        "wheel of defined imbalance (ISO 28927-1), not with the wheel in use."
     ]
 
 

@@ -1,13 +1,14 @@
-"""Step 2: the wheel's imbalance, from any of its three sources."""
+"""Step 2: the wheel's imbalance, from any of its sources."""
 
 import math
 from dataclasses import dataclass
-from statistics import fmean
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.instruments import in_words, velocity_shown
+from abu_calc.spec.measured import Shown
 from abu_calc.standards.balance import permissible_imbalance
 from abu_calc.units import level_from_velocity, to_si, velocity_from_level
 
@@ -21,20 +22,6 @@ class Imbalance:
 
     value: float
     source: str
-
-
-@formula(
-    "Mean of velocity levels, averaged in velocity",
-    "L(mean of v(L))",
-    "dB",
-    source="Kladiev 1996, as it averages its octaves",
-)
-def mean_level(levels: tuple[float, ...]) -> float:
-    """
-    >>> round(mean_level((100.0, 110.0)), 3)
-    106.366
-    """
-    return level_from_velocity(fmean(velocity_from_level(level) for level in levels))
 
 
 @formula(
@@ -66,12 +53,14 @@ def find_imbalance(case: Case) -> Imbalance:
 
 
 def _measured(case: Case) -> Imbalance:
-    levels = case.table.wheel.measured_level_db or ()
-    velocity = velocity_from_level(mean_level(levels))
+    shown = case.table.wheel.shown
+    if shown is None:  # the table would not have been read
+        raise InputError("no imbalance is known", place=Place(key="wheel.imbalance_g_mm"))
+    velocity = measured_velocity(shown, case.speed, "wheel")
     background = case.background_level
     if background is not None:
         velocity = _without_background(velocity, background)
-    place = next((h.place for h in case.handles if h.name == case.table.wheel.measured_at), case.body.wheel)
+    place = next((h.place for h in case.handles if h.name == shown.at), case.body.wheel)
     inertance = case.body.inertance(place, case.body.wheel)
     if abs(inertance) < NODE_SHARE / case.body.mass:
         raise InputError(
@@ -81,8 +70,15 @@ def _measured(case: Case) -> Imbalance:
         )
     resonance = resonance_factor(case.suspension, case.speed, case.body.effective_mass())
     value = imbalance_from_level(velocity, case.speed, inertance, resonance)
-    source = f"measured {', '.join(f'{level:g}' for level in levels)} dB idle, without autobalancer"
-    return Imbalance(value, source)
+    return Imbalance(value, f"measured {in_words(shown)} idle, without autobalancer")
+
+
+def measured_velocity(shown: Shown, speed: float, table: str) -> float:
+    """Rms velocity of one axis [m/s] from a table's measured value; refused, by its key, where W_h is not defined."""
+    try:
+        return velocity_shown(shown, speed)
+    except InputError as error:
+        raise error.at(Place(key=f"{table}.measured_weighting")) from None
 
 
 def _without_background(velocity: float, background_level: float) -> float:

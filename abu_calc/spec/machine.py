@@ -18,6 +18,7 @@ from abu_calc.spec.bearing_file import (
 )
 from abu_calc.spec.body import MachineTable, Suspension
 from abu_calc.spec.duty import Grinding, Motor, RunUp, SwingArm
+from abu_calc.spec.measured import MeasuredAfter
 from abu_calc.spec.proportions import larger_than_its_wheel, rim_too_fast
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import shown_short
@@ -32,6 +33,7 @@ __all__ = [
     "MachineFile",
     "MachineName",
     "MachineTable",
+    "MeasuredAfter",
     "Motor",
     "RunUp",
     "Suspension",
@@ -50,6 +52,7 @@ class MachineFile(Table):
     machine: MachineTable
     suspension: Suspension
     wheel: Wheel
+    measured_after: MeasuredAfter | None = None
     autobalancer: Autobalancer | None = None
     grinding: Grinding | None = None
     run_up: RunUp | None = None
@@ -70,15 +73,19 @@ class MachineFile(Table):
     @model_validator(mode="after")
     def _measured_at_a_handle(self) -> Self:
         names = [handle.name for handle in self.machine.handle]
-        if self.wheel.measured_at is not None and self.wheel.measured_at not in names:
-            raise problem(
-                "no handle has this name",
-                "wheel",
-                "measured_at",
-                found=shown_short(self.wheel.measured_at),
-                allowed=", ".join(map(shown_short, names)) or "none, the file has no [[machine.handle]]",
-                remedy="name a handle, or leave measured_at out (the wheel plane)",
-            )
+        places = {"wheel": self.wheel.measured_at}
+        if self.measured_after is not None:
+            places["measured_after"] = self.measured_after.measured_at
+        for table, place in places.items():
+            if place is not None and place not in names:
+                raise problem(
+                    "no handle has this name",
+                    table,
+                    "measured_at",
+                    found=shown_short(place),
+                    allowed=", ".join(map(shown_short, names)) or "none, the file has no [[machine.handle]]",
+                    remedy="name a handle, or leave measured_at out (the wheel plane)",
+                )
         return self
 
     @model_validator(mode="after")

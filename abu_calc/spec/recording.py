@@ -1,130 +1,100 @@
-"""A recorded run: a CSV file with the columns time, left, right, mark."""
+"""A recorded motion: equally spaced samples of up to three axes of one place, from a CSV or a WAV file."""
 
-import io
-import re
+import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError, Place
-from abu_calc.spec.source import regular_file
 
-LARGEST: Final = 300_000_000
-"""Bytes of the largest record that is read."""
-COLUMNS: Final = ("time", "left", "right", "mark")
-TIME: Final = re.compile(r"(time|t)\b|(time|t)[_ (\[]")
-REMEDY: Final = "a header time,left,right,mark; then a row for each sample, time in seconds"
-Array = NDArray[np.float64]
+MotionQuantity = Literal["acceleration", "velocity", "displacement"]
+QUANTITIES: Final[tuple[MotionQuantity, ...]] = ("acceleration", "velocity", "displacement")
+MOST_AXES: Final = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Samples [SI] of a quantity at `rate` [1/s]: axis by axis, in their order in the file, with their names.
+
+    `told`: what a reader must know of how the file was taken; `simulated`: whether it is a trajectory of a simulation.
+    """
+
+    file: str
+    sha256: str
+    quantity: MotionQuantity
+    names: tuple[str, ...]
+    samples: tuple[NDArray[np.float64], ...]
+    rate: float
+    told: tuple[str, ...] = ()
+    simulated: bool = False
+
+    @property
+    def duration(self) -> float:
+        """Of the record [s]."""
+        return len(self.samples[0]) / self.rate
 
 
 @dataclass(frozen=True)
-class Recording:
-    """Samples of a run: time [s], both sensors in the unit of the run's quantity, the mark in any unit."""
+class Asked:
+    """How a file is to be taken: quantity, SI per unit, which columns or channels; None: as the file says."""
 
-    time: Array
-    left: Array
-    right: Array
-    mark: Array
-
-
-def read_recording(path: Path) -> Recording:
-    """Reads a record; columns go by their names, or without a header in the order of COLUMNS.
-
-    Points or, between semicolons, commas as decimal signs. Raises InputError with file, line and remedy.
-    """
-    rows = [
-        (line, row) for line, row in enumerate(_text(path).splitlines(), 1) if row.strip() and row.strip()[0] != "#"
-    ]
-    if not rows:
-        raise InputError("the record is empty", place=Place(str(path)), allowed=REMEDY)
-    separator = next((sign for sign in ";\t," if sign in rows[0][1]), None)
-    if separator == ";":
-        rows = [(line, row.replace(",", ".")) for line, row in rows]
-    first = _split(rows[0][1], separator)
-    columns, scale, skip = _columns(first, path, rows[0][0])
-    table = _table(rows[skip:], separator, columns, path)
-    _check(table, rows[skip:], path)
-    return Recording(table[:, 0] * scale, table[:, 1], table[:, 2], table[:, 3])
+    quantity: MotionQuantity | None = None
+    scale: float | None = None
+    channels: tuple[str, ...] = ()
 
 
-def _text(path: Path) -> str:
-    place = Place(str(path))
-    try:
-        raw = regular_file(path, LARGEST)
-        if len(raw) > LARGEST:
-            raise InputError("the record is too large", place=place, allowed=f"at most {LARGEST} bytes")
-        return raw.decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"the record cannot be read: {error.strerror or error}", place=place) from None
-    except UnicodeDecodeError:
-        raise InputError("the record is not UTF-8 text", place=place, remedy="export it as CSV") from None
-
-
-def _split(row: str, separator: str | None) -> list[str]:
-    return [cell.strip().strip('"') for cell in row.split(separator)]
-
-
-def _columns(first: list[str], path: Path, line: int) -> tuple[tuple[int, ...], float, int]:
-    """The places of the four columns, seconds per unit of time, and how many rows the header takes."""
-    place = Place(str(path), line)
-    if len(first) < len(COLUMNS):
-        raise InputError("too few columns", place=place, found=str(len(first)), allowed=REMEDY)
-    if _is_number(first[0]):
-        return tuple(range(len(COLUMNS))), 1.0, 0
-    names = [name.lower() for name in first]
-    found = [[k for k, name in enumerate(names) if _is(name, column)] for column in COLUMNS]
-    if len(names) == len(COLUMNS) and not any(found[1:]):
-        found = [[k] for k in range(len(COLUMNS))]  # names of another language: in the order asked for
-    if any(len(each) != 1 for each in found):
+def recording(
+    path: str, content: bytes, quantity: MotionQuantity, axes: Sequence[tuple[str, NDArray[np.float64]]], rate: float,
+    told: Sequence[str] = (), *, simulated: bool = False,
+) -> Recording:  # fmt: skip
+    """What was read; refused with more than three axes, or one that stands still."""
+    names, samples = tuple(name for name, _ in axes), tuple(values for _, values in axes)
+    if len(axes) > MOST_AXES:
         raise InputError(
-            "columns are not told apart by their names", place=place, found=", ".join(first), allowed=REMEDY
-        )
-    time = names[found[0][0]]
-    return tuple(each[0] for each in found), 1e-3 if re.search(r"[_ (\[]ms\b", time) else 1.0, 1
+            "a place moves along three axes at most", place=Place(path), found=", ".join(names),
+            remedy="Say which to take: --channels 1,2,3, or their names (Python: channels=).",
+        )  # fmt: skip
+    still = [name for name, values in axes if float(np.ptp(values)) == 0]
+    if still:
+        raise InputError(
+            "the signal is the same number from start to end", place=Place(path, key=still[0]),
+            remedy="A sensor that is not connected? Leave the channel out: --channels (Python: channels=).",
+        )  # fmt: skip
+    digest = hashlib.sha256(content).hexdigest()
+    return Recording(path, digest, quantity, names, samples, rate, tuple(told), simulated)
 
 
-def _is(name: str, column: str) -> bool:
-    return bool(TIME.match(name)) if column == "time" else name.startswith(column)
+def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int]:
+    """Indices of the columns or channels asked for, by name or by number from 1."""
+    found = []
+    for asked in channels:
+        index = names.index(asked) if asked in names else int(asked) - 1 if asked.isdecimal() else -1
+        if not 0 <= index < len(names):
+            raise InputError(
+                "no such channel", place=Place(path), found=asked,
+                allowed=", ".join(f"{k} ({name})" for k, name in enumerate(names, 1)),
+                remedy="--channels takes numbers or names (Python: channels=).",
+            )  # fmt: skip
+        if index in found:
+            raise InputError("the same channel twice", place=Place(path), found=asked)
+        found.append(index)
+    return found
 
 
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+def flat_tops(values: NDArray[np.float64], least_step: float, run: int = 3) -> int | None:
+    """Index of the first run of equal samples at the largest or smallest value that is cut off, not rounded; or None.
 
-
-def _table(rows: list[tuple[int, str]], separator: str | None, columns: tuple[int, ...], path: Path) -> Array:
-    if not rows:
-        raise InputError("the record has no samples", place=Place(str(path)), allowed=REMEDY)
-    text = io.StringIO("\n".join(row for _, row in rows))
-    try:
-        return np.loadtxt(text, delimiter=separator, usecols=columns, ndmin=2, dtype=np.float64)
-    except ValueError:
-        for line, row in rows:
-            cells = _split(row, separator)
-            wrong = next((k for k in columns if k >= len(cells) or not _is_number(cells[k])), None)
-            if wrong is not None:
-                found = cells[wrong] if wrong < len(cells) else f"{len(cells)} columns"
-                raise InputError(
-                    "not a number", place=Place(str(path), line), found=found or "nothing", allowed=REMEDY
-                ) from None
-        raise
-
-
-def _check(table: Array, rows: list[tuple[int, str]], path: Path) -> None:
-    """Every number finite, time ascending."""
-    wrong = np.flatnonzero(~np.isfinite(table).all(axis=1))
-    if wrong.size:
-        line, row = rows[int(wrong[0])]
-        raise InputError("a finite number is expected", place=Place(str(path), line), found=row.strip()[:60])
-    back = np.flatnonzero(np.diff(table[:, 0]) <= 0)
-    if back.size:
-        line, _ = rows[int(back[0]) + 1]
-        found = " after ".join(f"{value:.9g}" for value in table[[back[0] + 1, back[0]], 0])
-        remedy = "write time with more digits, if it stands still"
-        raise InputError("time does not go on", place=Place(str(path), line), found=found, remedy=remedy)
+    A crest that is only rounded falls off by a few steps beside such a run, one that is cut off falls steeply.
+    """
+    for extreme in (values.max(), values.min()):
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], values == extreme, [False]])))
+        begins, ends = edges[::2], edges[1::2]
+        before, behind = (values[np.clip(k, 0, len(values) - 1)] for k in (begins - 1, ends))
+        steep = np.minimum(np.abs(before - extreme), np.abs(behind - extreme)) > 4 * least_step
+        cut = begins[(ends - begins >= run) & steep]
+        if len(cut):
+            return int(cut[0])
+    return None

@@ -1,23 +1,37 @@
 """The wheel, and where its imbalance is known from."""
 
-from typing import Annotated, ClassVar, Final, Literal, Self
+from typing import ClassVar, Final, Literal, Self
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from abu_calc.spec.table import Name, Table, boxed, problem
+from abu_calc.spec.measured import (
+    AXES_WORDS,
+    COMPANIONS,
+    QUANTITIES,
+    WEIGHTING_WORDS,
+    Accelerations,
+    Axes,
+    Displacements,
+    Levels,
+    Measured,
+    Velocities,
+    Weighting,
+    displaced_quantities,
+    measured_field,
+)
+from abu_calc.spec.table import Name, problem
 from abu_calc.spec.usual import usual
 
-Level = Annotated[float, Field(ge=0, le=200)]
 BalanceGrade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
 """The grades of ISO 21940-11:2016, table 1."""
 
-MOST_LEVELS: Final = 1000
-"""Measured one after another."""
-SOURCES: Final = ("imbalance_g_mm", "balance_grade", "measured_level_db")
+SOURCES: Final = ("imbalance_g_mm", "balance_grade", *QUANTITIES)
+BARE: Final = "idle, without autobalancer, instead of imbalance_g_mm"
+"""The state of the machine that the wheel's imbalance is found from."""
 RUNOUTS: Final = ("runout_mm", "runout_tir_mm")
 
 
-class Wheel(Table):
+class Wheel(Measured):
     """The wheel, its runout, and exactly one source of its imbalance."""
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"imbalance_g_mm"})
@@ -62,8 +76,8 @@ class Wheel(Table):
     )
     imbalance_g_mm: float | None = Field(
         default=None,
-        description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One of three sources: this, "
-        "balance_grade or measured_level_db.",
+        description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One source is needed: "
+        "this, balance_grade or a measured_ value.",
         examples=[150.0],
         ge=0,
         le=1e9,
@@ -75,27 +89,15 @@ class Wheel(Table):
         "G630, G250, G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm.",
         examples=["G16"],
     )
-    measured_level_db: (
-        Annotated[
-            tuple[Level, ...],
-            Field(strict=False, min_length=1, max_length=MOST_LEVELS),
-            BeforeValidator(
-                boxed,
-                json_schema_input_type=Level
-                | Annotated[tuple[Level, ...], Field(min_length=1, max_length=MOST_LEVELS)],
-            ),
-        ]
-        | None
-    ) = Field(
-        default=None,
-        description="Velocity level measured idle, without autobalancer: one number, or a list that is averaged in "
-        "velocity [dB re 5e-8 m/s]; {range}, hand grinders 95 … 120. Instead of imbalance_g_mm.",
-        examples=[111.0],
-        json_schema_extra=usual(85, 135),
-    )
+    measured_level_db: Levels = measured_field("measured_level_db", BARE)
+    measured_velocity_mm_per_s: Velocities = measured_field("measured_velocity_mm_per_s", BARE)
+    measured_displacement_um: Displacements = measured_field("measured_displacement_um", BARE)
+    measured_acceleration_m_per_s2: Accelerations = measured_field("measured_acceleration_m_per_s2", BARE)
+    measured_weighting: Weighting | None = Field(default=None, description=WEIGHTING_WORDS, examples=["none"])
+    measured_axes: Axes | None = Field(default=None, description=AXES_WORDS, examples=[1])
     measured_at: Name | None = Field(
         default=None,
-        description="With measured_level_db: name of the handle where it was measured. Without it: the wheel plane.",
+        description="With a measured_ value: name of the handle where it was measured. Without it: the wheel plane.",
         examples=["front"],
         min_length=1,
     )
@@ -113,9 +115,10 @@ class Wheel(Table):
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
         """One source of the imbalance takes the place of the others, one runout that of the other."""
+        if key in QUANTITIES:
+            return ("imbalance_g_mm", "balance_grade", *displaced_quantities(key))
         if key in SOURCES:
-            others = tuple(source for source in SOURCES if source != key)
-            return others if key == "measured_level_db" else (*others, "measured_at")
+            return (*(source for source in SOURCES if source != key), *COMPANIONS)
         return tuple(other for other in RUNOUTS if other != key) if key in RUNOUTS else ()
 
     def unused(self) -> frozenset[str]:
@@ -132,12 +135,6 @@ class Wheel(Table):
                 found=" and ".join(given) or "none",
                 allowed="one of " + ", ".join(SOURCES),
                 remedy="keep one of them" if given else "add imbalance_g_mm, the imbalance in g·mm",
-            )
-        if self.measured_at is not None and self.measured_level_db is None:
-            raise problem(
-                "measured_at goes with measured_level_db only",
-                "measured_at",
-                remedy=f"leave measured_at out: the imbalance is given by {given[0]}",
             )
         return self
 

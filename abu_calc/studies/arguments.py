@@ -23,6 +23,8 @@ WORDS: Final = {
     "Reading": "a file that was read",
     "SceneDescription": "a scene file that was read",
     "Scene": "an abu_calc.Scene",
+    "Recording": "a recording that was read",
+    "Path": "a path",
 }
 """What an argument of each type takes."""
 

@@ -12,7 +12,7 @@ from abu_calc.errors import InputError, Place
 from abu_calc.formulas.two_planes import RollOnRig
 from abu_calc.spec.read_readings import Readings
 from abu_calc.spec.readings import Errors, ReadingsFile, Rotor, Run, Trial
-from abu_calc.spec.recording import read_recording
+from abu_calc.spec.rig_record import read_rig_record
 from abu_calc.units import SYMBOLS, from_si, to_si
 
 UNITS: Final = {"displacement": "mm", "velocity": "mm_per_s", "acceleration": "m_per_s2"}
@@ -75,7 +75,7 @@ def _recorded(
     readings: Readings, index: int, run: Run, speed: float | None, sensor: float, weights: tuple[Weight, ...]
 ) -> Taken:
     path, unit = readings.beside(run.file or ""), UNITS[run.quantity]
-    samples = read_recording(path)
+    samples = read_rig_record(path)
     try:
         found = recorded_run(samples, run.mark_edge, speed)
     except InputError as error:

@@ -11,10 +11,11 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, Place, SpeedLevels
+from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, SpeedLevels
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.studies.quantity import Quantity, Record, record
+from abu_calc.studies.shown import HandleLevels
 from abu_calc.studies.simulated_scene import finite
 from abu_calc.units import from_si
 
@@ -190,29 +191,6 @@ def _um(length: float) -> float | None:
 
 
 @record
-class HandleLevels(Record):
-    """Levels at one place where the machine is held."""
-
-    name: Annotated[str, Quantity("place")]
-    level_before_db: Annotated[float | None, Quantity("level before", "L")]
-    level_after_db: Annotated[float | None, Quantity("level after", "L")]
-    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
-    effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
-
-    @classmethod
-    def of(cls, place: Place) -> Self:
-        """Of one place."""
-        levels = place.levels
-        return cls(
-            name=place.name,
-            level_before_db=levels.before,
-            level_after_db=levels.after,
-            reduction_db=levels.reduction,
-            effective_mass_kg=place.effective_mass,
-        )
-
-
-@record
 class SpeedLevel(Record):
     """Level with the autobalancer at one speed, at the loudest place."""
 
@@ -246,22 +224,22 @@ class Vibration(Record):
     steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
 
     @classmethod
-    def of(cls, vibration: Levelled, levels: SpeedLevels | None = None) -> Self:
-        """In the words of the interface."""
+    def of(cls, vibration: Levelled, levels: SpeedLevels | None = None, speed: float | None = None) -> Self:
+        """In the words of the interface; `speed` [rad/s]: the rated one, to tell what instruments show."""
         worst = vibration.worst
         return cls(
             level_before_db=worst.before,
             level_after_db=worst.after,
             reduction_db=worst.reduction,
-            handles=tuple(map(HandleLevels.of, vibration.places)),
+            handles=tuple(HandleLevels.of(place, speed) for place in vibration.places),
             by_speed=None if levels is None else tuple(map(SpeedLevel.of, levels.by_speed)),
             worst_arrangement=None if levels is None else SpeedLevel.of(levels.arranged),
         )
 
     @classmethod
-    def of_loaded(cls, loaded: Loaded) -> Self:
+    def of_loaded(cls, loaded: Loaded, speed: float | None = None) -> Self:
         """Under load."""
-        found = cls.of(loaded.levels)
+        found = cls.of(loaded.levels, speed=speed)
         steady = loaded.steady.after if loaded.parts_after else None
         return replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
 

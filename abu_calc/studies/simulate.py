@@ -6,17 +6,19 @@ from typing import Annotated, ClassVar, Final
 
 from abu_calc.analysis.audit import Audit
 from abu_calc.analysis.audit import audit as with_all_effects
-from abu_calc.analysis.one_run import levels_at_places, one_run_checks
+from abu_calc.analysis.one_run import level_at, levels_at_places, one_run_checks
 from abu_calc.analysis.response import Response
 from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
+from abu_calc.sizing.compared import Compared, compared, measured_place
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.motion import Motion, equally_spaced
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.scene_model import SceneModel, in_words
+from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SimulatedLevel, SimulatedScene
 from abu_calc.studies.subject import Source, Subject, subject_of
 
@@ -29,13 +31,15 @@ class SimulateResult(SimulatedScene, Result):
 
     command: ClassVar[str] = "simulate"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "run"}
-    optional: ClassVar[frozenset[str]] = SimulatedScene.optional | {"handles"}
+    optional: ClassVar[frozenset[str]] = SimulatedScene.optional | {"handles", "measured_after"}
 
     model: SceneModel
     level_at: Annotated[str, Quantity("place of the level")]
     """Where on the axis `level_db` holds."""
     handles: tuple[SimulatedLevel, ...] | None
     """Levels where a machine is held, background included; None for what has no places to hold."""
+    measured_after: MeasuredAfter | None
+    """Of a machine that idles: what was measured, beside what this run says."""
     description: str
     """Support, races and balls, in a sentence."""
     start: str
@@ -88,6 +92,7 @@ def simulate(
         model=SceneModel.of(run.scene),
         level_at=_level_at(subject, run.response),
         handles=_handles(subject, run.response),
+        measured_after=MeasuredAfter.of(_measured(subject, run.response)),
         provenance=subject.provenance,
         description=in_words(run.scene),
         start=subject.start,
@@ -111,6 +116,17 @@ def _level_at(subject: Subject, response: Response) -> str:
     if response.final.arm_angle is not None:
         return "end of the arm"
     return "axis" if response.final.tilt is None else "axis, centre of mass"
+
+
+def _measured(subject: Subject, response: Response) -> Compared | None:
+    """[measured_after] of a machine, held against the level of the idle scene at its place."""
+    design = subject.design
+    if design is None or response.scene != "idle":
+        return None
+    table = design.case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    return compared(design.case, level_at(design, response, measured_place(design.case, table.shown)[1]))
 
 
 def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...] | None:

@@ -12,6 +12,7 @@ from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.parallel import Workers, threads
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
+from abu_calc.sizing.compared import compared_design
 from abu_calc.sizing.design import Design
 from abu_calc.spec.read import Machine
 from abu_calc.studies.arguments import checked
@@ -27,6 +28,7 @@ from abu_calc.studies.ensemble_records import EnsembleResult
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
+from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
 from abu_calc.units import from_si
@@ -38,6 +40,7 @@ class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 
     command: ClassVar[str] = "size"
+    optional: ClassVar[frozenset[str]] = frozenset({"measured_after"})
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -52,6 +55,7 @@ class SizeResult(Result):
     accuracy_budget: AccuracyBudget
     vibration: Vibration
     vibration_loaded: Vibration | None
+    measured_after: MeasuredAfter | None
     ensemble: EnsembleResult | None
     simulation: tuple[SimulatedScene, ...]
     fits: tuple[SeatResult, ...]
@@ -109,8 +113,9 @@ def size(
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
-        vibration=Vibration.of(design.idle, design.speed_levels),
-        vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded),
+        vibration=Vibration.of(design.idle, design.speed_levels, design.case.speed),
+        vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded, design.case.speed),
+        measured_after=MeasuredAfter.of(compared_design(design)),
         ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),

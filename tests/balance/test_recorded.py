@@ -9,7 +9,7 @@ import pytest
 import abu_calc
 from abu_calc.analysis.recorded_run import RecordedRun, recorded_run
 from abu_calc.errors import InputError
-from abu_calc.spec.recording import Recording, read_recording
+from abu_calc.spec.rig_record import RigRecord, read_rig_record
 from tests.balance.rig import DAMPING, RIG, ROTOR, Simulated, Workshop, csv, recorded, turned, written
 
 LEFT, RIGHT = (0.038, 200.0), (0.0316, -152.0)
@@ -26,7 +26,7 @@ SHAPES = {
 def made(
     shape: str = "square from the mark on", *, sign: float = 1.0, drift: float = 0.0, noise: float = 0.0,
     seconds: float = 1.1, rate: float = 10_000.0, start: float = 1.3, wander: float = 0.0,
-) -> Recording:  # fmt: skip
+) -> RigRecord:  # fmt: skip
     """A record with offsets that drift, a harmonic, a stranger at 21 Hz, and parts of revolutions at both ends."""
     rng = np.random.default_rng(3)
     t = np.arange(0, seconds, 1 / rate)
@@ -37,7 +37,7 @@ def made(
         for (A, phase), offset in ((LEFT, 0.3), (RIGHT, -2.0))
     ]  # fmt: skip
     mark = 2.5 + sign * (5 * SHAPES[shape](angle) + 0.05 * (noise > 0) * rng.standard_normal(t.size))
-    return Recording(t, sides[0], sides[1], mark)
+    return RigRecord(t, sides[0], sides[1], mark)
 
 
 def holds(found: RecordedRun) -> None:
@@ -71,13 +71,13 @@ def test_a_missed_mark_does_no_harm() -> None:
     passed = np.flatnonzero(np.diff(record.mark) > 2.0)
     mark = record.mark.copy()
     mark[passed[20] - 3 : passed[20] + 60] = mark.min()
-    holds(recorded_run(Recording(record.time, record.left, record.right, mark)))
+    holds(recorded_run(RigRecord(record.time, record.left, record.right, mark)))
 
 
 def test_uneven_samples_do_no_harm() -> None:
     record = made(rate=30_000.0)
     kept = np.random.default_rng(2).random(record.time.size) < 0.6
-    holds(recorded_run(Recording(*(column[kept] for column in vars(record).values()))))
+    holds(recorded_run(RigRecord(*(column[kept] for column in vars(record).values()))))
 
 
 @pytest.mark.parametrize("first", [0.0, 0.7])
@@ -85,21 +85,21 @@ def test_sampling_in_step_with_the_rotation(first: float) -> None:
     """200 samples a revolution: a record that the mark started has it on a sample; else it is sure to half of one."""
     t = np.arange(0, 1, 1e-4)
     angle = np.round(math.tau * 50 * t, 12) + first
-    record = Recording(t, np.cos(angle - 1), np.cos(angle + 2), (angle % math.tau < 0.2) * 1.0)
+    record = RigRecord(t, np.cos(angle - 1), np.cos(angle + 2), (angle % math.tau < 0.2) * 1.0)
     found = recorded_run(record)
     off = abs(turned(math.degrees(found.left.phase), math.degrees(1)))
     assert off < 0.05 if first == 0 else off < math.degrees(found.unsure) + 1e-9 < 0.91
 
 
-def refused(record: Recording, **how: float) -> str:
+def refused(record: RigRecord, **how: float) -> str:
     with pytest.raises(InputError) as error:
         recorded_run(record, **how)  # type: ignore[arg-type]
     return str(error.value)
 
 
-def with_mark(mark: np.ndarray) -> Recording:
+def with_mark(mark: np.ndarray) -> RigRecord:
     record = made()
-    return Recording(record.time, record.left, record.right, mark)
+    return RigRecord(record.time, record.left, record.right, mark)
 
 
 def test_records_that_tell_nothing_are_refused() -> None:
@@ -182,7 +182,7 @@ def test_records_of_many_hands(tmp_path: Path, header: str, sign: str, comma: bo
     body = "\n".join(sign.join(row) for row in rows)
     path = tmp_path / "run.csv"
     path.write_text("# a comment\n" + (header + "\n" if header else "") + (body.replace(".", ",") if comma else body))
-    found = read_recording(path)
+    found = read_rig_record(path)
     assert list(found.time) == pytest.approx([0.001, 0.002, 0.003])
     assert list(found.left) == [1.5, 2, 3] and list(found.right) == [4, 5, 6] and list(found.mark) == [0, 1, 0]
 
@@ -204,5 +204,5 @@ def test_wrong_records_are_refused_with_their_line(tmp_path: Path, text: str, pa
     path = tmp_path / "run.csv"
     path.write_text(text)
     with pytest.raises(InputError) as error:
-        read_recording(path)
+        read_rig_record(path)
     assert part in str(error.value) and error.value.place.line == line and error.value.place.file == str(path)

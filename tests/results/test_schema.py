@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,7 @@ COMMANDS = (
     *(("size", "msh-230"), ("size", "swing-arm-grinder"), ("check-fit", "mmg-3200k-knife-shaft")),
     *(("simulate", "scene.toml"), ("simulate", "msh-230", "--audit"), ("stability", "scene.toml", "--speeds", "50:90")),
     *(("effects", "scene.toml"), ("effects",), ("accuracy", "scene.toml", "--budget", "0.5"), ("verify", "msh-230")),
+    *(("levels", "msh-230", "--minutes", "60"), ("levels", "scene.toml"), ("levels", "motion.csv")),
     ("size", "no-such-machine"),
 )
 
@@ -53,7 +55,9 @@ def test_every_document_is_as_the_schema_says(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("scene.toml").write_text(SCENE, encoding="utf-8")
-    run = abu if "scene.toml" in command else once
+    rows = (f"{k / 500},{math.sin(k)}" for k in range(500))
+    Path("motion.csv").write_text("t_s,a_m_per_s2\n" + "\n".join(rows), encoding="utf-8")
+    run = abu if {"scene.toml", "motion.csv"} & {*command} else once
     document = run(*command, "--json").document
     jsonschema.Draft202012Validator(schema).validate(document)
 

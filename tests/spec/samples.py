@@ -82,6 +82,14 @@ FULL: dict[str, dict[str, str]] = {
         "runout_mm": "0.04",
         "runout_angle_deg": "0.0",
         "measured_level_db": "[110.0, 111.0]",
+        "measured_weighting": '"none"',
+        "measured_axes": "1",
+        "measured_at": '"front"',
+    },
+    "[measured_after]": {
+        "measured_acceleration_m_per_s2": "[0.4, 0.5]",
+        "measured_weighting": '"Wh"',
+        "measured_axes": "3",
         "measured_at": '"front"',
     },
     "[autobalancer]": {

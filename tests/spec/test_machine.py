@@ -7,6 +7,7 @@ import pytest
 
 from abu_calc.spec.bearing import Bearing
 from abu_calc.spec.machine import BearingFile, MachineFile, expected_tolerances, expected_values
+from abu_calc.spec.measured import QUANTITIES
 from abu_calc.spec.table import Table, all_tables
 from tests.spec.samples import BASIC, BEARINGS, FULL, document, full_text, read
 
@@ -37,7 +38,7 @@ def test_keys_that_play_no_part_are_told(tmp_path: Path) -> None:
 
 def test_the_full_sample_names_every_key_of_the_models() -> None:
     """Otherwise the properties over its numbers would pass by a key that was added later."""
-    alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation"}
+    alternatives = {"runout_tir_mm", "imbalance_g_mm", "balance_grade", "designation", *QUANTITIES}
     for path, table in all_tables(MachineFile):
         header = next(header for header in FULL if header.strip("[]") == ".".join(path))
         inner = {key for key in table.model_fields if key == "handle"}

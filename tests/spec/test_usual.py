@@ -22,7 +22,8 @@ from tests.spec import scenes
 from tests.spec.samples import BASIC, read, refused
 
 FREE = {
-    "Wheel.runout_angle_deg", "Grinding.rotation_sense", "Tilting.ball_tilt_inertia",
+    "Wheel.runout_angle_deg", "Wheel.measured_axes", "MeasuredAfter.measured_axes",
+    "Grinding.rotation_sense", "Tilting.ball_tilt_inertia",
 }  # fmt: skip
 """Numbers of which every permitted one is usual."""
 RIGID = ("machine.center_of_mass_to_wheel_mm=200", "machine.transverse_inertia_kg_m2=0.1")
@@ -59,6 +60,9 @@ MISTAKES = [
     ("wheel.measured_level_db=0", []),
     ("wheel.measured_level_db=[0, 111]", []),
     ("wheel.measured_level_db=1e-9", []),
+    ("wheel.measured_velocity_mm_per_s=0.0177", ["m/s (17.7 mm/s)"]),
+    ("wheel.measured_displacement_um=0.029", ["mm (29 µm)"]),
+    ("measured_after.measured_acceleration_m_per_s2=4000", ["mm/s² (4 m/s²)", "cm/s² (40 m/s²)"]),
     ("wheel.diameter_mm=9", ["cm (90 mm)", "inch (228.6 mm)"]),
     ("wheel.diameter_mm=6", ["cm (60 mm)", "inch (152.4 mm)"]),
     ("autobalancer.max_outer_diameter_mm=800", []),

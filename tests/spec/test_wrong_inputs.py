@@ -117,7 +117,7 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     ('"springs"', '"hands"', 11, "suspension.natural_frequencies_hz", ("hands", "leave")),
     (IMBALANCE + "\n", "", 14, "wheel", ("exactly one source", "found none", "imbalance_g_mm")),
     (IMBALANCE, IMBALANCE + '\nbalance_grade = "G16"', 18, "wheel.balance_grade", ("exactly one", "keep one")),
-    (IMBALANCE, IMBALANCE + '\nmeasured_at = "front"', 18, "wheel.measured_at", ("measured_level_db only",)),
+    (IMBALANCE, IMBALANCE + '\nmeasured_at = "front"', 18, "wheel.measured_at", ("measured value only",)),
     (IMBALANCE, 'measured_level_db = 111\nmeasured_at = "front"', 18, "wheel.measured_at", ("no handle",)),
     (DIAMETER, DIAMETER + "\nrunout_mm = 0.04\nrunout_tir_mm = 0.08", 18, "wheel.runout_tir_mm", ("keep one",)),
     (SPEED, SPEED + "\nspeed_range_rpm = [3000, 4000]", 7, "machine.speed_range_rpm", ("contain speed_rpm",)),

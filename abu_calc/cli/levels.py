@@ -1,0 +1,74 @@
+"""`abu levels FILE.csv|.wav`, or MACHINE|SCENE: octave levels, weighted acceleration, daily exposure."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.cli.scene_options import Accuracy
+from abu_calc.report.outcome import Outcome
+
+
+def levels(
+    how: Delivery,
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE.csv|FILE.wav|MACHINE|SCENE", help="A recorded signal, or what is to be simulated."
+        ),
+    ],
+    set_: Overrides = None,
+    quantity: Annotated[
+        str | None,
+        typer.Option("--quantity", help="Of a file that does not say: acceleration, velocity or displacement."),
+    ] = None,
+    scale: Annotated[
+        float | None,
+        typer.Option("--scale", metavar="S", help="SI per unit of the file (m/s², m/s, m); of WAV at full scale."),
+    ] = None,
+    channels: Annotated[
+        str | None, typer.Option("--channels", metavar="1,2|NAMES", help="Which columns or channels of the file.")
+    ] = None,
+    from_s: Annotated[
+        float | None, typer.Option("--from", metavar="S", help="Seconds of the file to leave out of the means.")
+    ] = None,
+    minutes: Annotated[float | None, typer.Option("--minutes", metavar="M", help="Of work a day, for A(8).")] = None,
+    scene: Annotated[str | None, typer.Option("--scene", help="Of a machine: idle (default) or grinding.")] = None,
+    accuracy: Accuracy = 0.01,
+    duration_s: Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")] = None,
+) -> Outcome:
+    """Velocity levels by octaves against their limits, weighted acceleration, daily exposure."""
+    from abu_calc.errors import InputError, Place
+    from abu_calc.report.levels_text import levels_blocks, levels_screen
+    from abu_calc.spec.read_recording import is_recording, read_recording
+    from abu_calc.spec.read_scene import read_any
+    from abu_calc.studies.levels import levels as study
+
+    picked = tuple(part.strip() for part in (channels or "").split(",") if part.strip())
+    if is_recording(source):
+        if set_:
+            raise InputError("for machines and scenes only", place=Place(key="--set"), remedy="Leave it out.")
+        given = read_recording(source, quantity, scale, picked)
+        result = study(given, scene, minutes=minutes, from_s=from_s, duration_s=duration_s)
+    else:
+        with progress(how) as tell:
+            result = study(
+                read_any(source, set_ or ()),
+                scene,
+                quantity=quantity,
+                scale=scale,
+                channels=picked,
+                minutes=minutes,
+                from_s=from_s,
+                accuracy=accuracy,
+                duration_s=duration_s,
+                progress=tell,
+            )
+    return Outcome.of(result, lambda: levels_blocks(result), lambda: levels_screen(result))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "levels", levels)

@@ -1,0 +1,83 @@
+"""The report of `abu factory`: one table, and a word on each row."""
+
+from collections.abc import Sequence
+
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.parts import provenance_blocks
+from abu_calc.studies.factory import FactoryLevel, FactoryResult
+
+NOTE = (
+    "dB re 5e-8 m/s in the octave, measured beside predicted. With: the median of many starts, … the worst, or what "
+    "the accuracy budget leaves. –: not published, or nothing in the model moves there."
+)
+ONE_SET = (
+    "One set of assumptions for all: friction arm 0.002 mm, drag 15 1/s, race eccentricity 0.010 mm, springs of 2.5 "
+    "Hz, press force 45 N. Nothing is tuned."
+)
+
+
+def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
+    """The one screen."""
+    rows = result.rows
+    heading = "", "octave", "without", "taken", "with", "pred.", "lowered", "pred."
+    cells = tuple((f"{k} {one.short}{_state(one)}", *_cells(one)) for k, one in enumerate(rows, 1))
+    words = (Paragraph(f"{k} {one.word}{_elsewhere(one)}", hang=2) for k, one in enumerate(rows, 1))
+    return (
+        Heading(result.title),
+        Paragraph(_verdict(rows)),
+        Paragraph(""),
+        Grid(heading, cells, frozenset(range(1, 8))),
+        Paragraph(NOTE),
+        Paragraph(""),
+        *words,
+        Paragraph(f"{ONE_SET} {result.background}"),
+    )
+
+
+def factory_blocks(result: FactoryResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (*factory_screen(result), Paragraph(f"Source: {result.source}."), *provenance_blocks(result.provenance))
+
+
+def _state(one: FactoryLevel) -> str:
+    return "" if one.state == "not said" else f" {one.state}"
+
+
+def _elsewhere(one: FactoryLevel) -> str:
+    """Where the model is louder than in this octave."""
+    if one.louder_octave_hz is None:
+        return ""
+    return f" The model's loudest octave is that of {one.louder_octave_hz:g} Hz, {_one(one.louder_octave_db)} dB."
+
+
+def _cells(one: FactoryLevel) -> tuple[str, ...]:
+    predicted = _one(one.with_predicted_db)
+    if one.with_predicted_worst_db is not None:
+        predicted += f"…{_one(one.with_predicted_worst_db)}"
+    return (
+        f"{one.octave_hz:g}",
+        one.named or _span(one.without_measured_db),
+        _one(one.without_predicted_db),
+        _span(one.with_measured_db),
+        predicted,
+        _span(one.lowered_measured_db),
+        _one(one.lowered_predicted_db),
+    )
+
+
+def _span(span: tuple[float, float] | None) -> str:
+    return "–" if span is None else f"{span[0]:g}–{span[1]:g}"
+
+
+def _one(level: float | None) -> str:
+    return "–" if level is None else f"{level:.1f}"
+
+
+def _verdict(rows: Sequence[FactoryLevel]) -> str:
+    """How many predictions lie within what was measured, and how far the others are off."""
+    known = [one.outside_db for one in rows if one.outside_db is not None]
+    within = sum(1 for off in known if off == 0)
+    return (
+        f"Of {len(rows)} measurements the model speaks of {len(known)}: {within} within what was measured, the "
+        f"others up to {max(known, default=0.0):.1f} dB off."
+    )

@@ -1,0 +1,63 @@
+"""What was measured with the autobalancer, beside what is predicted of the same place."""
+
+import math
+from dataclasses import dataclass
+
+from abu_calc.sizing.budget import accuracy_budget, displacement_level
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.imbalance import measured_velocity
+from abu_calc.spec.measured import Shown
+from abu_calc.units import level_from_velocity, velocity_from_level
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A measured and a predicted rms velocity of one axis [m/s] at a place; no `predicted` where balls cannot balance.
+
+    `shown`: as the instrument showed it; `speed` [rad/s]: of the spindle, by which it is converted.
+    """
+
+    shown: Shown
+    place: str
+    speed: float
+    measured: float
+    predicted: float | None
+
+    @property
+    def difference(self) -> float | None:
+        """measured − predicted [dB]."""
+        if not self.predicted:
+            return None
+        return level_from_velocity(self.measured) - level_from_velocity(self.predicted)
+
+
+def measured_place(case: Case, shown: Shown) -> tuple[str, float]:
+    """Name and place [m] from the centre of mass of where it was measured."""
+    found = next((handle for handle in case.handles if handle.name == shown.at), None)
+    return ("wheel plane", case.body.wheel) if found is None else (found.name, found.place)
+
+
+def compared(case: Case, level: float | None) -> Compared | None:
+    """[measured_after] against a predicted level [dB] at its place; None without the table."""
+    table = case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    shown = table.shown
+    measured = measured_velocity(shown, case.speed, "measured_after")
+    predicted = None if level is None else velocity_from_level(level)
+    return Compared(shown, measured_place(case, shown)[0], case.speed, measured, predicted)
+
+
+def compared_design(design: Design) -> Compared | None:
+    """Against what the accuracy budget leaves, idle at the rated speed, background included."""
+    case, one, possible = design.case, design.autobalancer, design.frequency.balancing_possible
+    table = case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    budget = accuracy_budget(
+        case, design.imbalance.value, one.requirement, one.balls, one.budget.resting_angles, case.speed
+    )
+    moved = budget.residual * case.body.transmission(measured_place(case, table.shown)[1], one.mass)
+    known = possible and math.isfinite(moved) and moved > 0
+    return compared(case, displacement_level(moved, case.speed, case.background_level) if known else None)

@@ -1,0 +1,117 @@
+"""One spinning imbalance as instruments show it: velocity, displacement, acceleration, weighted, one axis or three."""
+
+import math
+from dataclasses import dataclass
+from statistics import fmean
+
+from abu_calc.errors import InputError
+from abu_calc.formula import formula
+from abu_calc.spec.measured import Shown
+from abu_calc.standards.vibration import hand_arm_weight
+from abu_calc.units import from_si, level_from_velocity, to_si, velocity_from_level
+
+UNITS = {
+    "measured_level_db": "dB",
+    "measured_velocity_mm_per_s": "mm/s",
+    "measured_displacement_um": "µm",
+    "measured_acceleration_m_per_s2": "m/s²",
+}
+"""Of what an instrument shows, as printed."""
+
+
+@dataclass(frozen=True)
+class Readings:
+    """What instruments show of an rms velocity [m/s] at one frequency, all rms; without W_h no `weighted`.
+
+    `weighted`: a_h of one axis; `total`: a_hv [m/s²], the vector sum of the two axes that an imbalance moves alike.
+    """
+
+    velocity: float
+    displacement: float
+    acceleration: float
+    weighted: float | None
+    total: float | None
+
+
+@formula(
+    "What instruments show of an rms velocity v at the spindle's frequency",
+    "s = v/Ω, a = Ω·v, a_h = W_h(Ω)·a, a_hv = √2·a_h",
+    "m, m/s², m/s², m/s²",
+    where=(
+        "Ω speed [rad/s], W_h weighting of ISO 5349-1; √2 as one spinning imbalance moves two axes alike and the "
+        "third, along the spindle, hardly."
+    ),
+    assumed="one harmonic at Ω; two axes alike",
+    source="ISO 5349-1:2001 for W_h; the harmonic is ours",
+)
+def readings(velocity: float, speed: float) -> Readings:
+    """
+    >>> found = readings(velocity_from_level(111), to_si(5800, "rpm"))
+    >>> [round(each, 2) for each in (1e6 * found.displacement, found.acceleration, found.weighted, found.total)]
+    [29.21, 10.78, 1.79, 2.53]
+    """
+    acceleration = velocity * speed
+    try:
+        weighted = acceleration * hand_arm_weight(speed)
+    except InputError:
+        weighted = None
+    total = None if weighted is None else math.sqrt(2) * weighted
+    return Readings(velocity, velocity / speed, acceleration, weighted, total)
+
+
+@formula(
+    "Rms velocity of one axis from what an instrument showed, lists averaged in velocity",
+    "v = Ω·s = a/Ω = a_h/(W_h·Ω) = a_hv/(√2·W_h·Ω)",
+    "m/s",
+    where="As what instruments show, the other way.",
+    checked=("W_h at 5.62 … 1413 Hz",),
+    assumed="one harmonic at Ω; of a sum of three axes two alike and the third nothing",
+    source="ISO 5349-1:2001 for W_h; the mean as Kladiev 1996 averages its octaves",
+)
+def velocity_shown(shown: Shown, speed: float) -> float:
+    """
+    >>> round(velocity_shown(Shown("measured_acceleration_m_per_s2", (10.78,), "none", 1, None), to_si(5800, "rpm")), 5)
+    0.01775
+    >>> both = velocity_shown(Shown("measured_level_db", (100.0, 110.0), "none", 1, None), 1.0)
+    >>> round(level_from_velocity(both), 3)
+    106.366
+    """
+    return fmean(_velocity(shown, value, speed) for value in shown.values) / (math.sqrt(2) if shown.axes == 3 else 1.0)
+
+
+def _velocity(shown: Shown, value: float, speed: float) -> float:
+    if shown.key == "measured_level_db":
+        return velocity_from_level(value)
+    if shown.key == "measured_velocity_mm_per_s":
+        return to_si(value, "mm_per_s")
+    if shown.key == "measured_displacement_um":
+        return to_si(value, "um") * speed
+    return value / speed / (hand_arm_weight(speed) if shown.weighting == "Wh" else 1.0)
+
+
+def in_words(shown: Shown) -> str:
+    """What was read, with its unit and how.
+
+    >>> in_words(Shown("measured_acceleration_m_per_s2", (2.5, 2.7), "Wh", 3, "front"))
+    '2.5, 2.7 m/s² (W_h, vector sum of three axes) at "front"'
+    """
+    how = [text for text, said in (("W_h", shown.weighting == "Wh"), ("vector sum of three axes", shown.axes == 3))
+           if said]  # fmt: skip
+    values = ", ".join(f"{value:g}" for value in shown.values)
+    place = "" if shown.at is None else f' at "{shown.at}"'
+    within = f" ({', '.join(how)})" if how else ""
+    return f"{values} {UNITS[shown.key]}{within}{place}"
+
+
+def as_shown(shown: Shown, velocity: float, speed: float) -> float | None:
+    """An rms velocity of one axis [m/s] in the unit, the weighting and the axes of what was shown; None without W_h."""
+    found = readings(velocity, speed)
+    many = math.sqrt(2) if shown.axes == 3 else 1.0
+    if shown.key == "measured_level_db":
+        return level_from_velocity(many * velocity)
+    if shown.key == "measured_velocity_mm_per_s":
+        return from_si(many * velocity, "mm_per_s")
+    if shown.key == "measured_displacement_um":
+        return from_si(many * found.displacement, "um")
+    acceleration = found.weighted if shown.weighting == "Wh" else found.acceleration
+    return None if acceleration is None else many * acceleration

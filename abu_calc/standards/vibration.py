@@ -1,0 +1,182 @@
+"""Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure."""
+
+import math
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from abu_calc.errors import RangeError
+from abu_calc.formula import formula
+from abu_calc.standards.tables import toml_table
+from abu_calc.units import from_si, to_si
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit of vibration: rms velocity [m/s] and its level [dB re 5e-8 m/s], as the standard rounds them."""
+
+    velocity: float
+    level: float
+
+
+@dataclass(frozen=True)
+class Octave:
+    """An octave from `low` up to, not including, `high` about its `centre` [rad/s].
+
+    `nominal`: the centre as printed [Hz]; `share`: of its velocity in the corrected total.
+    """
+
+    nominal: float
+    centre: float
+    low: float
+    high: float
+    limit: Limit
+    share: float
+
+
+@dataclass(frozen=True)
+class ThirdOctave:
+    """A third octave about its `centre` [rad/s] and its factor W_h; `nominal`: the centre as printed [Hz]."""
+
+    nominal: float
+    centre: float
+    weight: float
+
+
+@cache
+def octaves() -> tuple[Octave, ...]:
+    """The octaves 8 … 1000 Hz with their limits. Sources: IEC 61260-1:2014 (bands), GOST 17770-86 (limits)."""
+    ratio, found = toml_table("octave_bands")["ratio"], []
+    rows = toml_table("vibration_limits")["octaves"]
+    lowest = min(velocity for _, _, velocity, _ in rows)
+    for nominal, k, velocity, level in rows:
+        centre = to_si(1000 * ratio**k, "hz")
+        edges = centre / math.sqrt(ratio), centre * math.sqrt(ratio)
+        found.append(Octave(nominal, centre, *edges, Limit(velocity, level), lowest / velocity))
+    return tuple(found)
+
+
+def octave(frequency: float) -> Octave:
+    """The octave that a frequency [rad/s] lies in, with the limit there.
+
+    Range: 5.62 … 1413 Hz, else RangeError. Sources: IEC 61260-1:2014 (bands), GOST 17770-86 (limits).
+
+    >>> found = octave(to_si(5800, "rpm"))
+    >>> found.nominal, round(from_si(found.low, "hz"), 1), found.limit.level
+    (125, 89.1, 109)
+    """
+    for band in octaves():
+        if band.low <= frequency < band.high:
+            return band
+    low, high = from_si(octaves()[0].low, "hz"), from_si(octaves()[-1].high, "hz")
+    raise RangeError(
+        "no octave of the standard holds this frequency",
+        found=f"{from_si(frequency, 'hz'):g} Hz",
+        allowed=f"{low:.4g} … {high:.4g} Hz",
+        remedy="The standard says nothing outside; judge such a frequency by other means.",
+    )
+
+
+def corrected_limit() -> Limit:
+    """The limit of the corrected total over all octaves. Source: GOST 17770-86.
+
+    >>> corrected_limit()
+    Limit(velocity=0.02, level=112)
+    """
+    return Limit(**toml_table("vibration_limits")["corrected"])
+
+
+@cache
+def third_octaves() -> tuple[ThirdOctave, ...]:
+    """The third octaves 6.3 … 1250 Hz with W_h, centres 10^(n/10) Hz. Source: ISO 5349-1:2001, table A.2."""
+    rows = toml_table("hand_arm_weighting")["bands"]
+    return tuple(ThirdOctave(nominal, to_si(10 ** (n / 10), "hz"), weight) for nominal, n, weight in rows)
+
+
+@formula(
+    "Weighting of hand-transmitted accelerations by frequency",
+    "W_h = s²ω₂²/((s²+ω₁s/Q₁+ω₁²)(s²+ω₂s/Q₁+ω₂²)) · (s+ω₃)ω₃/(s²+ω₃s/Q₂+ω₃²)",
+    "1",
+    where="s = iω; ω₁, ω₂, ω₃ = 2π·6.310, 2π·1258.9, 2π·15.915 1/s, Q₁ = 0.71, Q₂ = 0.64. Within 1 % of table A.2.",
+    source="ISO 5349-1:2001, annex A",
+)
+def hand_arm_response(s: Any) -> Any:
+    """Of numbers and of arrays alike.
+
+    >>> round(abs(hand_arm_response(1j * to_si(5800, "rpm"))), 4)
+    0.1658
+    """
+    given = toml_table("hand_arm_weighting")["filter"]
+    bend, knee = to_si(given["f3"], "hz"), given["q2"]
+    return band_limits(s) * (s + bend) * bend / (s * s + bend * s / knee + bend**2)
+
+
+def band_limits(s: Any) -> Any:
+    """The first factor of W_h: what an instrument lets through without weighting, s = iω [rad/s], arrays too.
+
+    Source: ISO 5349-1:2001, annex A.
+    """
+    given = toml_table("hand_arm_weighting")["filter"]
+    high, band = to_si(given["f2"], "hz"), given["q1"]
+    return high_pass(s) * high**2 / (s * s + high * s / band + high**2)
+
+
+def high_pass(s: Any) -> Any:
+    """The lower of the band limits alone, likewise."""
+    given = toml_table("hand_arm_weighting")["filter"]
+    low, band = to_si(given["f1"], "hz"), given["q1"]
+    return s * s / (s * s + low * s / band + low**2)
+
+
+def hand_arm_weight(frequency: float) -> float:
+    """The factor |W_h| by which an rms acceleration at a frequency [rad/s] counts.
+
+    Range: 5.62 … 1413 Hz, the third octaves of the table, else RangeError. Source: ISO 5349-1:2001, annex A.
+
+    >>> round(hand_arm_weight(to_si(16, "hz")), 2)
+    0.89
+    """
+    bands, half = third_octaves(), 10**0.05
+    low, high = bands[0].centre / half, bands[-1].centre * half
+    if not low <= frequency <= high:
+        raise RangeError(
+            "W_h is not defined at this frequency",
+            found=f"{from_si(frequency, 'hz'):g} Hz",
+            allowed=f"{from_si(low, 'hz'):.4g} … {from_si(high, 'hz'):.4g} Hz",
+            remedy="Give the acceleration without weighting.",
+        )
+    return float(abs(hand_arm_response(1j * frequency)))
+
+
+def exposure_action_value() -> float:
+    """Daily exposure A(8) [m/s²] that calls for measures. Source: Directive 2002/44/EC."""
+    return float(toml_table("hand_arm_weighting")["exposure"]["action"])
+
+
+def exposure_limit_value() -> float:
+    """Daily exposure A(8) [m/s²] not to be exceeded. Source: Directive 2002/44/EC."""
+    return float(toml_table("hand_arm_weighting")["exposure"]["limit"])
+
+
+def largest_total_of_one_axis() -> float:
+    """The vector total of three axes is at most so many times one axis, the largest. Source: ISO 5349-1:2001, 4.5."""
+    return float(toml_table("hand_arm_weighting")["largest_total_of_one_axis"])
+
+
+WORKING_DAY = 8 * 3600.0
+"""T₀ [s] of ISO 5349-1:2001."""
+
+
+@formula(
+    "Daily exposure to hand-transmitted vibration",
+    "A(8) = a_hv·√(T/T₀)",
+    "m/s²",
+    where="a_hv vector total of the weighted accelerations, rms [m/s²], T time of exposure a day [s], T₀ = 8 h.",
+    source="ISO 5349-1:2001, equation (2)",
+)
+def daily_exposure(total: float, seconds: float) -> float:
+    """
+    >>> daily_exposure(5.0, 2 * 3600)
+    2.5
+    """
+    return total * math.sqrt(seconds / WORKING_DAY)

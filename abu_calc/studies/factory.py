@@ -1,0 +1,150 @@
+"""The factory's machines: what was measured beside what is predicted, by one set of assumptions."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from abu_calc.checks import Status
+from abu_calc.progress import Progress, silent
+from abu_calc.spec.read import Machine, read
+from abu_calc.standards.factory import FactoryRow, Span, factory_rows, factory_source
+from abu_calc.standards.vibration import octave
+from abu_calc.studies.arguments import checked
+from abu_calc.studies.levels import levels
+from abu_calc.studies.quantity import Quantity, Record, record
+from abu_calc.studies.result import Provenance, Result
+from abu_calc.studies.size import SizeResult, size
+from abu_calc.units import to_si
+
+
+@record
+class FactoryLevel(Record):
+    """One measurement of a machine in an octave, and the prediction; null: not published, or nothing in the model."""
+
+    machine: Annotated[str, Quantity("machine", "", 4, "the preset")]
+    short: Annotated[str, Quantity("name")]
+    state: Annotated[str, Quantity("state", "", 4, "idle, loaded, or not said")]
+    octave_hz: Annotated[float, Quantity("octave")]
+    without_measured_db: Annotated[Span | None, Quantity("without, measured", "L")]
+    without_predicted_db: Annotated[
+        float | None, Quantity("without, predicted", "L", 4, "idle: as taken from the file")
+    ]
+    with_measured_db: Annotated[Span | None, Quantity("with, measured", "L")]
+    with_predicted_db: Annotated[float | None, Quantity("with, predicted", "L", 4, "idle: the median start")]
+    with_predicted_worst_db: Annotated[float | None, Quantity("with, the worst start", "L")]
+    lowered_measured_db: Annotated[Span | None, Quantity("lowered, measured", "ΔL")]
+    lowered_predicted_db: Annotated[float | None, Quantity("lowered, predicted", "ΔL", 3)]
+    outside_db: Annotated[
+        float | None,
+        Quantity("outside what was measured", "", 2, "with it, else what it lowers"),
+    ]
+    louder_octave_hz: Annotated[float | None, Quantity("louder octave of the model")]
+    louder_octave_db: Annotated[float | None, Quantity("its level", "L")]
+    named: Annotated[str | None, Quantity("named without a number")]
+    word: Annotated[str, Quantity("on the difference")]
+
+
+@record
+class FactoryResult(Result):
+    """All of them in one table."""
+
+    command: ClassVar[str] = "factory"
+
+    rows: tuple[FactoryLevel, ...]
+    source: Annotated[str, Quantity("source")]
+    background: Annotated[str, Quantity("background")]
+
+    @property
+    def status(self) -> Status:
+        """A comparison that is not tuned cannot fail."""
+        return "pass"
+
+
+@dataclass(frozen=True)
+class _Predicted:
+    """Levels [dB] in one state and octave."""
+
+    without: float | None = None
+    fitted: float | None = None
+    worst: float | None = None
+    louder: tuple[float, float] | None = None
+    """Another octave [Hz] that is the loudest, and its level."""
+
+
+@checked
+def factory(progress: Progress = silent) -> FactoryResult:
+    """Size every machine that a factory measured, from its preset, and set the predictions beside the measurements.
+
+    Nothing is tuned: presets hold published figures, and where there are none usual ones, alike for all.
+    """
+    rows, sized = [], dict[str, SizeResult]()
+    for row in factory_rows():
+        machine = read(row.machine)
+        if row.machine not in sized:
+            progress(row.short)
+            sized[row.machine] = size(machine, progress=progress)
+        rows.append(_row(row, _predicted(row, machine, sized[row.machine], progress)))
+    source, background = factory_source()
+    return FactoryResult(
+        title="Machines that a factory measured", provenance=Provenance.today(), rows=tuple(rows), source=source,
+        background=background,
+    )  # fmt: skip
+
+
+def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: Progress) -> _Predicted:
+    """Idle the starts of the ensemble, in the octave of the spindle; at work in the plane the simulated octaves."""
+    table = machine.whole()
+    own = octave(to_si(table.machine.speed_rpm, "rpm")).nominal
+    if row.state == "loaded" and table.grinding is not None and table.grinding.contact != "face":
+        found = levels(machine, "grinding", progress=progress)
+        known = {one.nominal_hz: one.level_db for one in found.octaves if one.level_db is not None}
+        loudest, loaded = max(known, key=known.__getitem__), design.vibration_loaded
+        louder = None if loudest == row.octave else (loudest, known[loudest])
+        before = None if loaded is None or own != row.octave else loaded.level_before_db
+        return _Predicted(before, known.get(row.octave), louder=louder)
+    if own != row.octave:
+        return _Predicted()
+    many = design.ensemble
+    if many is None:
+        return _Predicted(design.vibration.level_before_db, design.vibration.level_after_db)
+    told = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
+    return _Predicted(design.vibration.level_before_db, many.level_db.typical, max(told, default=None))
+
+
+def _row(row: FactoryRow, found: _Predicted) -> FactoryLevel:
+    both = found.without is not None and found.fitted is not None
+    measured = row.lowered
+    if measured is None and row.without is not None and row.fitted is not None:
+        measured = max(0.0, row.without[0] - row.fitted[1]), row.without[1] - row.fitted[0]
+    return FactoryLevel(
+        machine=row.machine,
+        short=row.short,
+        state=row.state,
+        octave_hz=row.octave,
+        without_measured_db=row.without,
+        without_predicted_db=found.without,
+        with_measured_db=row.fitted,
+        with_predicted_db=found.fitted,
+        with_predicted_worst_db=found.worst,
+        lowered_measured_db=measured,
+        lowered_predicted_db=(found.without or 0.0) - (found.fitted or 0.0) if both else None,
+        outside_db=_outside(row, found),
+        louder_octave_hz=None if found.louder is None else found.louder[0],
+        louder_octave_db=None if found.louder is None else found.louder[1],
+        named=row.peak,
+        word=row.word,
+    )
+
+
+def _outside(row: FactoryRow, found: _Predicted) -> float | None:
+    """By how much the prediction leaves the span that was measured [dB]; None where they do not speak of the same."""
+    if found.fitted is None:
+        return None
+    if row.fitted is not None:
+        return _gap(row.fitted, found.fitted, found.worst or found.fitted)
+    if row.lowered is None or found.without is None:
+        return None
+    return _gap(row.lowered, found.without - (found.worst or found.fitted), found.without - found.fitted)
+
+
+def _gap(measured: Span, least: float, most: float) -> float:
+    return max(0.0, measured[0] - most, least - measured[1])

@@ -1,0 +1,92 @@
+"""Levels as instruments show them, and what was measured beside what is predicted."""
+
+from typing import Annotated, ClassVar, Self
+
+from abu_calc.sizing.compared import Compared
+from abu_calc.sizing.instruments import UNITS, as_shown, in_words, readings
+from abu_calc.sizing.vibration import Place
+from abu_calc.studies.quantity import Quantity, Record, record
+from abu_calc.units import from_si, level_from_velocity, velocity_from_level
+
+
+@record
+class Readings(Record):
+    """One level as instruments show it, all rms; weighted values are null where W_h is not defined."""
+
+    velocity_mm_per_s: Annotated[float, Quantity("velocity", "v")]
+    displacement_um: Annotated[float, Quantity("displacement", "s")]
+    acceleration_m_per_s2: Annotated[float, Quantity("acceleration", "a")]
+    weighted_m_per_s2: Annotated[float | None, Quantity("weighted, one axis", "a_h", 3)]
+    total_m_per_s2: Annotated[float | None, Quantity("weighted, three axes", "a_hv", 3)]
+
+    @classmethod
+    def of(cls, level: float | None, speed: float) -> Self | None:
+        """Of a level [dB] at a speed [rad/s]; None of none."""
+        if level is None:
+            return None
+        found = readings(velocity_from_level(level), speed)
+        return cls(
+            velocity_mm_per_s=from_si(found.velocity, "mm_per_s"),
+            displacement_um=from_si(found.displacement, "um"),
+            acceleration_m_per_s2=found.acceleration,
+            weighted_m_per_s2=found.weighted,
+            total_m_per_s2=found.total,
+        )
+
+
+@record
+class HandleLevels(Record):
+    """Levels at one place where the machine is held."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"shown_before", "shown_after"})
+
+    name: Annotated[str, Quantity("place")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
+    shown_before: Readings | None = None
+    shown_after: Readings | None = None
+
+    @classmethod
+    def of(cls, place: Place, speed: float | None = None) -> Self:
+        """Of one place; with the speed [rad/s] also as instruments show it."""
+        levels = place.levels
+        return cls(
+            name=place.name,
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            reduction_db=levels.reduction,
+            effective_mass_kg=place.effective_mass,
+            shown_before=None if speed is None else Readings.of(levels.before, speed),
+            shown_after=None if speed is None else Readings.of(levels.after, speed),
+        )
+
+
+@record
+class MeasuredAfter(Record):
+    """What was measured with the autobalancer, idle, beside what is predicted of the same place."""
+
+    place: Annotated[str, Quantity("measured at")]
+    measured: Annotated[str, Quantity("as measured")]
+    measured_level_db: Annotated[float, Quantity("measured", "L")]
+    predicted_level_db: Annotated[float | None, Quantity("predicted", "L")]
+    difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3)]
+    predicted_value: Annotated[float | None, Quantity("predicted, as the instrument shows it")]
+    unit: Annotated[str, Quantity("unit of that value")]
+
+    @classmethod
+    def of(cls, one: Compared | None) -> Self | None:
+        """None without a measured value."""
+        if one is None:
+            return None
+        predicted = one.predicted
+        return cls(
+            place=one.place,
+            measured=in_words(one.shown),
+            measured_level_db=level_from_velocity(one.measured),
+            predicted_level_db=level_from_velocity(predicted) if predicted else None,
+            difference_db=one.difference,
+            predicted_value=as_shown(one.shown, predicted, one.speed) if predicted else None,
+            unit=UNITS[one.shown.key],
+        )
