@@ -26,6 +26,9 @@ _Displacement = Annotated[float, Field(gt=0, le=1e6)]
 _Acceleration = Annotated[float, Field(gt=0, le=1e6)]
 
 
+_VALUES: Final = Field(strict=False, min_length=1, max_length=MOST_VALUES)
+
+
 def _one_or_many(kind: Any) -> BeforeValidator:
     """One number stands for a list of one."""
     return BeforeValidator(
@@ -109,18 +112,12 @@ AXES_WORDS: Final = (
     "sheets. A spinning imbalance moves two axes alike, so one takes 1/√2 of a sum. Without it: 1."
 )
 Axes = Annotated[Literal[1, 3], BeforeValidator(whole)]
-Levels = (
-    Annotated[tuple[_Level, ...], Field(strict=False, min_length=1, max_length=MOST_VALUES), _one_or_many(_Level)]
-    | None
-)
-Velocities = (
-    Annotated[tuple[_Velocity, ...], Field(strict=False, min_length=1, max_length=MOST_VALUES), _one_or_many(_Velocity)]
-    | None
-)
+Levels = Annotated[tuple[_Level, ...], _VALUES, _one_or_many(_Level)] | None
+Velocities = Annotated[tuple[_Velocity, ...], _VALUES, _one_or_many(_Velocity)] | None
 Displacements = (
     Annotated[
         tuple[_Displacement, ...],
-        Field(strict=False, min_length=1, max_length=MOST_VALUES),
+        _VALUES,
         _one_or_many(_Displacement),
     ]
     | None
@@ -128,7 +125,7 @@ Displacements = (
 Accelerations = (
     Annotated[
         tuple[_Acceleration, ...],
-        Field(strict=False, min_length=1, max_length=MOST_VALUES),
+        _VALUES,
         _one_or_many(_Acceleration),
     ]
     | None
