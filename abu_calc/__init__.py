@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
+    from abu_calc.studies.grinding import GrindingResult, grinding
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
     from abu_calc.studies.stability import StabilityResult, stability
@@ -40,6 +41,7 @@ _ROOMS: Final = {
     "studies.accuracy": ("AccuracyResult", "accuracy"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
     "studies.effects": ("EffectsResult", "effects"),
+    "studies.grinding": ("GrindingResult", "grinding"),
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
@@ -53,6 +55,7 @@ __all__ = [
     "Check",
     "CheckFitResult",
     "EffectsResult",
+    "GrindingResult",
     "InputError",
     "Machine",
     "NotTrustworthyError",
@@ -69,6 +72,7 @@ __all__ = [
     "accuracy",
     "check_fit",
     "effects",
+    "grinding",
     "planar",
     "read",
     "read_scene",

@@ -18,6 +18,7 @@ COMMANDS = (
     "check-fit",
     "simulate",
     "stability",
+    "grinding",
     "effects",
     "accuracy",
     "verify",

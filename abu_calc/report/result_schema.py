@@ -8,6 +8,7 @@ from abu_calc.checks import Check, Status
 from abu_calc.studies.accuracy import AccuracyResult
 from abu_calc.studies.check_fit import CheckFitResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
+from abu_calc.studies.grinding import GrindingResult
 from abu_calc.studies.quantity import Quantity, Record, hints, quantities
 from abu_calc.studies.result import Result
 from abu_calc.studies.simulate import SimulateResult
@@ -19,8 +20,8 @@ from abu_calc.units import unit_of
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
-    SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, KnownEffectsResult, AccuracyResult,
-    VerifyResult,
+    SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
+    AccuracyResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}

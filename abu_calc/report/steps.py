@@ -115,6 +115,19 @@ STEPS: Final[Mapping[str, Step]] = {
         ),
         step_numbers.vibration,
     ),
+    "grinding": Step(
+        "Machine at its work",
+        (
+            "formulas.grinding:printed_positions",
+            "formulas.grinding:loaded_stiffness",
+            "formulas.grinding:flutter_drag",
+            "formulas.grinding:stiffness_regions",
+            "formulas.grinding:hodograph_limit",
+            "formulas.grinding:runout_rate",
+            "formulas.shaking:shaking_threshold",
+            "formulas.shaking:shaken_drag",
+        ),
+    ),
     "seats": Step(
         "Bearing seats",
         (
