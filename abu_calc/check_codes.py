@@ -173,11 +173,12 @@ _ALL: Final = (
         "ABU413", "balls hold still under load",
         "Whether balls go where they balance at this contact, and drag keeps them from the flutter that cutting "
         "friction feeds.",
-        "They go where they add to the imbalance, between MΩ² − c_y and 2MΩ² − c_x − c_y; or the drag is below the "
-        "limit. Warns where it is below that of balls in a cross. Not done where balls cannot carry the need.",
+        "They go where they add to the imbalance, between MΩ² − c_y and 2MΩ² − c_x − c_y; or small disturbances grow, "
+        "by flutter below the limit of drag, or near a natural frequency. Warns where that is so in another "
+        "arrangement. Not done where balls cannot carry the need.",
         "Another contact stiffness or speed; more drag, or another number of balls.",
         "grinding", ("formulas.grinding:loaded_stiffness", "formulas.grinding:flutter_drag",
-                     "formulas.grinding:stiffness_regions"),
+                     "formulas.loaded_stability:characteristic", "formulas.grinding:stiffness_regions"),
     ),
     CheckCode(
         "ABU414", "wheel stays on the work",

@@ -73,8 +73,9 @@ def response(design: Design) -> tuple[AtSpeed, ...]:
     low, high = case.speed_range
     if low == high:
         low, high = (share * case.speed for share in AROUND)
-    speeds = sorted({low + (high - low) * step / CURVE for step in range(CURVE + 1)} | {case.speed})
-    return tuple(_at_speed(design, runout, speed) for speed in speeds)
+    steps = [low + (high - low) * step / CURVE for step in range(CURVE + 1)]
+    others = [speed for speed in steps if not math.isclose(speed, case.speed)]
+    return tuple(_at_speed(design, runout, speed) for speed in sorted([*others, case.speed]))
 
 
 def _at_speed(design: Design, runout: complex, speed: float) -> AtSpeed:

@@ -13,6 +13,7 @@ from abu_calc.analysis.working import Working, only_contact, working
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.progress import Progress, silent
+from abu_calc.scenes.durations import free_rates
 from abu_calc.scenes.from_design import grinding_without, scene_of_design
 from abu_calc.sizing.budget import accuracy_budget
 from abu_calc.sizing.design import Design
@@ -109,14 +110,18 @@ def at_work(design: Design, accuracy: float, progress: Progress = silent) -> Wor
     if without.parts:
         without = _run(without, grinding_without(design), accuracy, progress)
     hard = scene_of_design(design, "grinding")
-    calm = replace(hard, races=tuple(replace(race, start_angles=_settled(design)) for race in hard.races))
-    usual, at_once = _run(free, calm, accuracy, progress), free
+    usual, at_once = _run(free, _calm(design, hard), accuracy, progress), free
     if contact_presses(case):
         at_once = _run(free, hard, accuracy, progress)
     before, after, hasty = (_displacement(design, side, left) for side, left in
                             ((without, 0.0), (usual, rest), (at_once, rest)))  # fmt: skip
     levels = handle_levels(case, before, after, one.mass).worst
     return Work(design, without, usual, at_once, levels, handle_levels(case, before, hasty, one.mass).worst.after, rest)
+
+
+def _calm(design: Design, scene: Scene) -> Scene:
+    """The same scene with balls that have settled at idle."""
+    return replace(scene, races=tuple(replace(race, start_angles=_settled(design)) for race in scene.races))
 
 
 def _settled(design: Design) -> tuple[float, ...]:
@@ -138,9 +143,12 @@ def _displacement(design: Design, side: Side, rest: float) -> float | None:
     """0–peak [m] that makes the level; by the run where the steady motion does not hold."""
     contact, steady = design.case.contact, side.steady
     rigid = contact is not None and contact.kind == "rigid"
-    if steady.amplitude is not None and not (side.parts and (not rigid or side.pulls)):
+    holds = steady.amplitude is not None and (steady.balls is None or steady.balls.places != "restless")
+    if steady.amplitude is not None and holds and not (side.parts and (not rigid or side.pulls)):
         return math.hypot(steady.amplitude, rest)
-    return None if side.run is None or rigid else math.sqrt(2) * side.run.velocity / design.case.speed
+    if side.run is None or (rigid and side.parts):
+        return None
+    return math.sqrt(2) * side.run.velocity / design.case.speed
 
 
 def remedies(work: Work, accuracy: float, progress: Progress = silent) -> tuple[Remedy, ...]:
@@ -226,15 +234,16 @@ class Agreement:
 
 
 def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
-    """Closed form against the simulation of the same contact, ideal race and balls, from the usual start.
+    """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
 
     None where wheel and work part or balls do not balance: the closed form does not speak of these.
     """
     steady = work.fitted.steady
     if work.fitted.parts or steady.balls is None or steady.balls.places != "balanced" or steady.axis is None:
         return None
-    scene = only_contact(scene_of_design(work.design, "grinding"))
-    rate = loaded_rate(work.design, steady.balls.worst)
+    scene = only_contact(_calm(work.design, scene_of_design(work.design, "grinding")))
+    sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
+    rate = min(loaded_rate(work.design, steady.balls.worst), sway)
     longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
     scene = replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
     try:

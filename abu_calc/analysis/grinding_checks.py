@@ -1,8 +1,7 @@
 """What the work of a machine must show for its autobalancer to pass, in `abu grinding`."""
 
-import math
-
 from abu_calc.analysis.grinding import AGREES, Agreement, Work
+from abu_calc.analysis.under_load import leaving
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.formulas.grinding import flutter_drag, loaded_stiffness
 from abu_calc.sizing.advice import power_checks
@@ -18,7 +17,7 @@ def work_checks(work: Work, remedy: str | None, compared: Agreement | None) -> t
         _lowered(work, remedy),
         _carried(work),
         _still(work),
-        *_kept(work),
+        *_kept(work, remedy),
         *power_checks(work.design.case),
         *_agrees(compared),
     )
@@ -29,7 +28,7 @@ def _lowered(work: Work, remedy: str | None) -> Check:
     if work.lowered is None:
         sides = {"without": before, "with": after}
         missing = " and ".join(side for side, level in sides.items() if level is None)
-        usual = "Press harder; or give the contact a stiffness, which lets wheel and work part."
+        usual = 'Give the contact a stiffness, contact = "compliant": then a simulation tells how they part.'
         return coded("ABU411", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
                      remedy or usual)  # fmt: skip
     message = "with the autobalancer against without, pressed to the work when the balls have settled"
@@ -50,9 +49,9 @@ def _carried(work: Work) -> Check:
 
 
 def flutter_limits(work: Work) -> tuple[float, float] | None:
-    """Drag [1/s] below which balls flutter where they stand, and in a cross; None where they do not balance."""
+    """Drag [1/s] below which light balls flutter where they stand, and in a cross; None where they do not balance."""
     balls, case, one = work.fitted.steady.balls, work.design.case, work.design.autobalancer
-    if balls is None or balls.places != "balanced":
+    if balls is None or balls.places not in ("balanced", "restless"):
         return None
     whirl = work.fitted.steady.contact.whirl_per_imbalance
     cross = loaded_stiffness(whirl, one.ball_mass, case.speed, one.ball_count, 0.0)
@@ -62,23 +61,34 @@ def flutter_limits(work: Work) -> tuple[float, float] | None:
 def _still(work: Work) -> Check:
     balls, drag = work.fitted.steady.balls, work.design.case.drag
     limits = flutter_limits(work)
-    if limits is None:
+    if balls is None or limits is None:
         short = balls is not None and balls.places == "short"
         status: Grade = "not-done" if short else "fail"
         why = "the balls cannot carry what the work asks for" if short else (
             "at this contact stiffness and speed balls go where they add to the imbalance")  # fmt: skip
-        return coded("ABU413", status, why, drag, None, "1/s", "See the regions of contact stiffness in the report.",
-                     "least")  # fmt: skip
+        return coded("ABU413", status, why, drag, None, "1/s", None, "least")
     here, cross = limits
-    holds, safe = drag >= here, drag >= cross
-    message = "drag against the flutter that cutting friction feeds"
-    if holds and not safe:
+    if balls.places == "restless":
+        why = ("cutting friction feeds their flutter, at less drag than the limit" if drag < here else
+               "the machine on its contact has a natural frequency too near the speed for such balls")  # fmt: skip
+        return coded("ABU413", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
+    loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,
+                                                      work.design.autobalancer, line)]  # fmt: skip
+    message = "small disturbances die out; drag against the flutter that cutting friction feeds"
+    if drag < cross:
         message += f"; in a cross, as other wheels may have them, balls need {cross:.3g} 1/s"
-    return coded("ABU413", verdict(holds, safe), message, drag, here if math.isfinite(here) else None, "1/s",
-                 None if holds and safe else "More drag, or another number of balls.", "least")  # fmt: skip
+    elif loose:
+        message += "; in another arrangement that balances they would not"
+    return coded("ABU413", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
 
 
-def _kept(work: Work) -> tuple[Check, ...]:
+def _lines(work: Work) -> tuple[float, ...]:
+    """|Σe^{2iΘ}| of arrangements that more than two balls may take."""
+    count = work.design.autobalancer.ball_count
+    return () if count == 2 else tuple(count * step / 4 for step in range(5))
+
+
+def _kept(work: Work, remedy: str | None) -> tuple[Check, ...]:
     """Never failed: wheels bounce, and are judged by their level."""
     contact, force = work.design.case.contact, work.fitted.steady.reaction
     if contact is None or contact.kind == "face":
@@ -95,7 +105,7 @@ def _kept(work: Work) -> tuple[Check, ...]:
         message += "; without it they part"
     warned = parts or work.at_once.parts
     return (coded("ABU414", "warn" if warned else "pass", message, amplitude, press, "N",
-                  "Press harder, or run the wheel truer." if warned else None),)  # fmt: skip
+                  remedy if warned else None),)  # fmt: skip
 
 
 def _agrees(compared: Agreement | None) -> tuple[Check, ...]:

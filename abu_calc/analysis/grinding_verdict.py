@@ -72,6 +72,8 @@ def _worse(work: Work) -> str:
     runout = f"ε = {_um(case.runout)} {'exceeds' if case.runout > moved else 'against'} m₀e/M = {_um(moved)}"
     if balls is not None and balls.places in ("gathered", "turning"):
         return f"At this contact stiffness balls gather where they add to the imbalance; {runout}."
+    if balls is not None and balls.places == "restless":
+        return f"The balls do not stay where they would balance, see ABU413; {runout}."
     if balls is not None and balls.places == "short":
         carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
         return f"The balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for; {runout}."

@@ -12,14 +12,17 @@ from typing import Literal
 
 from abu_calc.formulas.contact import SteadyContact
 from abu_calc.formulas.grinding import loaded_stiffness
+from abu_calc.formulas.loaded_stability import characteristic, growing_roots
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.scenes.from_design import contact_half_angle
+from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.units import to_si
 
-Places = Literal["balanced", "short", "gathered", "turning"]
-"""Balls balance; carry too little and lie side by side; gather where they add to the imbalance; or come to no rest."""
+Places = Literal["balanced", "restless", "short", "gathered", "turning"]
+"""Balls balance; do not stay where they would; carry too little and lie side by side; gather where they add to the
+imbalance; or come to no rest."""
 
 HALVINGS = 60
 """Of an interval, down to rounding."""
@@ -29,7 +32,8 @@ HALVINGS = 60
 class Balls:
     """Where balls rest: what they would have to add up to, what they do [kg m], each angle [rad], slow stiffness.
 
-    `stiffness` [1/s²] of the slow motion where balls balance; `worst`: that of a cross, which more than two may form.
+    `stiffness` [1/s²] of their slow motion, as if they were light; `worst`: that of a cross, which more than two
+    may form.
     """
 
     places: Places
@@ -128,7 +132,7 @@ def with_balls(design: Design, contact: SteadyContact, runout: complex, imbalanc
     whirl, moment = contact.whirl_per_imbalance, one.ball_mass * one.pitch_radius
     balances, enough = whirl.real < 0, abs(needed) <= one.capacity
     places: Places = "balanced" if balances and enough else "short" if balances else "gathered"
-    resultant = needed if places == "balanced" else _side_by_side(whirl, needed, one.capacity)
+    resultant = needed if balances and enough else _side_by_side(whirl, needed, one.capacity)
     angles: tuple[float, ...] = ()
     if resultant is None:
         places = "turning"
@@ -140,10 +144,28 @@ def with_balls(design: Design, contact: SteadyContact, runout: complex, imbalanc
     def stiffness(line: float) -> tuple[complex, complex]:
         return loaded_stiffness(whirl, one.ball_mass, contact.speed, one.ball_count, line)
 
+    if places == "balanced" and leaving(design.case, contact, one, doubled):
+        places = "restless"
     worst = stiffness(doubled if one.ball_count == 2 else 0.0)
     balls = Balls(places, needed, resultant, angles, stiffness(doubled), worst)
     total = None if resultant is None else imbalance + resultant / ratio
     return Steady(contact, runout, imbalance, total, balls)
+
+
+def leaving(case: Case, contact: SteadyContact, one: Candidate, doubled: float) -> int:
+    """How many small disturbances of balls that balance grow; `doubled`: |Σe^{2iΘ}| of their arrangement."""
+    mass = case.body.effective_mass(one.mass)
+
+    def whirl(speed: complex) -> complex:
+        dx, dy = (case.suspension.reaction(axis, speed) - mass * speed**2 for axis in (0, 1))
+        return contact.whirl_at(speed, (dx, dy))
+
+    def value(s: complex) -> complex:
+        return characteristic(
+            whirl, one.ball_mass, contact.speed, one.ball_count, doubled, case.inertia_factor, case.drag, s
+        )
+
+    return growing_roots(value, contact.speed)
 
 
 def _side_by_side(whirl: complex, needed: complex, capacity: float) -> complex | None:

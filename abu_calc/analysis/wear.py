@@ -26,6 +26,8 @@ STEPS = 60
 """Per decade of depth."""
 LARGEST_POWER = 600.0
 """Of e, short of infinity."""
+SETTLED = 0.01
+"""Of the first variable force: what is left of it when a wheel has worn to where nothing drives it on."""
 MOST = 50.0
 """The largest exponent of wear against force that is looked for."""
 
@@ -44,7 +46,8 @@ class Stage:
 class Wear:
     """How a wheel wears from now on: rate of its runout now, dε/ds, and what comes first.
 
-    `centres`: whether the runout shrinks. `event`: "halved", "parted" (wheel and work), "worn out", or None where
+    `centres`: whether the runout shrinks. `event`: "halved", "parted" (wheel and work), "settled", "worn
+    out", or None where
     balls do not balance and the course is not known; `stages` up to there.
     """
 
@@ -91,7 +94,10 @@ def worn(steady: Steady, press: float, wheel_mass: float, usable: float) -> Wear
     rate = runout_rate(pressure, runout, press)
     law = _law(steady, press, wheel_mass)
     if law is None:
-        return Wear(pressure, rate, towards > 0, None, ())
+        parted = steady.imbalance is not None and abs(pressure) > press
+        if not parted:
+            return Wear(pressure, rate, towards > 0, None, ())
+        return Wear(pressure, rate, towards > 0, "parted", (Stage(0.0, runout, steady.own, pressure),))
     centres = towards > 0 if runout else steady.balls is not None and law.slope.real > 0
     event, depth = _first_event(law, abs(runout), press, usable)
     stages = tuple(law.at(depth * share / 8) for share in range(9))
@@ -126,6 +132,7 @@ def _first_event(law: Law, runout: float, press: float, usable: float) -> tuple[
     tests: dict[str, Callable[[Stage], bool]] = {
         "parted": lambda stage: abs(stage.pressure) > press,
         "halved": lambda stage: abs(stage.runout) <= runout / 2 and runout > 0,
+        "settled": lambda stage: abs(stage.pressure) <= SETTLED * abs(law.start.pressure),
     }
     before = 0.0
     for depth in _depths(last):

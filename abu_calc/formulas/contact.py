@@ -61,9 +61,13 @@ class SteadyContact:
 
         Balls go where F = 0 when Re G < 0, and away from there when Re G > 0. Source: derived.
         """
-        (dx, dy), p = self.dynamic_stiffness, self.pressing
+        return self.whirl_at(self.speed, self.dynamic_stiffness)
+
+    def whirl_at(self, speed: complex, dynamic_stiffness: tuple[complex, complex]) -> complex:
+        """The same for an imbalance that grows meanwhile, e^{st}: at the speed Ω − is, and D there."""
+        (dx, dy), p = dynamic_stiffness, self.pressing
         held = 1 / (p + self.compliance * dy)
-        return self.speed**2 / 2 * ((1 + 1j * self.friction * p * held) / dx + self.compliance * held)
+        return speed**2 / 2 * ((1 + 1j * self.friction * p * held) / dx + self.compliance * held)
 
     @property
     def balls_increase_imbalance(self) -> bool:

@@ -11,13 +11,12 @@ from abu_calc.formula import formula
 
 
 @formula(
-    "Where two balls rest under load, as printed",
-    "Θ = π + β₁ ∓ α₁",
-    "rad",
+    "What the balls add up to under load, as printed",
+    "√{(Mε)²(ω_x²−Ω²)² + (m₀e)²Ω⁴ − 2 m₀e Mε Ω²(ω_x²−Ω²) cos φ₀}/Ω², at the angle π + β₁",
+    "kg m",
     where=(
-        "α₁ = arccos(√{(Mε)²(ω_x²−Ω²)² + (m₀e)²Ω⁴ − 2 m₀e Mε Ω²(ω_x²−Ω²) cos φ₀}/(2 m R_p Ω²)), "
-        "β₁ = arctan(Mε(ω_x²−Ω²) sin φ₀/(Mε(ω_x²−Ω²) cos φ₀ − m₀eΩ²)); moment is m·R_p of one ball [kg m]. None where "
-        "two balls cannot carry it."
+        "β₁ = arctan(Mε(ω_x²−Ω²) sin φ₀/(Mε(ω_x²−Ω²) cos φ₀ − m₀eΩ²)). Two balls then rest at π + β₁ ∓ α₁, α₁ the "
+        "arccos of the half of it over m·R_p."
     ),
     assumed="rigid contact, no friction, undamped support",
     source="Kladiev 1996, (4)",
@@ -26,21 +25,18 @@ from abu_calc.formula import formula
         "Mε(ω_x²−Ω²)cos φ₀ > m₀eΩ². Right is Ω²U = E·(D_x − isf·D_y)/(1 + isf + q(D_x + D_y))"
     ),
 )
-def printed_positions(
-    mass: float, imbalance: float, runout: complex, natural_frequency: float, speed: float, moment: float
-) -> tuple[float, float] | None:
+def printed_resultant(
+    mass: float, imbalance: float, runout: complex, natural_frequency: float, speed: float
+) -> complex:
     """
-    >>> E = cmath.rect(4e-5, 0.6)
-    >>> [round(math.degrees(each), 3) for each in printed_positions(5.6, 1e-4, E, 80.0, 607.3746, 16.728353e-3 * 24e-3)]
-    [136.355, 271.264]
+    >>> printed = printed_resultant(5.6, 1e-4, cmath.rect(4e-5, 0.6), 80.0, 607.3746)
+    >>> round(1e6 * abs(printed), 4), round(math.degrees(cmath.phase(printed)), 3)
+    (307.8696, -156.191)
     """
     pushed = mass * (natural_frequency**2 - speed**2) / speed**2 * runout
-    share = abs(pushed - imbalance) / (2 * moment)
-    if share > 1 or pushed == imbalance:
-        return None
     below = pushed.real - imbalance
     beta = math.atan(pushed.imag / below) if below else math.copysign(math.pi / 2, pushed.imag)
-    return math.pi + beta - math.acos(share), math.pi + beta + math.acos(share)
+    return cmath.rect(abs(pushed - imbalance), math.pi + beta)
 
 
 @formula(
@@ -114,9 +110,9 @@ def stiffness_regions(dynamic_stiffness: tuple[complex, complex]) -> tuple[float
     "dε/ds = −Re(H e^{−iφ₀})/N₀",
     "1",
     where=(
-        "H = D_y E + Ω²U pressure on the wheel's first harmonic at a rigid contact [N], with free balls E·(D_x + "
-        "D_y)/(1 + isf + q(D_x + D_y)); N₀ press force. What is worn off one side is missing there: dU₀ = m_w dE, m_w the "
-        "wheel's mass as a disc. Bouncing or not, it is between −2 and 2."
+        "H pressure on the wheel's first harmonic [N], D_y E + Ω²U at a rigid contact, with free balls E·(D_x + "
+        "D_y)/(1 + isf + q(D_x + D_y)); N₀ press force. What is worn off one side is missing there: dU₀ = m_w "
+        "dE, m_w the wheel's mass as a disc. Bouncing or not, it is between −2 and 2."
     ),
     assumed="wear in proportion to force and way (Archard 1953)",
     source="derived",
@@ -144,8 +140,9 @@ def largest_factor(slope: complex, offset: complex, limit: float) -> float | Non
     """
     if slope == 0 or abs(offset) > limit:
         return None
-    half = (slope.conjugate() * offset).real
-    return (math.sqrt(half**2 + abs(slope) ** 2 * (limit**2 - abs(offset) ** 2)) - half) / abs(slope) ** 2
+    along = (slope.conjugate() / abs(slope) * offset).real
+    found = (math.sqrt(along**2 + max(limit**2 - abs(offset) ** 2, 0.0)) - along) / abs(slope)
+    return found if math.isfinite(found) else None
 
 
 @formula(

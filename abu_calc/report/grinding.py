@@ -63,6 +63,7 @@ def balls_blocks(result: GrindingResult) -> list[Block]:
     """Where they rest, and where the source puts them."""
     places = {
         "balanced": "The balls balance",
+        "restless": "The balls do not stay where they would balance",
         "short": "The balls carry too little and lie side by side",
         "gathered": "The balls gather where they add to the imbalance",
         "turning": "The balls come to no rest",
@@ -73,8 +74,11 @@ def balls_blocks(result: GrindingResult) -> list[Block]:
         angles = ", ".join(f"{number(angle, 4)}°" for angle in result.ball_angles_deg)
         text += f": {number(result.ball_resultant_g_mm, 4)} g·mm, at {angles} from the imbalance{many}"
     blocks: list[Block] = [Heading("Balls"), Paragraph(f"{text}.")]
-    if result.printed is not None and result.printed.ball_angles_deg is not None:
-        angles = " and ".join(f"{number(angle, 4)}°" for angle in result.printed.ball_angles_deg)
+    if result.printed is not None and result.balls == "balanced":
+        given = result.printed.ball_angles_deg or (result.printed.resultant_angle_deg,)
+        angles = " and ".join(f"{number(angle, 4)}°" for angle in given)
+        if len(given) == 1:
+            angles = f"{number(result.printed.resultant_g_mm, 4)} g·mm at {angles}"
         blocks.append(Paragraph(
             f"The printed formula (Kladiev 1996, 4), without friction, has {angles}: off by "
             f"{number(result.printed.error_deg or 0.0, 3)}°, {number(result.printed.open_g_mm or 0.0, 3)} g·mm left."
@@ -90,14 +94,20 @@ def contact_blocks(result: GrindingResult) -> list[Block]:
     power = f"Cutting takes {number(result.cutting_power_W, 3)} W."
     if result.contact_stiffness_regions_N_per_m is None:
         return [Heading("Contact"), Paragraph(f"A face: runout in the plane does not press. {power}")]
-    first, second = map(_stiffness, result.contact_stiffness_regions_N_per_m)
-    text = (f"Below {first} N/m balls balance and wear centres the wheel; between that and {second} N/m balls add to "
-            "the imbalance; above, they balance, and wear drives the wheel off.")  # fmt: skip
-    stiffness = result.model.contact_stiffness_N_per_m
-    own = "Rigid." if stiffness is None else f"{_stiffness(stiffness)} N/m."
+    stiffness, bounds = result.model.contact_stiffness_N_per_m, result.contact_stiffness_regions_N_per_m
+    first, second = map(_stiffness, bounds)
+    if stiffness is not None and stiffness < bounds[0]:
+        here = f"{_stiffness(stiffness)} N/m, below {first}: balls balance, and with them wear centres the wheel"
+        here += f". From there to {second} N/m they would add to the imbalance; above, wear drives the wheel off"
+    elif stiffness is not None and stiffness < bounds[1]:
+        here = f"{_stiffness(stiffness)} N/m, from {first} to {second}: there balls add to the imbalance"
+    else:
+        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        here = f"{own}, above {second} N/m: balls balance, and wear drives the wheel off; below {first} N/m it would "
+        here += "be centred"
     resonance = "" if result.resonance_rpm is None else (
         f" Without autobalancer the machine resonates on it at {value_of(result, 'resonance_rpm')}.")  # fmt: skip
-    return [Heading("Contact"), Paragraph(f"{own} {text}{resonance} {power}")]
+    return [Heading("Contact"), Paragraph(f"{here}.{resonance} {power}")]
 
 
 def friction_blocks(result: GrindingResult) -> list[Block]:
@@ -107,14 +117,17 @@ def friction_blocks(result: GrindingResult) -> list[Block]:
         return [Heading("Dry friction of the balls"), Paragraph("None.")]
     held = f"It holds the axis off by {number(found.typical_um, 3)} µm, typically"
     held += "." if found.worst_um is None else f", {number(found.worst_um, 3)} µm at the worst."
-    axial = f"Axial runout of the wheel, {number(found.axial_um, 3)} µm, "
-    axial += "shakes it out" if found.axial_shakes else "does not shake it out"
-    along = "not known here, since wheel and work part" if found.whirl_um is None else (
-        f"{number(found.whirl_um, 3)} µm along the race, does so too, slowly: within some "
-        f"{number(found.creep_s or 0.0, 2)} s" if found.whirl_shakes
-        else f"{number(found.whirl_um, 3)} µm along the race, does not")  # fmt: skip
+    told = [f"axial runout of the wheel, {number(found.axial_um, 3)} µm, {_shakes(found.axial_shakes)}"]
+    if result.contact_stiffness_regions_N_per_m is not None and found.whirl_um is not None:
+        along = f"the whirl by its runout in the plane, {number(found.whirl_um, 3)} µm, {_shakes(found.whirl_shakes)}"
+        told.append(f"{along}, slowly, in some {number(found.creep_s, 2)} s" if found.creep_s else along)
+    shaken = "; ".join(told)
     need = f"It takes more than {number(found.threshold_um, 3)} µm."
-    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {axial}; runout in the plane, {along}. {need}")]
+    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaken[0].upper()}{shaken[1:]}. {need}")]
+
+
+def _shakes(does: bool) -> str:
+    return "shakes it out" if does else "does not shake it out"
 
 
 def _simulated(result: GrindingResult) -> list[Block]:

@@ -7,7 +7,12 @@ from abu_calc.report.numbers import number
 from abu_calc.studies.grinding import GrindingResult
 from abu_calc.studies.grinding_records import WearCourse
 
-ENDS: Final = {"halved": "the runout has halved", "parted": "wheel and work part", "worn out": "the wheel is worn out"}
+ENDS: Final = {
+    "halved": "runout halved after",
+    "parted": "wheel and work part after",
+    "settled": "settled after",
+    "worn out": "worn out after",
+}
 
 
 def wear_blocks(result: GrindingResult) -> list[Block]:
@@ -19,18 +24,21 @@ def wear_blocks(result: GrindingResult) -> list[Block]:
     rows = tuple(_row(name, wear) for wear, name in named if wear is not None)
     if not rows:
         return []
-    header = ("", "runout per depth", "wheel is", "from now", "until")
-    return [Heading("Wear of the wheel, by the force on it (Archard)"), Grid(header, rows, frozenset({1, 3})),
+    header = ("", "dε/ds", "wheel is", "what comes first")
+    return [Heading("Wear: change of the runout ε per depth s worn off (Archard)"), Grid(header, rows, frozenset({1})),
             *_stages(result), *_claim(result)]  # fmt: skip
 
 
 def _row(name: str, wear: WearCourse) -> tuple[str, ...]:
     turned = "centred" if wear.centres else "driven off"
     if wear.ends is None or wear.depth_um is None:
-        return name, f"{wear.runout_rate:+.2f}", turned, "", ""
-    time = "" if wear.time_min is None else f", {_minutes(wear.time_min)}"
-    now = "at once" if wear.depth_um == 0 else f"{number(wear.depth_um, 3)} µm{time}"
-    return name, f"{wear.runout_rate:+.2f}", turned, now, ENDS[wear.ends]
+        return name, f"{wear.runout_rate:+.2f}", turned, ""
+    if wear.depth_um == 0:
+        return name, "", "", "wheel and work part already"
+    time = "" if wear.time_min is None else f" ({_minutes(wear.time_min)})"
+    depth = f"{number(wear.depth_um, 3)} µm" if wear.depth_um < 1000 else f"{number(wear.depth_um / 1e3, 3)} mm"
+    left = f", at {number(1e3 * wear.stages[-1].runout_mm, 3)} µm" if wear.ends != "halved" else ""
+    return name, f"{wear.runout_rate:+.2f}", turned, f"{ENDS[wear.ends]} {depth}{time}{left}"
 
 
 def _minutes(time: float) -> str:
@@ -64,7 +72,7 @@ def _claim(result: GrindingResult) -> list[Block]:
         Paragraph(
             f"Kladiev 1996 has a wheel last {claim.life_with_min:g} min with an autobalancer, "
             f"{claim.life_without_min:g} without. By this law both last alike: mean wear goes with the mean force. For "
-            f"the claim it would take {power}; or a mean force of {number(claim.needed_press_N, 3)} N, a calmer machine "
-            "being pressed less; or wheels that are thrown away for their runout."
+            f"the claim it would take {power}; or a mean force of {number(claim.needed_press_N, 3)} N, a calmer "
+            "machine being pressed less; or wheels that are thrown away for their runout."
         ),
     ]  # fmt: skip

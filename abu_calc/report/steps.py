@@ -118,9 +118,10 @@ STEPS: Final[Mapping[str, Step]] = {
     "grinding": Step(
         "Machine at its work",
         (
-            "formulas.grinding:printed_positions",
+            "formulas.grinding:printed_resultant",
             "formulas.grinding:loaded_stiffness",
             "formulas.grinding:flutter_drag",
+            "formulas.loaded_stability:characteristic",
             "formulas.grinding:stiffness_regions",
             "formulas.grinding:hodograph_limit",
             "formulas.grinding:runout_rate",

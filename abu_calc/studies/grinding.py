@@ -14,7 +14,7 @@ from abu_calc.analysis.under_load import Steady, bare, contact_presses, fitted, 
 from abu_calc.analysis.wear import Wear, needed_exponent, worn
 from abu_calc.analysis.working import harmonic_force
 from abu_calc.errors import InputError, Place
-from abu_calc.formulas.grinding import printed_positions, stiffness_regions
+from abu_calc.formulas.grinding import printed_resultant, runout_rate, stiffness_regions
 from abu_calc.formulas.suspension import natural_frequency
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
@@ -65,7 +65,7 @@ class GrindingResult(Result):
     ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
     needed_resultant_g_mm: Annotated[float, Quantity("imbalance asked of the balls")]
     ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "Θ", 5)]
-    balls: Annotated[str, Quantity("balls", "", 4, "balanced, short, gathered or turning")]
+    balls: Annotated[str, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
     printed: Printed | None
     reaction: Reaction
     reaction_fixed: Reaction
@@ -193,21 +193,23 @@ def _cutting_power(design: Design) -> float:
 
 
 def _printed(work: Work) -> Printed | None:
-    """The source's two balls beside those of the general formula; None where it does not speak of such a machine."""
+    """The source's formula beside the general one; None where it does not speak of such a machine."""
     design, steady, balls = work.design, work.fitted.steady, work.fitted.steady.balls
     one, case = design.autobalancer, design.case
-    if not contact_presses(design.case) or one.ball_count != 2 or balls is None:
+    if not contact_presses(case) or balls is None:
         return None
-    moment, mass = one.ball_mass * one.pitch_radius, case.body.effective_mass(one.mass)
+    mass, ratio = case.body.effective_mass(one.mass), one.requirement.plane_ratio
     natural = natural_frequency(case.suspension, 0, mass)
-    found = printed_positions(mass, design.imbalance.value, steady.runout, natural, case.speed, moment)
-    if found is None:
-        return Printed(ball_angles_deg=None, error_deg=None, open_g_mm=None)
-    resultant = moment * sum(cmath.exp(1j * angle) for angle in found)
-    turned = None if not balls.needed else abs(wrapped_deg(cmath.phase(resultant / balls.needed)))
-    first, second = map(wrapped_deg, found)
+    printed = ratio * printed_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
+    share = abs(printed) / (2 * one.ball_mass * one.pitch_radius)
+    half = math.acos(share) if one.ball_count == 2 and share <= 1 else None
+    place = cmath.phase(printed)
     return Printed(
-        ball_angles_deg=(first, second), error_deg=turned, open_g_mm=from_si(abs(resultant - balls.needed), "g_mm")
+        resultant_g_mm=from_si(abs(printed), "g_mm"),
+        resultant_angle_deg=wrapped_deg(place),
+        ball_angles_deg=None if half is None else (wrapped_deg(place - half), wrapped_deg(place + half)),
+        error_deg=abs(wrapped_deg(cmath.phase(printed / balls.needed))) if balls.needed and printed else None,
+        open_g_mm=from_si(abs(printed - balls.needed), "g_mm"),
     )
 
 
@@ -241,8 +243,6 @@ def _bouncing(design: Design, side: Side) -> Wear | None:
     contact = design.case.contact
     if side.run is None or not side.parts or contact is None or contact.kind != "compliant":
         return None
-    from abu_calc.formulas.grinding import runout_rate
-
     pressure, runout = side.run.pressure, runout_of(design.case)
     centres = (pressure * runout.conjugate()).real > 0
     return Wear(pressure, runout_rate(pressure, runout, contact.press_force), centres, None, ())

@@ -57,8 +57,10 @@ class Reaction(Record):
 
 @record
 class Printed(Record):
-    """Where the source's formula puts two balls, and how wrong that is here."""
+    """What the source's formula asks of the balls, where it puts two, and how wrong that is here."""
 
+    resultant_g_mm: Annotated[float, Quantity("imbalance of the balls, printed formula", "|V|")]
+    resultant_angle_deg: Annotated[float, Quantity("its angle", "arg V")]
     ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "Θ", 5)]
     error_deg: Annotated[float | None, Quantity("the printed formula is off by")]
     open_g_mm: Annotated[float | None, Quantity("imbalance it would leave of what is to be carried")]
@@ -96,7 +98,7 @@ class WearCourse(Record):
     runout_rate: Annotated[float, Quantity("change of the runout per depth worn off", "dε/ds")]
     pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
-    ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, parted or worn out")]
+    ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, parted, settled or worn out")]
     depth_um: Annotated[float | None, Quantity("worn off until then")]
     time_min: Annotated[float | None, Quantity("until then")]
     stages: tuple[WearStage, ...]
@@ -184,7 +186,7 @@ class ResponsePoint(Record):
     fitted: AxisMotion
     force_without_N: Annotated[float | None, Quantity("variable force without autobalancer")]
     force_with_N: Annotated[float | None, Quantity("variable force with it")]
-    balls: Annotated[str | None, Quantity("balls", "", 4, "balanced, short, gathered or turning")]
+    balls: Annotated[str | None, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
 
     @classmethod
     def of(cls, one: AtSpeed) -> Self:
