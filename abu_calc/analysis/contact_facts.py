@@ -64,7 +64,7 @@ def hodograph(design: Design, count: int = 24) -> tuple[AtAngle, ...]:
 
 def _at_angle(design: Design, runout: complex, angle: float) -> AtAngle:
     without = bare(design, runout).axis
-    return AtAngle(angle, without or (0j, 0j), fitted(design, runout).axis)
+    return AtAngle(angle, without or (0j, 0j), fitted(design, runout, judged=False).axis)
 
 
 def response(design: Design) -> tuple[AtSpeed, ...]:

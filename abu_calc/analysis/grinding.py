@@ -15,15 +15,17 @@ from abu_calc.errors import NotTrustworthyError
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.durations import free_rates
 from abu_calc.scenes.from_design import grinding_without, scene_of_design
+from abu_calc.sizing import size
 from abu_calc.sizing.budget import accuracy_budget
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import Levels, handle_levels
+from abu_calc.units import from_si
 
 AGREES: Final = 0.02
 """How far closed form and simulation of the same contact may be apart, relative: the averages leave out that balls
 swing twice per turn, and the run may not have settled to the last."""
 
-LONG, LONGEST = 8.0, 8.0
+LONG, LONGEST = 7.0, 6.0
 """Decay times of the slowest balls that a run to be compared lasts, and the most seconds."""
 
 What = Literal["runout", "stiffness", "press"]
@@ -159,12 +161,23 @@ def remedies(work: Work, accuracy: float, progress: Progress = silent) -> tuple[
     found = []
     for what, values in _candidates(work):
         for value in values:
-            tried = at_work(_with(work.design, what, value), accuracy, progress)
+            tried = at_work(_sized(work.design, what, value), accuracy, progress)
             if tried.always and tried.hasty is not None:
                 worst = max(tried.hasty, tried.levels.after or tried.hasty)
                 found.append(Remedy(what, value, Levels(tried.levels.before, worst)))
                 break
     return tuple(found)
+
+
+def _sized(design: Design, what: What, value: float) -> Design:
+    """What sizing makes of a file with the remedy in it."""
+    table = design.case.table
+    if what == "runout":
+        runout = {"runout_mm": from_si(value, "mm"), "runout_tir_mm": None}
+        return size(table.model_copy(update={"wheel": table.wheel.model_copy(update=runout)}))
+    key = "press_force_N" if what == "press" else "contact_stiffness_N_per_m"
+    grinding = table.grinding.model_copy(update={key: value}) if table.grinding else None
+    return size(table.model_copy(update={"grinding": grinding}))
 
 
 def _with(design: Design, what: What, value: float) -> Design:
@@ -236,10 +249,17 @@ class Agreement:
 def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
     """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
 
-    None where wheel and work part or balls do not balance: the closed form does not speak of these.
+    None where wheel and work part or balls do not balance: the closed form does not speak of these. A face leaves
+    balls where they stand.
     """
     steady = work.fitted.steady
-    if work.fitted.parts or steady.balls is None or steady.balls.places != "balanced" or steady.axis is None:
+    if (
+        not contact_presses(work.design.case)
+        or work.fitted.parts
+        or steady.balls is None
+        or steady.balls.places != "balanced"
+        or steady.axis is None
+    ):
         return None
     scene = only_contact(_calm(work.design, scene_of_design(work.design, "grinding")))
     sway, _ = free_rates(scene.support, scene.races[0], scene.speed)

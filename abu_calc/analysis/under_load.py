@@ -118,15 +118,20 @@ def fitted(
     *,
     speed: float | None = None,
     rigid: bool = False,
-    imbalance: complex | None = None,
+    judged: bool = True,
 ) -> Steady:
-    """With the autobalancer, its balls free, of ideal race and without dry friction; of another imbalance if given."""
+    """With the autobalancer, its balls free, of ideal race and without dry friction; `judged`: see `with_balls`."""
     contact = contact_of(design.case, design.autobalancer.mass, speed, rigid=rigid)
-    return with_balls(design, contact, runout, complex(design.imbalance.value) if imbalance is None else imbalance)
+    return with_balls(design, contact, runout, complex(design.imbalance.value), judged=judged)
 
 
-def with_balls(design: Design, contact: SteadyContact, runout: complex, imbalance: complex) -> Steady:
-    """Free balls at a contact, with what they leave of the imbalance or add to it."""
+def with_balls(
+    design: Design, contact: SteadyContact, runout: complex, imbalance: complex, *, judged: bool = True
+) -> Steady:
+    """Free balls at a contact, with what they leave of the imbalance or add to it.
+
+    Unless `judged`, balls that balance are taken to stay there.
+    """
     one, ratio = design.autobalancer, design.autobalancer.requirement.plane_ratio
     needed = (contact.balancing_imbalance(runout) - imbalance) * ratio
     whirl, moment = contact.whirl_per_imbalance, one.ball_mass * one.pitch_radius
@@ -144,7 +149,7 @@ def with_balls(design: Design, contact: SteadyContact, runout: complex, imbalanc
     def stiffness(line: float) -> tuple[complex, complex]:
         return loaded_stiffness(whirl, one.ball_mass, contact.speed, one.ball_count, line)
 
-    if places == "balanced" and leaving(design.case, contact, one, doubled):
+    if judged and places == "balanced" and leaving(design.case, contact, one, doubled):
         places = "restless"
     worst = stiffness(doubled if one.ball_count == 2 else 0.0)
     balls = Balls(places, needed, resultant, angles, stiffness(doubled), worst)

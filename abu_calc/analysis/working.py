@@ -108,11 +108,14 @@ def _profile(scene: Scene, times: Array, force: Array) -> tuple[tuple[float, flo
 
 
 def _forces(scene: Scene, times: Array, states: Array) -> Array:
-    """N [N], none where nothing presses in the plane."""
+    """N [N] at the rated speed, none where nothing presses in the plane."""
     contact = next((each for each in scene.effects if isinstance(each, GrindingContact)), None)
     if contact is None or contact.contact == "face":
         return np.empty(0)
-    return contact.normal_forces(assemble(scene), Samples(times, states))
+    if contact.contact == "rigid":
+        return contact.normal_forces(assemble(scene), Samples(times, states))
+    gap = axis_place(scene, states)[1] + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
+    return np.asarray(np.maximum(contact.press_force - contact.contact_stiffness * gap, 0.0), dtype=float)
 
 
 def harmonic_force(mean: float, pressure: complex, steps: int = 720) -> Array:

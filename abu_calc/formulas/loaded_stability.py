@@ -26,8 +26,8 @@ MOST: Final = 100_000
     "",
     where=(
         "p = −(m/2)(Ω − is)²·G(Ω − is), p̄ its conjugate at the conjugate s; m mass of a ball, n how many, G forward "
-        "whirl of the axis per imbalance [m/(kg m)], J rolling inertia factor, h₀ drag [1/s]. A root s to the right of "
-        "zero lets the balls leave their places: flutter by cutting friction, or a natural frequency on the contact too "
+        "whirl of the axis per imbalance [m/(kg m)], J rolling inertia factor, h₀ drag [1/s]. A root s right of "
+        "zero lets balls leave their places: flutter by cutting friction, or a natural frequency on the contact too "
         "near the speed for their mass."
     ),
     assumed="no separation; what turns at 2Ω averaged out",
@@ -56,8 +56,8 @@ def growing_roots(value: Callable[[complex], complex], speed: float) -> int:
     so near that edge that they cannot be counted.
     """
     far, small = FAR * speed, 1e-6 * speed
-    grid = [0.0, *(small * (far / small) ** (k / 400) for k in range(401))]
-    grid += [k / 200 * 2 * speed for k in range(1, 200)]
+    grid = [0.0, *(small * (far / small) ** (k / 160) for k in range(161))]
+    grid += [k / 100 * 2 * speed for k in range(1, 100)]
     edge = small
     points = [(w, value(edge + 1j * w)) for w in sorted(set(grid))]
     turned, looked = 0.0, 0

@@ -32,7 +32,7 @@ DEFAULT, ALL = 5, 200
 def drawn(seed: int) -> Design:
     """A machine at its work, pressed hard enough never to part, of any contact, sense and place of the runout."""
     r = random.Random(seed)
-    contact: dict[str, Any] = {"contact": r.choice(["rigid", "compliant", "compliant", "face"])}
+    contact: dict[str, Any] = {"contact": r.choice(["rigid", "compliant", "compliant"])}
     if contact["contact"] == "compliant":
         contact["contact_stiffness_N_per_m"] = 10 ** r.uniform(4.5, 7.5)
     return size(
