@@ -25,6 +25,9 @@ AGREES: Final = 0.02
 """How far closed form and simulation of the same contact may be apart, relative: the averages leave out that balls
 swing twice per turn, and the run may not have settled to the last."""
 
+EXCEEDED: Final = math.sqrt(2)
+"""How many times the closed form a run may show, until it is believed instead: 3 dB."""
+
 LONG, LONGEST = 7.0, 6.0
 """Decay times of the slowest balls that a run to be compared lasts, and the most seconds."""
 
@@ -142,15 +145,15 @@ def _run(side: Side, scene: Scene, accuracy: float, progress: Progress) -> Side:
 
 
 def _displacement(design: Design, side: Side, rest: float) -> float | None:
-    """0–peak [m] that makes the level; by the run where the steady motion does not hold."""
+    """0–peak [m] that makes the level; by the run where the steady motion does not hold, or is far exceeded by it."""
     contact, steady = design.case.contact, side.steady
     rigid = contact is not None and contact.kind == "rigid"
     holds = steady.amplitude is not None and (steady.balls is None or steady.balls.places != "restless")
+    seen = None if side.run is None else math.sqrt(2) * side.run.velocity / design.case.speed
     if steady.amplitude is not None and holds and not (side.parts and (not rigid or side.pulls)):
-        return math.hypot(steady.amplitude, rest)
-    if side.run is None or (rigid and side.parts):
-        return None
-    return math.sqrt(2) * side.run.velocity / design.case.speed
+        told = math.hypot(steady.amplitude, rest)
+        return told if seen is None or seen <= EXCEEDED * told else seen
+    return None if rigid and side.parts else seen
 
 
 def remedies(work: Work, accuracy: float, progress: Progress = silent) -> tuple[Remedy, ...]:

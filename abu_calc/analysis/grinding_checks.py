@@ -69,7 +69,8 @@ def _still(work: Work) -> Check:
         return coded("ABU413", status, why, drag, None, "1/s", None, "least")
     here, cross = limits
     if balls.places == "restless":
-        why = ("cutting friction feeds their flutter, at less drag than the limit" if drag < here else
+        why = "nothing damps their motion in the race" if drag == 0 else (
+               "cutting friction feeds their flutter, at less drag than the limit" if drag < here else
                "the machine on its contact has a natural frequency too near the speed for such balls")  # fmt: skip
         return coded("ABU413", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
     loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,

@@ -56,6 +56,12 @@ def _helps(work: Work) -> str:
     contact, case = work.design.case.contact, work.design.case
     if contact is None or contact.kind == "face":
         return "A face does not press in the plane: balls do as they do at idle."
+    balls, one = work.fitted.steady.balls, work.design.autobalancer
+    if balls is not None and balls.places == "short":
+        carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
+        return f"But the balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for."
+    if balls is None or balls.places != "balanced":
+        return "But the balls do not stay where they would balance, see ABU413."
     if not case.runout:
         return "The wheel runs true: nothing but its imbalance moves the machine."
     amplitude = work.fitted.steady.amplitude or 0.0
@@ -81,6 +87,9 @@ def _worse(work: Work) -> str:
         force = abs(steady.reaction or 0.0)
         return (f"The machine follows its wheel's runout ({runout}), so that the force, {case.contact.press_force:g} ± "
                 f"{force:.0f} N, lets wheel and work part, and they bounce.")  # fmt: skip
+    if work.rest > (work.without.steady.amplitude or 0.0):
+        bare = _um(work.without.steady.amplitude or 0.0)
+        return f"The wheel alone moves it by {bare} only; race and friction leave {_um(work.rest)}."
     return f"The machine follows its wheel's runout: {runout}."
 
 

@@ -28,6 +28,8 @@ LARGEST_POWER = 600.0
 """Of e, short of infinity."""
 SETTLED = 0.01
 """Of the first variable force: what is left of it when a wheel has worn to where nothing drives it on."""
+NOTHING = 1e-9
+"""Of the press: a variable force of rounding errors."""
 MOST = 50.0
 """The largest exponent of wear against force that is looked for."""
 
@@ -129,6 +131,8 @@ def _first_event(law: Law, runout: float, press: float, usable: float) -> tuple[
     if abs(law.start.pressure) > press:
         return "parted", 0.0
     last = min(usable, LARGEST_POWER / abs(law.slope)) if law.slope else usable
+    if abs(law.start.pressure) <= NOTHING * press:
+        return "worn out", last
     tests: dict[str, Callable[[Stage], bool]] = {
         "parted": lambda stage: abs(stage.pressure) > press,
         "halved": lambda stage: abs(stage.runout) <= runout / 2 and runout > 0,

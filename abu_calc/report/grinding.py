@@ -96,7 +96,11 @@ def contact_blocks(result: GrindingResult) -> list[Block]:
         return [Heading("Contact"), Paragraph(f"A face: runout in the plane does not press. {power}")]
     stiffness, bounds = result.model.contact_stiffness_N_per_m, result.contact_stiffness_regions_N_per_m
     first, second = map(_stiffness, bounds)
-    if stiffness is not None and stiffness < bounds[0]:
+    if bounds[0] <= 0:
+        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        here = f"{own}. At this speed the suspension is too stiff for balls to balance on any contact"
+        here += f" below {second} N/m" if bounds[1] > 0 else " that gives way"
+    elif stiffness is not None and stiffness < bounds[0]:
         here = f"{_stiffness(stiffness)} N/m, below {first}: balls balance, and with them wear centres the wheel"
         here += f". From there to {second} N/m they would add to the imbalance; above, wear drives the wheel off"
     elif stiffness is not None and stiffness < bounds[1]:

@@ -95,7 +95,9 @@ class WearCourse(Record):
     """How the wheel wears: the rate of its runout is below zero where wear centres it."""
 
     centres: Annotated[bool, Quantity("wear centres the wheel")]
-    runout_rate: Annotated[float, Quantity("change of the runout per depth worn off", "dε/ds")]
+    runout_rate: Annotated[
+        float, Quantity("change of the runout per depth worn off", "dε/ds", 4, "as if wheel and work never parted")
+    ]
     pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
     ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, parted, settled or worn out")]
