@@ -48,8 +48,8 @@ class Stage:
 class Wear:
     """How a wheel wears from now on: rate of its runout now, dε/ds, and what comes first.
 
-    `centres`: whether the runout shrinks. `event`: "halved", "parted" (wheel and work), "settled", "worn
-    out", or None where
+    `centres`: whether the runout shrinks. `event`: "halved", "limit" (of the level), "parted" (wheel and
+    work), "settled", "worn out", or None where
     balls do not balance and the course is not known; `stages` up to there.
     """
 
@@ -89,8 +89,11 @@ def _grown(exponent: complex) -> complex:
     return 1 + exponent / 2 if abs(exponent) < 1e-7 else (cmath.exp(exponent) - 1) / exponent
 
 
-def worn(steady: Steady, press: float, wheel_mass: float, usable: float) -> Wear:
-    """From a steady motion on, as long as wheel and work stay together; `usable` depth [m]."""
+def worn(steady: Steady, press: float, wheel_mass: float, usable: float, permitted: float = math.inf) -> Wear:
+    """From a steady motion on, as long as wheel and work stay together; `usable` depth [m].
+
+    `permitted`: how far the axis may move [m]; a machine that does more from the beginning is not asked for it.
+    """
     pressure, runout = steady.pressure or 0j, steady.runout
     towards = (pressure * runout.conjugate()).real
     rate = runout_rate(pressure, runout, press)
@@ -101,7 +104,7 @@ def worn(steady: Steady, press: float, wheel_mass: float, usable: float) -> Wear
             return Wear(pressure, rate, towards > 0, None, ())
         return Wear(pressure, rate, towards > 0, "parted", (Stage(0.0, runout, steady.own, pressure),))
     centres = towards > 0 if runout else steady.balls is not None and law.slope.real > 0
-    event, depth = _first_event(law, abs(runout), press, usable)
+    event, depth = _first_event(law, steady, permitted, press, usable)
     stages = tuple(law.at(depth * share / 8) for share in range(9))
     return Wear(pressure, rate, centres, event, stages)
 
@@ -126,8 +129,16 @@ def _pressure(contact: SteadyContact, imbalance: complex, runout: complex) -> co
     return -1j * contact.normal_force(imbalance, runout)
 
 
-def _first_event(law: Law, runout: float, press: float, usable: float) -> tuple[str, float]:
+def _moved(steady: Steady, stage: Stage) -> float:
+    """The larger amplitude of the axis [m]."""
+    contact, free = steady.contact, steady.balls is not None
+    total = contact.balancing_imbalance(stage.runout) if free else stage.imbalance
+    return max(map(abs, contact.axis(total, stage.runout)))
+
+
+def _first_event(law: Law, steady: Steady, permitted: float, press: float, usable: float) -> tuple[str, float]:
     """What comes first, and at which depth [m]."""
+    runout = abs(steady.runout)
     if abs(law.start.pressure) > press:
         return "parted", 0.0
     last = min(usable, LARGEST_POWER / abs(law.slope)) if law.slope else usable
@@ -135,9 +146,12 @@ def _first_event(law: Law, runout: float, press: float, usable: float) -> tuple[
         return "worn out", last
     tests: dict[str, Callable[[Stage], bool]] = {
         "parted": lambda stage: abs(stage.pressure) > press,
+        "limit": lambda stage: _moved(steady, stage) > permitted,
         "halved": lambda stage: abs(stage.runout) <= runout / 2 and runout > 0,
         "settled": lambda stage: abs(stage.pressure) <= SETTLED * abs(law.start.pressure),
     }
+    if _moved(steady, law.start) > permitted:
+        del tests["limit"]
     before = 0.0
     for depth in _depths(last):
         for name, test in tests.items():

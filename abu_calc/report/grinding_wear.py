@@ -9,6 +9,7 @@ from abu_calc.studies.grinding_records import WearCourse
 
 ENDS: Final = {
     "halved": "runout halved after",
+    "limit": "level above its limit after",
     "parted": "wheel and work part after",
     "settled": "settled after",
     "worn out": "worn out after",

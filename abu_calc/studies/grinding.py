@@ -18,6 +18,7 @@ from abu_calc.formulas.grinding import printed_resultant, runout_rate, stiffness
 from abu_calc.formulas.suspension import natural_frequency
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
+from abu_calc.sizing.budget import permitted_displacement
 from abu_calc.sizing.design import Design
 from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.read import Machine
@@ -117,7 +118,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
     resultant = balls.resultant if balls else None
     sides = (work.fitted, work.without)
     resonance = facts.loaded_resonance(design)
-    wears, rigid = [_wear(design, side.steady) for side in sides], _rigid_wear(design)
+    wears, rigid = [_wear(work, side.steady) for side in sides], _rigid_wear(work)
     return GrindingResult(
         title=tables.machine.name,
         checks=work_checks(work, shortest(tried), compared),
@@ -220,17 +221,22 @@ def _profile(work: Work) -> tuple[ProfilePoint, ...] | None:
     return ProfilePoint.round(_press(work.design), work.fitted.steady, work.without.steady, runs[0], runs[1])
 
 
-def _wear(design: Design, steady: Steady) -> Wear | None:
+def _wear(work: Work, steady: Steady) -> Wear | None:
+    design = work.design
     if not contact_presses(design.case) or steady.imbalance is None:
         return None
-    return worn(steady, _press(design), design.case.table.wheel.mass_kg, _usable(design))
+    mass = 0.0 if steady.balls is None else design.autobalancer.mass
+    allowed, rest = permitted_displacement(design.case, mass, design.case.speed), work.rest if mass else 0.0
+    permitted = math.sqrt(max(allowed**2 - rest**2, 0.0))
+    return worn(steady, _press(design), design.case.table.wheel.mass_kg, _usable(design), permitted)
 
 
-def _rigid_wear(design: Design) -> tuple[Wear | None, Wear | None]:
+def _rigid_wear(work: Work) -> tuple[Wear | None, Wear | None]:
+    design = work.design
     if not contact_presses(design.case):
         return None, None
     runout = runout_of(design.case)
-    return _wear(design, fitted(design, runout, rigid=True)), _wear(design, bare(design, runout, rigid=True))
+    return _wear(work, fitted(design, runout, rigid=True)), _wear(work, bare(design, runout, rigid=True))
 
 
 def _usable(design: Design) -> float:

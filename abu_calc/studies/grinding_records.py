@@ -100,7 +100,7 @@ class WearCourse(Record):
     ]
     pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
-    ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, parted, settled or worn out")]
+    ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
     depth_um: Annotated[float | None, Quantity("worn off until then")]
     time_min: Annotated[float | None, Quantity("until then")]
     stages: tuple[WearStage, ...]

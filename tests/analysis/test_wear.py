@@ -89,6 +89,14 @@ def test_a_wheel_that_wears_itself_into_balance_settles() -> None:
     assert D[1] * last.runout + W**2 * last.imbalance == pytest.approx(0, abs=0.02 * abs(wear.pressure) * 5)
 
 
+def test_the_limit_is_met_before_wheel_and_work_part() -> None:
+    """At a rigid contact free balls let the axis move by ε: it is above 25 µm when the runout is."""
+    wear = worn(fitted(None), 1000.0, WHEEL, 1e-2, 25e-6)
+    assert wear.event == "limit"
+    assert abs(wear.stages[-1].runout) == pytest.approx(25e-6, rel=1e-9)
+    assert worn(fitted(None), 1000.0, WHEEL, 1e-2, 15e-6).event == "parted"  # above it from the beginning
+
+
 def test_a_wheel_that_parts_already_is_told() -> None:
     wear = worn(fitted(None), 20.0, WHEEL, 1e-2)
     assert (wear.event, wear.depth) == ("parted", 0.0)
