@@ -20,7 +20,7 @@ from abu_calc.analysis.grinding_checks import flutter_limits
 from abu_calc.analysis.under_load import bare, even_fan, fitted, fixed, runout_of, with_balls
 from abu_calc.analysis.working import working
 from abu_calc.formulas.contact import SteadyContact
-from abu_calc.scenes.from_design import grinding_without
+from abu_calc.scenes.from_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import machine
@@ -295,3 +295,26 @@ def test_flutter_limit_decides_in_simulation() -> None:
     none = with_balls(design, fitted(design, 0j).contact, 0j, 0j)
     assert none.balls is not None
     assert none.imbalance == 0
+
+
+# Dry friction.
+def left_by_friction(runout: float, seconds: float) -> float:
+    """How far [m] balls at a rigid contact, of ideal race but with dry friction, stay from where they would balance."""
+    design = size(
+        machine(wheel__runout_mm=runout, autobalancer__ball_count=4, autobalancer__ball_diameter_mm=16.0,
+                autobalancer__race_radius_mm=31.0,
+                grinding={"contact": "rigid", "press_force_N": 1000.0, "cutting_coefficient": 0.0})
+    )  # fmt: skip
+    scene = scene_of_design(design, "grinding")
+    kept = tuple(each for each in scene.effects if each.name not in ("race_eccentricity", "gravity"))
+    run = working(replace(scene, effects=kept, duration=seconds), 0.01)
+    steady = fitted(design, runout_of(design.case))
+    return abs(run.imbalance - (steady.imbalance or 0)) / design.system_mass
+
+
+def test_whirl_above_the_threshold_shakes_friction_out_slowly() -> None:
+    """k_r R_p/r = 5.75 µm: below it balls stay where they are held; three times above they creep home in seconds."""
+    held, creeping, home = left_by_friction(0.004, 4.0), left_by_friction(0.02, 0.5), left_by_friction(0.02, 6.0)
+    assert held > 2e-6
+    assert creeping > 2e-6
+    assert home < 0.1e-6

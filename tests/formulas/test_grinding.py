@@ -22,6 +22,7 @@ from abu_calc.formulas.grinding import (
     runout_rate,
     stiffness_regions,
 )
+from abu_calc.formulas.loaded_stability import characteristic, growing_roots
 
 W = 5800 * math.pi / 30
 M, BALL, RP = 5.6, 16.728353e-3, 24e-3
@@ -266,3 +267,37 @@ def test_runout_rate_is_bounded_by_any_force():
         rates.append(abs(runout_rate(pressure, cmath.rect(1e-5, 1.0), float(force.mean()))))
     assert max(rates) <= 2
     assert all(a != b for a, b in pairwise(rates))
+
+
+# Balls of finite mass.
+@pytest.mark.parametrize(
+    ("count", "fan", "ball", "inertia", "zeta", "drag", "speed"),
+    [
+        (2, 0.0, 0.005, 1.4, 0.01, 0.01, 1.318823),
+        (2, 0.5, 0.005, 1.0, 0.01, 0.01, 1.320171),
+        (4, 0.0, 0.005, 1.4, 0.02, 0.05, 1.376846),
+        (8, 0.0, 0.002, 1.4, 0.002, 0.02, 1.373689),
+    ],
+)
+def test_boundaries_of_stability_are_the_published_ones(count, fan, ball, inertia, zeta, drag, speed):
+    """Idle, equal axes, M = k = 1: roots grow just below the speed, none just above; ±90°, or a fan of two."""
+    doubled = count * abs(math.cos(2 * math.acos(fan))) if count == 2 else float(count)
+    idle = SteadyContact(1.0, (1.0, 1.0), 1.0, 0.0, 0.0)
+
+    def growing(at: float) -> int:
+        def whirl(w: complex) -> complex:
+            return idle.whirl_at(w, (1 + 2j * zeta * w - w**2,) * 2)
+
+        return growing_roots(lambda s: characteristic(whirl, ball, at, count, doubled, inertia, drag, s), at)
+
+    assert growing(speed * (1 - 2e-4)) > 0
+    assert growing(speed * (1 + 2e-4)) == 0
+
+
+@given(st.lists(st.complex_numbers(max_magnitude=5, allow_nan=False), min_size=2, max_size=2))
+def test_growing_roots_are_counted(roots):
+    """Of a real polynomial of fourth order with known roots."""
+    if any(abs(root.real) < 1e-3 for root in roots):
+        return
+    real = np.poly([*roots, *(root.conjugate() for root in roots)]).real
+    assert growing_roots(lambda s: complex(np.polyval(real, s)), 1.0) == 2 * sum(root.real > 0 for root in roots)
