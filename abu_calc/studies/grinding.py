@@ -281,7 +281,7 @@ def _claim(work: Work) -> Claim | None:
 def _warnings(work: Work) -> list[str]:
     design, found = work.design, list(work.design.warnings)
     for side in (work.without, work.fitted, work.at_once):
-        found += side.run.warnings if side.run else ()
+        found += (f"{text[0].upper()}{text[1:]}" for text in (side.run.warnings if side.run else ()))
         if side.failure and side.steady.amplitude is not None and not side.pulls:
             found.append(f"The level is that of the closed form: no trustworthy simulation, {side.failure}.")
     if design.case.race_offset:

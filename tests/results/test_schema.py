@@ -35,6 +35,7 @@ COMMANDS = (
     *(("size", "msh-230"), ("size", "swing-arm-grinder"), ("check-fit", "mmg-3200k-knife-shaft")),
     *(("simulate", "scene.toml"), ("simulate", "msh-230", "--audit"), ("stability", "scene.toml", "--speeds", "50:90")),
     *(("effects", "scene.toml"), ("effects",), ("accuracy", "scene.toml", "--budget", "0.5"), ("verify", "msh-230")),
+    *(("grinding", "avtovaz-707-370"), ("grinding", "avtovaz-707-222", "--set", "wheel.runout_mm=0.02")),
     ("size", "no-such-machine"),
 )
 
