@@ -67,8 +67,8 @@ def _helps(work: Work) -> str:
     amplitude = work.fitted.steady.amplitude or 0.0
     share = f"the axis follows {_um(amplitude)} of the {_um(case.runout)} of runout"
     if work.fitted.parts:
-        return "The balls balance it, though wheel and work part now and then."
-    return f"The balls balance it, and {share}."
+        return "The balls balance the wheel, though it parts from the work now and then."
+    return f"The balls balance the wheel, and {share}."
 
 
 def _worse(work: Work) -> str:
