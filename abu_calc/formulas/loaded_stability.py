@@ -52,12 +52,13 @@ def characteristic(
 def growing_roots(value: Callable[[complex], complex], speed: float) -> int:
     """How many roots of an equation of fourth order, real for real s, grow by more than a millionth of the speed.
 
-    By the principle of the argument; nothing of it may be infinite there. Raises NotTrustworthyError where a root lies
-    so near that edge that they cannot be counted.
+    By the principle of the argument, on a grid of a two-hundredth of the speed up to four speeds: two roots that turn
+    the phase right round within one step of it may be missed. Nothing of it may be infinite there. Raises
+    NotTrustworthyError where a root lies so near that edge that they cannot be counted.
     """
     far, small = FAR * speed, 1e-6 * speed
     grid = [0.0, *(small * (far / small) ** (k / 160) for k in range(161))]
-    grid += [k / 100 * 2 * speed for k in range(1, 100)]
+    grid += [k / 200 * speed for k in range(1, 800)]
     edge = small
     points = [(w, value(edge + 1j * w)) for w in sorted(set(grid))]
     turned, looked = 0.0, 0
