@@ -29,20 +29,20 @@ def _lowered(work: Work, remedy: str | None) -> Check:
         sides = {"without": before, "with": after}
         missing = " and ".join(side for side, level in sides.items() if level is None)
         usual = 'Give the contact a stiffness, contact = "compliant": then a simulation tells how they part.'
-        return coded("ABU411", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
+        return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
                      remedy or usual)  # fmt: skip
     message = "with the autobalancer against without, pressed to the work when the balls have settled"
     if work.lowered and not work.always:
         hasty = "not known" if work.hasty is None else f"{work.hasty:.1f} dB"
         message += f"; pressed at once: {hasty}"
-    return coded("ABU411", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
+    return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
 
 
 def _carried(work: Work) -> Check:
     balls, one = work.fitted.steady.balls, work.design.autobalancer
     needed = abs(balls.needed) if balls else 0.0
     enough = needed <= one.capacity
-    return coded("ABU412", verdict(enough), "balls side by side against what this contact asks of them",
+    return coded("ABU422", verdict(enough), "balls side by side against what this contact asks of them",
                  from_si(one.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
                  None if enough else "More or larger balls, a truer or better balanced wheel, a softer contact.",
                  "least")  # fmt: skip
@@ -66,13 +66,13 @@ def _still(work: Work) -> Check:
         status: Grade = "not-done" if short else "fail"
         why = "the balls cannot carry what the work asks for" if short else (
             "at this contact stiffness and speed balls go where they add to the imbalance")  # fmt: skip
-        return coded("ABU413", status, why, drag, None, "1/s", None, "least")
+        return coded("ABU423", status, why, drag, None, "1/s", None, "least")
     here, cross = limits
     if balls.places == "restless":
         why = "nothing damps their motion in the race" if drag == 0 else (
                "cutting friction feeds their flutter, at less drag than the limit" if drag < here else
                "the machine on its contact has a natural frequency too near the speed for such balls")  # fmt: skip
-        return coded("ABU413", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
+        return coded("ABU423", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
     loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,
                                                       work.design.autobalancer, line)]  # fmt: skip
     message = "small disturbances die out; drag against the flutter that cutting friction feeds"
@@ -80,7 +80,7 @@ def _still(work: Work) -> Check:
         message += f"; in a cross, as other wheels may have them, balls need {cross:.3g} 1/s"
     elif loose:
         message += "; in another arrangement that balances they would not"
-    return coded("ABU413", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
+    return coded("ABU423", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
 
 
 def _lines(work: Work) -> tuple[float, ...]:
@@ -105,7 +105,7 @@ def _kept(work: Work, remedy: str | None) -> tuple[Check, ...]:
     elif work.without.parts:
         message += "; without it they part"
     warned = parts or work.at_once.parts
-    return (coded("ABU414", "warn" if warned else "pass", message, amplitude, press, "N",
+    return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press, "N",
                   remedy if warned else None),)  # fmt: skip
 
 
@@ -113,9 +113,9 @@ def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
     if compared is None:
         return ()
     if compared.apart is None:
-        return (coded("ABU415", "not-done", f"no trustworthy simulation: {compared.failure}", None, 100 * AGREES, "%",
+        return (coded("ABU425", "not-done", f"no trustworthy simulation: {compared.failure}", None, 100 * AGREES, "%",
                       "A drag nearer to the optimum, or less accuracy (--accuracy)."),)  # fmt: skip
     near = compared.apart <= AGREES
     remedy = None if near else "Damp the suspension, or take another drag: something has not died out in the run."
-    return (coded("ABU415", verdict(True, near), "simulated contact, ideal race, against the closed form",
+    return (coded("ABU425", verdict(True, near), "simulated contact, ideal race, against the closed form",
                   100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip

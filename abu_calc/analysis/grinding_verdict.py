@@ -61,7 +61,7 @@ def _helps(work: Work) -> str:
         carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
         return f"But the balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for."
     if balls is None or balls.places != "balanced":
-        return "But the balls do not stay where they would balance, see ABU413."
+        return "But the balls do not stay where they would balance, see ABU423."
     if not case.runout:
         return "The wheel runs true: nothing but its imbalance moves the machine."
     amplitude = work.fitted.steady.amplitude or 0.0
@@ -79,7 +79,7 @@ def _worse(work: Work) -> str:
     if balls is not None and balls.places in ("gathered", "turning"):
         return f"At this contact stiffness balls gather where they add to the imbalance; {runout}."
     if balls is not None and balls.places == "restless":
-        return f"The balls do not stay where they would balance, see ABU413; {runout}."
+        return f"The balls do not stay where they would balance, see ABU423; {runout}."
     if balls is not None and balls.places == "short":
         carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
         return f"The balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for; {runout}."
