@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
     from abu_calc.studies.effects import EffectsResult, effects
     from abu_calc.studies.factory import FactoryResult, factory
+    from abu_calc.studies.grinding import GrindingResult, grinding
     from abu_calc.studies.levels import LevelsResult, levels
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
@@ -52,6 +53,7 @@ _ROOMS: Final = {
     "studies.effects": ("EffectsResult", "effects"),
     "studies.factory": ("FactoryResult", "factory"),
     "studies.levels": ("LevelsResult", "levels"),
+    "studies.grinding": ("GrindingResult", "grinding"),
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
@@ -67,6 +69,7 @@ __all__ = [
     "CheckFitResult",
     "EffectsResult",
     "FactoryResult",
+    "GrindingResult",
     "InputError",
     "LevelsResult",
     "Machine",
@@ -88,6 +91,7 @@ __all__ = [
     "check_fit",
     "effects",
     "factory",
+    "grinding",
     "levels",
     "planar",
     "read",

@@ -189,6 +189,47 @@ _ALL: Final = (
         "levels", ("standards.vibration:daily_exposure", "standards.vibration:hand_arm_response"),
     ),
     CheckCode(
+        "ABU421", "level lowered under load",
+        "Whether the autobalancer lowers the level of the machine at its work, at the loudest handle.",
+        "The machine moves no less with it: by steady contact, or by simulation where wheel and work part. Not done "
+        "where a rigid contact would have to pull, or where no simulation gave an answer.",
+        "A truer wheel, a softer contact, a harder press; what was tried on this machine stands in the report.",
+        "grinding", ("formulas.grinding:hodograph_limit",),
+    ),
+    CheckCode(
+        "ABU422", "capacity under load",
+        "Whether the balls, side by side, carry what this contact asks of them, at the file's angle of the runout.",
+        "They carry less: they lie side by side, and the rest moves the machine.",
+        "More or larger balls, a truer or better balanced wheel, a softer contact.",
+        "grinding", ("formulas.contact:SteadyContact.balancing_imbalance", "formulas.ball_ring:capacity"),
+    ),
+    CheckCode(
+        "ABU423", "balls hold still under load",
+        "Whether balls go where they balance at this contact, and drag keeps them from the flutter that cutting "
+        "friction feeds.",
+        "They go where they add to the imbalance, between MΩ² − c_y and 2MΩ² − c_x − c_y; or small disturbances grow, "
+        "by flutter below the limit of drag, or near a natural frequency. Warns where that is so in another "
+        "arrangement. Not done where balls cannot carry the need.",
+        "Another contact stiffness or speed; more drag, or another number of balls.",
+        "grinding", ("formulas.grinding:loaded_stiffness", "formulas.grinding:flutter_drag",
+                     "formulas.loaded_stability:characteristic", "formulas.grinding:stiffness_regions"),
+    ),
+    CheckCode(
+        "ABU424", "wheel stays on the work",
+        "Whether the variable force of wheel and work, with the autobalancer, stays below the press force.",
+        "Never failed: it warns where they part. The level is then that of a simulation.",
+        "Press harder, or run the wheel truer.",
+        "grinding",
+    ),
+    CheckCode(
+        "ABU425", "closed form under load",
+        "Whether the simulation of the contact with ideal race and balls ends where the closed form says.",
+        "Never failed: it warns where they are further apart than the limit. Not done where no simulation reached the "
+        "accuracy; not asked where wheel and work part or balls do not balance.",
+        "Damp the suspension, or take another drag: something has not died out in the run.",
+        "grinding", ("formulas.contact:SteadyContact.balancing_imbalance",),
+    ),
+    CheckCode(
         "ABU501", "arm contact stiffness",
         "Whether a swing arm is supercritical at the lowest speed and the worst contact angle.",
         "The contact is stiffer than the safer of two limits, by the series and exact. Necessary, not sufficient.",

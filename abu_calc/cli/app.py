@@ -31,6 +31,7 @@ COMMANDS = (
     "check-fit",
     "simulate",
     "stability",
+    "grinding",
     "balance",
     "effects",
     "accuracy",

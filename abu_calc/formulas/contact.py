@@ -11,12 +11,16 @@ from abu_calc.formula import formula
 
 @dataclass(frozen=True)
 class SteadyContact:
-    """A machine pressed to the work without separation; s = −1: friction opposes the rim, work on the −y side."""
+    """A machine pressed to the work without separation; s = −1: friction opposes the rim, work on the −y side.
+
+    `pressing` p: 1, or 0 for a face wheel, whose contact does not press in the plane (then with a compliance of 1).
+    """
 
     speed: float
     dynamic_stiffness: tuple[complex, complex]
     compliance: float
     friction: float
+    pressing: float = 1.0
 
     @formula(
         "Imbalance U that free balls settle at",
@@ -36,19 +40,34 @@ class SteadyContact:
     def balancing_imbalance(self, runout: complex) -> complex:
         dx, dy = self.dynamic_stiffness
         sf = 1j * self.friction
-        return runout * (dx - sf * dy) / (1 + sf + self.compliance * (dx + dy)) / self.speed**2
+        p = self.pressing
+        return p * runout * (dx - sf * dy) / (p * (1 + sf) + self.compliance * (dx + dy)) / self.speed**2
 
     def normal_force(self, imbalance: complex, runout: complex) -> complex:
-        """Phasor of the contact force [N]: i·(D_y·E + Ω²U)/(1 + q·D_y) (rigid: Kladiev 1996, (11))."""
-        dy = self.dynamic_stiffness[1]
-        return 1j * (dy * runout + self.speed**2 * imbalance) / (1 + self.compliance * dy)
+        """Phasor of the contact force [N]: p·i·(D_y·E + Ω²U)/(p + q·D_y) (rigid: Kladiev 1996, (11))."""
+        dy, p = self.dynamic_stiffness[1], self.pressing
+        return p * 1j * (dy * runout + self.speed**2 * imbalance) / (p + self.compliance * dy)
 
     def axis(self, imbalance: complex, runout: complex) -> tuple[complex, complex]:
-        """Phasors X, Y of the axis [m]: X = (Ω²U + sf·N)/D_x, Y = i·(E − q·Ω²U)/(1 + q·D_y)."""
+        """Phasors X, Y of the axis [m]: X = (Ω²U + sf·N)/D_x, Y = i·(p·E − q·Ω²U)/(p + q·D_y)."""
         dx, dy = self.dynamic_stiffness
         x = (self.speed**2 * imbalance + self.friction * self.normal_force(imbalance, runout)) / dx
-        y = 1j * (runout - self.compliance * self.speed**2 * imbalance) / (1 + self.compliance * dy)
-        return x, y
+        y = 1j * (self.pressing * runout - self.compliance * self.speed**2 * imbalance)
+        return x, y / (self.pressing + self.compliance * dy)
+
+    @property
+    def whirl_per_imbalance(self) -> complex:
+        """G = dF/dU [m/(kg m)], F = (X + iY)/2 the forward whirl: Ω²/2·[(1 + isf·p/(p + qD_y))/D_x + q/(p + qD_y)].
+
+        Balls go where F = 0 when Re G < 0, and away from there when Re G > 0. Source: derived.
+        """
+        return self.whirl_at(self.speed, self.dynamic_stiffness)
+
+    def whirl_at(self, speed: complex, dynamic_stiffness: tuple[complex, complex]) -> complex:
+        """The same for an imbalance that grows meanwhile, e^{st}: at the speed Ω − is, and D there."""
+        (dx, dy), p = dynamic_stiffness, self.pressing
+        held = 1 / (p + self.compliance * dy)
+        return speed**2 / 2 * ((1 + 1j * self.friction * p * held) / dx + self.compliance * held)
 
     @property
     def balls_increase_imbalance(self) -> bool:

@@ -37,7 +37,7 @@ def _row(values: list[float]) -> tuple[float, float, float]:
     return x, y, z
 
 
-def handle_reaction(hand: Hand, speed: float) -> complex:
+def handle_reaction(hand: Hand, speed: complex) -> complex:
     """Force of both hands per displacement of the handle [N/m] at Ω [rad/s]: palm and fingers eliminated.
 
     D₀₀ − D₀ᵢ (Dᵢⱼ)⁻¹ Dⱼ₀ of D = K + iΩC − Ω²M, the machine's own mass left out.

@@ -12,8 +12,11 @@ from abu_calc.standards.hands import Hand
 class Suspension(Protocol):
     """The reaction of the suspension to a harmonic motion, per axis (0: x, 1: y)."""
 
-    def reaction(self, axis: int, speed: float) -> complex:
-        """Force per displacement [N/m] at the angular frequency `speed` [rad/s], the machine's own mass left out."""
+    def reaction(self, axis: int, speed: complex) -> complex:
+        """Force per displacement [N/m] at the angular frequency `speed` [rad/s], the machine's own mass left out.
+
+        A complex one, Ω − is, is that of a motion that grows meanwhile with e^{st}.
+        """
         ...
 
 
@@ -24,7 +27,7 @@ class Springs:
     stiffness: tuple[float, float]
     damping: tuple[float, float]
 
-    def reaction(self, axis: int, speed: float) -> complex:
+    def reaction(self, axis: int, speed: complex) -> complex:
         """c + iΩb [N/m]."""
         return self.stiffness[axis] + 1j * speed * self.damping[axis]
 
@@ -45,7 +48,7 @@ class Springs:
 class Hands:
     axes: tuple[Hand, Hand]
 
-    def reaction(self, axis: int, speed: float) -> complex:
+    def reaction(self, axis: int, speed: complex) -> complex:
         """Force of both hands per displacement of the handle [N/m]: palm and fingers eliminated."""
         return handle_reaction(self.axes[axis], speed)
 

@@ -10,6 +10,7 @@ from abu_calc.studies.balance import BalanceResult
 from abu_calc.studies.check_fit import CheckFitResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
 from abu_calc.studies.factory import FactoryResult
+from abu_calc.studies.grinding import GrindingResult
 from abu_calc.studies.levels import LevelsResult
 from abu_calc.studies.quantity import Quantity, Record, hints, quantities
 from abu_calc.studies.result import Result
@@ -22,8 +23,8 @@ from abu_calc.units import unit_of
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
-    SizeResult, CheckFitResult, SimulateResult, StabilityResult, EffectsResult, KnownEffectsResult, AccuracyResult,
-    BalanceResult, LevelsResult, FactoryResult, VerifyResult,
+    SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
+    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}

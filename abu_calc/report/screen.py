@@ -65,12 +65,18 @@ def _height(blocks: Sequence[Block]) -> int:
 
 
 def cut(blocks: Sequence[Block], room: int) -> list[Block]:
-    """Blocks as far as there is room for them, of tables the first rows; then a line that says so."""
+    """Blocks as far as there is room for them, of tables the first rows; then a line that says so.
+
+    What stands below a heading that does not fit is left out with it.
+    """
     if _height(blocks) <= room:
         return list(blocks)
     kept: list[Block] = []
+    headless = False
     for block in blocks:
-        kept += _what_fits(block, kept, room - 1)
+        part = [] if headless and not isinstance(block, Heading) else _what_fits(block, kept, room - 1)
+        headless = not part and (headless or isinstance(block, Heading))
+        kept += part
     ended: list[Block] = [*kept, Heading("")]
     empty = [isinstance(one, Heading) and isinstance(below, Heading) for one, below in pairwise(ended)]
     return [*(one for one, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]

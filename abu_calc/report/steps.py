@@ -119,6 +119,20 @@ STEPS: Final[Mapping[str, Step]] = {
         "Levels as instruments show them, weighted acceleration, exposure",
         ("sizing.instruments:readings", "standards.vibration:hand_arm_response", "standards.vibration:daily_exposure"),
     ),
+    "grinding": Step(
+        "Machine at its work",
+        (
+            "formulas.grinding:printed_resultant",
+            "formulas.grinding:loaded_stiffness",
+            "formulas.grinding:flutter_drag",
+            "formulas.loaded_stability:characteristic",
+            "formulas.grinding:stiffness_regions",
+            "formulas.grinding:hodograph_limit",
+            "formulas.grinding:runout_rate",
+            "formulas.shaking:shaking_threshold",
+            "formulas.shaking:shaken_drag",
+        ),
+    ),
     "seats": Step(
         "Bearing seats",
         (

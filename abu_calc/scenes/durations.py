@@ -24,13 +24,17 @@ def settling_duration(design: Design, support: Support, race: Race, ball_rate: f
     """
     case = design.case
     revolution = 2 * math.pi / case.speed
-    # The slowest decay rate and the largest rate [1/s] of its free motion, with the balls' mass in the race.
-    values = np.linalg.eigvals(support.small_motion(case.speed).carrying(balls_of([race])).motion)
-    sway, fastest = -float(values.real.max()), float(np.abs(values).max())
+    sway, fastest = free_rates(support, race, case.speed)
     wanted = max(DECAY_TIMES / rate if rate > 0 else math.inf for rate in (ball_rate, sway))
     longest = max(LONGEST_REVOLUTIONS * revolution, 3 * case.table.limits.settling_time_s)
     cap = max(MOST_CYCLES * 2 * math.pi / max(case.speed, fastest), 2 * revolution)
     return min(max(wanted, LEAST_REVOLUTIONS * revolution), longest, cap)
+
+
+def free_rates(support: Support, race: Race, speed: float) -> tuple[float, float]:
+    """Slowest decay rate and largest rate [1/s] of a support's free motion, with the balls' mass in the race."""
+    values = np.linalg.eigvals(support.small_motion(speed).carrying(balls_of([race])).motion)
+    return -float(values.real.max()), float(np.abs(values).max())
 
 
 def ball_rate_on_arm(design: Design, arm: SwingArm) -> float:

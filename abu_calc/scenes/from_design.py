@@ -13,6 +13,7 @@ from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene, placed
 from abu_calc.dynamics.support import Support
@@ -25,6 +26,7 @@ from abu_calc.formulas.suspension import Hands, Springs
 from abu_calc.formulas.swing_arm import pressed_angle
 from abu_calc.scenes.durations import ball_rate_on_arm, settling_duration
 from abu_calc.scenes.from_tables import motor_numbers
+from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import read_arm
 from abu_calc.spec.machine import SwingArm as SwingArmTable
@@ -69,9 +71,9 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
     contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one.
     `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the race's
-    eccentricity, the latter at its worst; on a horizontal spindle with gravity. Left out: transverse motion, which no
-    key of a machine drives, and the motor at full speed, where it would change the speed. It lasts seven decay times
-    of what dies out last, within bounds.
+    eccentricity, the latter at its worst; on a horizontal spindle with gravity; a face wheel at work with transverse
+    motion, where its axial runout drives it. Left out: the motor at full speed, where it would change the speed. It
+    lasts seven decay times of what dies out last, within bounds.
     Raises InputError for a table that is missing, NotTrustworthyError for an arm that does not stand at the work.
     """
     _refuse_what_is_missing(design, which)
@@ -96,6 +98,26 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         effects=tuple(_effects(design, which)),
     )
     return replace(scene, duration=settling + running_up(design)) if which == "run-up" else placed(scene)
+
+
+def grinding_without(design: Design) -> Scene:
+    """The machine at work without its autobalancer: the contact alone; one with a face idles."""
+    case, contact = design.case, _contact(design)
+    support = _support(case, case.body.effective_mass())
+    race = Race(1.0, (), 0.0, 1.0, (), ())
+    scene = Scene(
+        name="grinding, without autobalancer",
+        support=support,
+        speed=case.speed,
+        imbalance=design.imbalance.value,
+        imbalance_angle=0.0,
+        races=(),
+        duration=settling_duration(design, support, race, math.inf),
+        start_position=support.resting_position(_pulled(design, "grinding")),
+        start_velocity=(0.0,) * len(support.names),
+        effects=() if contact is None else (contact,),
+    )
+    return placed(scene)
 
 
 def idle_scene(design: Design, start: Start = "bunched") -> Scene:
@@ -123,7 +145,12 @@ def _held(design: Design) -> Support:
     felt = case.body.effective_mass(one.mass, case.race_place)
     Range("mass felt in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
           remedy="Fewer or smaller balls.").check(felt)  # fmt: skip
-    suspension, mass = case.suspension, felt - balls
+    return _support(case, felt - balls)
+
+
+def _support(case: Case, mass: float) -> Support:
+    """A point mass on the suspension."""
+    suspension = case.suspension
     if isinstance(suspension, Hands):
         return in_hands(mass, suspension.axes)
     if isinstance(suspension, Springs):
@@ -194,6 +221,7 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
         if table.motor:
             yield Motor(**motor_numbers(table.motor))
     yield RaceEccentricity(case.race_eccentricity, WORST)
+    yield from _across(design) if which == "grinding" else ()
     if table.machine.spindle_axis == "horizontal":
         yield Gravity()
     contact = _contact(design) if which == "grinding" else None
@@ -201,6 +229,14 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
         yield contact
     yield BallContact(radius, RESTITUTION)
     yield DryRollingFriction(case.friction_arm, radius)
+
+
+def _across(design: Design) -> Iterator[TransverseMotion]:
+    """Balls across their race, which a face wheel at work drives by its axial runout; rollers do not go there."""
+    case, groove = design.case, design.track.groove_radius
+    runout = to_si(case.table.wheel.axial_runout_mm, "mm")
+    if runout and groove and case.contact is not None and case.contact.kind == "face":
+        yield TransverseMotion(groove, design.autobalancer.ball_diameter / 2, runout)
 
 
 def _contact(design: Design) -> GrindingContact | None:

@@ -74,6 +74,32 @@ class Wheel(Measured):
         ge=-360,
         le=360,
     )
+    axial_runout_mm: float = Field(
+        default=0.0,
+        description="Axial runout of the wheel's face, half of what a dial gauge shows [mm]; {range}, mounted wheels "
+        "0.02 … 0.2. Under load a face wheel moves the machine by it along the spindle, once per turn, and the balls "
+        "across their race. Default: {default}.",
+        ge=0,
+        le=10,
+        json_schema_extra=usual(0.001, 1),
+    )
+    usable_wear_mm: float | None = Field(
+        default=None,
+        description="How much of the wheel's radius may be worn off [mm]; {range}. No default: wear is then told in "
+        "depths, not in minutes.",
+        examples=[10.0],
+        gt=0,
+        le=2000,
+        json_schema_extra=usual(0.5, 200),
+    )
+    life_min: float | None = Field(
+        default=None,
+        description="Grinding time in which usable_wear_mm is worn off [minutes]; {range}. No default.",
+        examples=[32.0],
+        gt=0,
+        le=1e6,
+        json_schema_extra=usual(1, 10000),
+    )
     imbalance_g_mm: float | None = Field(
         default=None,
         description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One source is needed: "

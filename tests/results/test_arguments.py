@@ -14,6 +14,7 @@ import abu_calc
 
 STUDIES = (
     *(abu_calc.size, abu_calc.check_fit, abu_calc.simulate, abu_calc.stability, abu_calc.accuracy, abu_calc.effects),
+    abu_calc.grinding,
 )
 ARGUMENTS = [(study, name) for study in STUDIES for name in get_type_hints(study) if name != "return"]
 MACHINE = abu_calc.read("msh-230")
@@ -154,7 +155,7 @@ def test_what_is_no_list_of_overrides_is_refused(tmp_path: Path, overrides: Any)
     assert refused(abu_calc.read_scene, file, overrides).place.key == "overrides"
 
 
-@pytest.mark.parametrize("name", ["size", "simulate", "stability", "effects", "accuracy"])
+@pytest.mark.parametrize("name", ["size", "simulate", "stability", "effects", "accuracy", "grinding"])
 def test_a_file_of_bearings_is_refused_in_the_name_of_the_study(name: str) -> None:
     assert f"`abu {name}` needs a whole machine" in str(refused(getattr(abu_calc, name), BEARINGS))
     assert "holds bearings only" in str(refused(BEARINGS.whole))

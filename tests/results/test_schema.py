@@ -37,6 +37,7 @@ COMMANDS = (
     *(("simulate", "scene.toml"), ("simulate", "msh-230", "--audit"), ("stability", "scene.toml", "--speeds", "50:90")),
     *(("effects", "scene.toml"), ("effects",), ("accuracy", "scene.toml", "--budget", "0.5"), ("verify", "msh-230")),
     *(("levels", "msh-230", "--minutes", "60"), ("levels", "scene.toml"), ("levels", "motion.csv")),
+    *(("grinding", "avtovaz-707-370"), ("grinding", "avtovaz-707-222", "--set", "wheel.runout_mm=0.02")),
     ("size", "no-such-machine"),
 )
 

@@ -52,6 +52,7 @@ def test_defaults_in_force_are_listed(tmp_path: Path) -> None:
     assert used == {
         "wheel.runout_mm": 0,
         "wheel.runout_angle_deg": 0,
+        "wheel.axial_runout_mm": 0,
         "autobalancer.max_mass_fraction": 0.05,
         "autobalancer.bore_diameter_mm": 20,
         "autobalancer.design": "one-piece",

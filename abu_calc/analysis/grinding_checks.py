@@ -1,0 +1,121 @@
+"""What the work of a machine must show for its autobalancer to pass, in `abu grinding`."""
+
+from abu_calc.analysis.grinding import AGREES, Agreement, Work
+from abu_calc.analysis.under_load import leaving
+from abu_calc.checks import Check, Grade, coded, verdict
+from abu_calc.formulas.grinding import flutter_drag, loaded_stiffness
+from abu_calc.sizing.advice import power_checks
+from abu_calc.units import from_si
+
+
+def work_checks(work: Work, remedy: str | None, compared: Agreement | None) -> tuple[Check, ...]:
+    """Level, capacity, stability, contact kept, power, and how far the closed form can be trusted.
+
+    `remedy`: what was tried and lowers the level.
+    """
+    return (
+        _lowered(work, remedy),
+        _carried(work),
+        _still(work),
+        *_kept(work, remedy),
+        *power_checks(work.design.case),
+        *_agrees(compared),
+    )
+
+
+def _lowered(work: Work, remedy: str | None) -> Check:
+    before, after = work.levels.before, work.levels.after
+    if work.lowered is None:
+        sides = {"without": before, "with": after}
+        missing = " and ".join(side for side, level in sides.items() if level is None)
+        usual = 'Give the contact a stiffness, contact = "compliant": then a simulation tells how they part.'
+        return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
+                     remedy or usual)  # fmt: skip
+    message = "with the autobalancer against without, pressed to the work when the balls have settled"
+    if work.lowered and not work.always:
+        hasty = "not known" if work.hasty is None else f"{work.hasty:.1f} dB"
+        message += f"; pressed at once: {hasty}"
+    return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
+
+
+def _carried(work: Work) -> Check:
+    balls, one = work.fitted.steady.balls, work.design.autobalancer
+    needed = abs(balls.needed) if balls else 0.0
+    enough = needed <= one.capacity
+    return coded("ABU422", verdict(enough), "balls side by side against what this contact asks of them",
+                 from_si(one.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
+                 None if enough else "More or larger balls, a truer or better balanced wheel, a softer contact.",
+                 "least")  # fmt: skip
+
+
+def flutter_limits(work: Work) -> tuple[float, float] | None:
+    """Drag [1/s] below which light balls flutter where they stand, and in a cross; None where they do not balance."""
+    balls, case, one = work.fitted.steady.balls, work.design.case, work.design.autobalancer
+    if balls is None or balls.places not in ("balanced", "restless"):
+        return None
+    whirl = work.fitted.steady.contact.whirl_per_imbalance
+    cross = loaded_stiffness(whirl, one.ball_mass, case.speed, one.ball_count, 0.0)
+    return flutter_drag(balls.stiffness, case.inertia_factor), flutter_drag(cross, case.inertia_factor)
+
+
+def _still(work: Work) -> Check:
+    balls, drag = work.fitted.steady.balls, work.design.case.drag
+    limits = flutter_limits(work)
+    if balls is None or limits is None:
+        short = balls is not None and balls.places == "short"
+        status: Grade = "not-done" if short else "fail"
+        why = "the balls cannot carry what the work asks for" if short else (
+            "at this contact stiffness and speed balls go where they add to the imbalance")  # fmt: skip
+        return coded("ABU423", status, why, drag, None, "1/s", None, "least")
+    here, cross = limits
+    if balls.places == "restless":
+        why = "nothing damps their motion in the race" if drag == 0 else (
+               "cutting friction feeds their flutter, at less drag than the limit" if drag < here else
+               "the machine on its contact has a natural frequency too near the speed for such balls")  # fmt: skip
+        return coded("ABU423", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
+    loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,
+                                                      work.design.autobalancer, line)]  # fmt: skip
+    message = "small disturbances die out; drag against the flutter that cutting friction feeds"
+    if drag < cross:
+        message += f"; in a cross, as other wheels may have them, balls need {cross:.3g} 1/s"
+    elif loose:
+        message += "; in another arrangement that balances they would not"
+    return coded("ABU423", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
+
+
+def _lines(work: Work) -> tuple[float, ...]:
+    """|Σe^{2iΘ}| of arrangements that more than two balls may take."""
+    count = work.design.autobalancer.ball_count
+    return () if count == 2 else tuple(count * step / 4 for step in range(5))
+
+
+def _kept(work: Work, remedy: str | None) -> tuple[Check, ...]:
+    """Never failed: wheels bounce, and are judged by their level."""
+    contact, force = work.design.case.contact, work.fitted.steady.reaction
+    if contact is None or contact.kind == "face":
+        return ()
+    amplitude, press = None if force is None else abs(force), contact.press_force
+    parts = work.fitted.parts
+    message = "variable force of wheel and work against the press force, with the autobalancer"
+    if parts:
+        apart = work.fitted.run.apart if work.fitted.run and contact.kind == "compliant" else None
+        message += "; they part" + (f", {100 * apart:.0f} % of the time" if apart else "")
+    elif work.at_once.parts:
+        message += "; they keep bouncing when pressed before the balls have settled"
+    elif work.without.parts:
+        message += "; without it they part"
+    warned = parts or work.at_once.parts
+    return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press, "N",
+                  remedy if warned else None),)  # fmt: skip
+
+
+def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
+    if compared is None:
+        return ()
+    if compared.apart is None:
+        return (coded("ABU425", "not-done", f"no trustworthy simulation: {compared.failure}", None, 100 * AGREES, "%",
+                      "A drag nearer to the optimum, or less accuracy (--accuracy)."),)  # fmt: skip
+    near = compared.apart <= AGREES
+    remedy = None if near else "Damp the suspension, or take another drag: something has not died out in the run."
+    return (coded("ABU425", verdict(True, near), "simulated contact, ideal race, against the closed form",
+                  100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip

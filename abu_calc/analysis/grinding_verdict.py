@@ -1,0 +1,119 @@
+"""What the work of a machine comes to, in words: whether the autobalancer helps, why, and what would change that."""
+
+from collections.abc import Sequence
+
+from abu_calc.analysis.grinding import Remedy, Work
+from abu_calc.units import from_si
+
+
+def in_words(work: Work, tried: Sequence[Remedy]) -> str:
+    """A sentence or two; the level first."""
+    before, after = work.levels.before, work.levels.after
+    if work.lowered is None or before is None or after is None:
+        return f"Whether the autobalancer helps under load is not known: {_unknown(work)}.{changes(tried)}"
+    levels = f"{after:.1f} dB with it, {before:.1f} without"
+    if work.lowered:
+        haste = "" if work.always else f" {_haste(work)}{changes(tried, 'What prevents that') or NOTHING}"
+        return f"The autobalancer helps under load: {levels}. {_helps(work)}{haste}"
+    return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
+
+
+NOTHING = " Neither a truer wheel, a softer contact nor a harder press was found to change that."
+
+
+def changes(tried: Sequence[Remedy], what: str = "What helps") -> str:
+    """What was tried and helps, with the level that it gives; nothing without remedies."""
+    if not tried:
+        return ""
+    told = [f"{_remedy(one)} ({one.levels.after:.1f} dB against {one.levels.before:.1f})" for one in tried]
+    return f" {what}, by trial: {', or '.join(told)}."
+
+
+def shortest(tried: Sequence[Remedy]) -> str | None:
+    """The first remedy alone."""
+    return f"By trial, {_remedy(tried[0])}." if tried else None
+
+
+def _remedy(one: Remedy) -> str:
+    if one.what == "runout":
+        return f"a runout of {from_si(one.value, 'mm'):g} mm at most"
+    if one.what == "stiffness":
+        return f"a contact of {_plain(one.value)} N/m at most"
+    return f"a press force of {one.value:g} N at least"
+
+
+def _haste(work: Work) -> str:
+    """What a start with balls on the heavy side comes to."""
+    if work.hasty is None:
+        return (
+            f"Pressed before the balls have settled: not known, {work.at_once.failure or 'no way to compute it holds'}."
+        )
+    how = "wheel and work keep bouncing, at" if work.at_once.parts else "it comes to"
+    return f"But pressed before the balls have settled {how} {work.hasty:.1f} dB."
+
+
+def _helps(work: Work) -> str:
+    contact, case = work.design.case.contact, work.design.case
+    if contact is None or contact.kind == "face":
+        return "A face does not press in the plane: balls do as they do at idle."
+    balls, one = work.fitted.steady.balls, work.design.autobalancer
+    if balls is not None and balls.places == "short":
+        carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
+        return f"But the balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for."
+    if balls is None or balls.places != "balanced":
+        return "But the balls do not stay where they would balance, see ABU423."
+    if not case.runout:
+        return "The wheel runs true: nothing but its imbalance moves the machine."
+    amplitude = work.fitted.steady.amplitude or 0.0
+    share = f"the axis follows {_um(amplitude)} of the {_um(case.runout)} of runout"
+    if work.fitted.parts:
+        return "The balls balance the wheel, though it parts from the work now and then."
+    return f"The balls balance the wheel, and {share}."
+
+
+def _worse(work: Work) -> str:
+    case, steady = work.design.case, work.fitted.steady
+    balls, one = steady.balls, work.design.autobalancer
+    moved = work.design.imbalance.value / case.body.effective_mass()
+    runout = f"ε = {_um(case.runout)} {'exceeds' if case.runout > moved else 'against'} m₀e/M = {_um(moved)}"
+    if balls is not None and balls.places in ("gathered", "turning"):
+        return f"At this contact stiffness balls gather where they add to the imbalance; {runout}."
+    if balls is not None and balls.places == "restless":
+        return f"The balls do not stay where they would balance, see ABU423; {runout}."
+    if balls is not None and balls.places == "short":
+        carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
+        return f"The balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for; {runout}."
+    if work.fitted.parts and case.contact is not None:
+        force = abs(steady.reaction or 0.0)
+        return (f"The machine follows its wheel's runout ({runout}), so that the force, {case.contact.press_force:g} ± "
+                f"{force:.0f} N, lets wheel and work part, and they bounce.")  # fmt: skip
+    if work.rest > (work.without.steady.amplitude or 0.0):
+        bare = _um(work.without.steady.amplitude or 0.0)
+        return f"The wheel alone moves it by {bare} only; race and friction leave {_um(work.rest)}."
+    return f"The machine follows its wheel's runout: {runout}."
+
+
+def _unknown(work: Work) -> str:
+    case, failures = work.design.case, [side.failure for side in (work.without, work.fitted) if side.failure]
+    if failures:
+        return f"no trustworthy simulation, {failures[0]}"
+    rigid = case.contact is not None and case.contact.kind == "rigid"
+    if rigid and case.contact is not None:
+        sides = {"without the autobalancer": work.without, "with it": work.fitted}
+        pulls = " and ".join(f"{abs(side.steady.reaction or 0):.0f} N {name}" for name, side in sides.items()
+                             if side.parts)  # fmt: skip
+        return (f"the contact is taken as rigid, and would have to pull: the force varies by {pulls}, and the press is "
+                f"{case.contact.press_force:g} N")  # fmt: skip
+    return "no way to compute it holds"
+
+
+def _um(length: float) -> str:
+    return f"{from_si(length, 'um'):.3g} µm"
+
+
+def _plain(stiffness: float) -> str:
+    """
+    >>> _plain(4.5e5), _plain(1.2e6)
+    ('4.5e5', '1.2e6')
+    """
+    return f"{stiffness:.2g}".replace("e+0", "e")

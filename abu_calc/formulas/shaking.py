@@ -1,0 +1,43 @@
+"""What shakes dry rolling friction out of a race: balls that are moved faster than they creep."""
+
+import math
+
+from abu_calc.formula import formula
+
+
+@formula(
+    "Amplitude of a shaking beyond which balls roll in spite of dry friction",
+    "a > k_r·R_p/r",
+    "m",
+    where=(
+        "a amplitude across the race, of the axial runout a_z by which a face wheel moves the machine, or along it, of "
+        "the backward whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
+    ),
+    assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(ρ−r), across it at resonance",
+    source="derived, and seen in simulations",
+    printed=(
+        "Kladiev 1996 has axial runout alone shake friction out; the whirl by runout in the plane does, too, but slowly"
+    ),
+)
+def shaking_threshold(arm: float, pitch_radius: float, ball_radius: float) -> float:
+    """
+    >>> round(1e6 * shaking_threshold(2e-6, 24e-3, 8e-3), 3)
+    6.0
+    """
+    return arm * pitch_radius / ball_radius
+
+
+@formula(
+    "Drag that dry friction amounts to while a backward whirl shakes the balls along the race",
+    "4J(k_r·R_p/r)Ω/(π·a)",
+    "1/s",
+    where="J rolling inertia factor, a amplitude of the whirl [m]; the mean of friction over a swing at 2Ω.",
+    assumed="a well above k_r·R_p/r",
+    source="derived by averaging",
+)
+def shaken_drag(threshold: float, whirl: float, speed: float, inertia_factor: float) -> float:
+    """
+    >>> round(shaken_drag(5.81e-6, 20e-6, 607.37, 1.4))
+    315
+    """
+    return 4 * inertia_factor * threshold * speed / (math.pi * whirl)

@@ -1,0 +1,210 @@
+"""The report of `abu grinding`: the verdict, then what stands behind it."""
+
+from typing import Final
+
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.grinding_wear import wear_blocks
+from abu_calc.report.numbers import number
+from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
+from abu_calc.report.screen import verdict_line
+from abu_calc.studies.grinding import GrindingResult
+from abu_calc.studies.grinding_records import AxisMotion
+
+RIGHT: Final = frozenset({1, 2, 3, 4, 5})
+MARKS: Final = {True: "pass", False: "fail", None: "not-done"}
+STEADY: Final = (
+    "Closed forms, of ideal race and balls, as if wheel and work never parted; levels count race and friction."
+)
+
+
+def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        Heading(f"{result.title}: at work"),
+        Paragraph(result.verdict, MARKS[result.helps]),
+        verdict_line(result),
+        numbers_that_matter(result),
+        *wear_blocks(result),
+        *balls_blocks(result),
+        *contact_blocks(result),
+        *friction_blocks(result),
+        *_simulated(result),
+        *_hodograph(result),
+        *_response(result),
+        *_profile(result),
+        *check_blocks(result.checks),
+        *notices(result),
+        Heading("Model"),
+        Paragraph(STEADY),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def numbers_that_matter(result: GrindingResult) -> Grid:
+    """Levels, motions, forces: without autobalancer, its balls fixed, free."""
+    axes = result.axis_without, result.axis_fixed, result.axis
+    forces = result.reaction_without, result.reaction_fixed, result.reaction
+    rows = [
+        ("level", _db(result.level_before_db), "", _db(result.level_after_db)),
+        ("pressed at once", "", "", _db(result.level_at_once_db)),
+        ("axis along the work", *(_um(axis.x_amplitude_mm) for axis in axes)),
+        ("axis normal to it", *(_um(axis.y_amplitude_mm) for axis in axes)),
+    ]
+    if result.contact_stiffness_regions_N_per_m is not None:
+        rows += [
+            (f"force, {result.reaction.mean_N:g} N ±", *(_newton(force.amplitude_N, parts=force.separates)
+                                                        for force in forces)),
+            ("largest runout", *(_limit(force.largest_runout_mm) for force in forces)),
+        ]  # fmt: skip
+    return Grid(("", "without", "balls fixed", "with"), tuple(rows), RIGHT)
+
+
+def balls_blocks(result: GrindingResult) -> list[Block]:
+    """Where they rest, and where the source puts them."""
+    places = {
+        "balanced": "The balls balance",
+        "restless": "The balls do not stay where they would balance",
+        "short": "The balls carry too little and lie side by side",
+        "gathered": "The balls gather where they add to the imbalance",
+        "turning": "The balls come to no rest",
+    }[result.balls]
+    text = places
+    if result.ball_angles_deg is not None and result.ball_resultant_g_mm is not None:
+        many = ", one of many arrangements" if len(result.ball_angles_deg) > 2 and result.balls == "balanced" else ""
+        angles = ", ".join(f"{number(angle, 4)}°" for angle in result.ball_angles_deg)
+        text += f": {number(result.ball_resultant_g_mm, 4)} g·mm, at {angles} from the imbalance{many}"
+    blocks: list[Block] = [Heading("Balls"), Paragraph(f"{text}.")]
+    if result.printed is not None and result.balls == "balanced":
+        given = result.printed.ball_angles_deg or (result.printed.resultant_angle_deg,)
+        angles = " and ".join(f"{number(angle, 4)}°" for angle in given)
+        if len(given) == 1:
+            angles = f"{number(result.printed.resultant_g_mm, 4)} g·mm at {angles}"
+        blocks.append(Paragraph(
+            f"The printed formula (Kladiev 1996, 4), without friction, has {angles}: off by "
+            f"{number(result.printed.error_deg or 0.0, 3)}°, {number(result.printed.open_g_mm or 0.0, 3)} g·mm left."
+        ))  # fmt: skip
+    if result.flutter_drag_limit_per_s is not None and result.flutter_drag_worst_per_s is not None:
+        here, worst = (number(each, 3) for each in (result.flutter_drag_limit_per_s, result.flutter_drag_worst_per_s))
+        blocks.append(Paragraph(f"Drag against flutter: {here} 1/s as they stand, {worst} 1/s at the worst."))
+    return blocks
+
+
+def contact_blocks(result: GrindingResult) -> list[Block]:
+    """Regions of stiffness; resonance; power."""
+    power = f"Cutting takes {number(result.cutting_power_W, 3)} W."
+    if result.contact_stiffness_regions_N_per_m is None:
+        return [Heading("Contact"), Paragraph(f"A face: runout in the plane does not press. {power}")]
+    stiffness, bounds = result.model.contact_stiffness_N_per_m, result.contact_stiffness_regions_N_per_m
+    first, second = map(_stiffness, bounds)
+    if bounds[0] <= 0:
+        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        here = f"{own}. At this speed the suspension is too stiff for balls to balance on any contact"
+        here += f" below {second} N/m" if bounds[1] > 0 else " that gives way"
+    elif stiffness is not None and stiffness < bounds[0]:
+        here = f"{_stiffness(stiffness)} N/m, below {first}: balls balance, and with them wear centres the wheel"
+        here += f". From there to {second} N/m they would add to the imbalance; above, wear drives the wheel off"
+    elif stiffness is not None and stiffness < bounds[1]:
+        here = f"{_stiffness(stiffness)} N/m, from {first} to {second}: there balls add to the imbalance"
+    else:
+        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        here = f"{own}, above {second} N/m: balls balance, and wear drives the wheel off; below {first} N/m it would "
+        here += "be centred"
+    resonance = "" if result.resonance_rpm is None else (
+        f" Without autobalancer the machine resonates on it at {value_of(result, 'resonance_rpm')}.")  # fmt: skip
+    return [Heading("Contact"), Paragraph(f"{here}.{resonance} {power}")]
+
+
+def friction_blocks(result: GrindingResult) -> list[Block]:
+    """What friction holds, and what shakes it out."""
+    found = result.friction
+    if found.threshold_um == 0:
+        return [Heading("Dry friction of the balls"), Paragraph("None.")]
+    held = f"It holds the axis off by {number(found.typical_um, 3)} µm, typically"
+    held += "." if found.worst_um is None else f", {number(found.worst_um, 3)} µm at the worst."
+    told = [f"axial runout of the wheel, {number(found.axial_um, 3)} µm, {_shakes(found.axial_shakes)}"]
+    if result.contact_stiffness_regions_N_per_m is not None and found.whirl_um is not None:
+        along = f"the whirl by its runout in the plane, {number(found.whirl_um, 3)} µm, {_shakes(found.whirl_shakes)}"
+        told.append(f"{along}, slowly, in some {number(found.creep_s, 2)} s" if found.creep_s else along)
+    shaken = "; ".join(told)
+    need = f"It takes more than {number(found.threshold_um, 3)} µm."
+    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaken[0].upper()}{shaken[1:]}. {need}")]
+
+
+def _shakes(does: bool) -> str:
+    return "shakes it out" if does else "does not shake it out"
+
+
+def _simulated(result: GrindingResult) -> list[Block]:
+    """The runs, with every effect that counts."""
+    blocks: list[Block] = []
+    for one, title in (
+        (result.simulation, "Simulated with the autobalancer"),
+        (result.simulation_at_once, "Pressed before the balls have settled"),
+        (result.simulation_without, "Without"),
+    ):
+        if one is not None:
+            blocks += [Heading(title), facts(one)]
+    if result.agreement is not None:
+        blocks += [Heading("Contact alone, simulated against the closed form: relative differences"),
+                   facts(result.agreement)]  # fmt: skip
+    return blocks
+
+
+def _hodograph(result: GrindingResult) -> list[Block]:
+    rows = tuple((number(one.runout_angle_deg, 4), *_pair(one.without), *_pair(one.fitted)) for one in result.hodograph)
+    header = ("runout at, °", "without: x", "y, µm", "with: x", "y, µm")
+    return [Heading("Axis against the angle from imbalance to runout"), Grid(header, rows, RIGHT)]
+
+
+def _response(result: GrindingResult) -> list[Block]:
+    rows = tuple(
+        (number(one.speed_rpm, 5), _largest(one.without), _largest(one.fitted), _newton(one.force_without_N),
+         _newton(one.force_with_N), one.balls or "")
+        for one in result.response
+    )  # fmt: skip
+    header = ("rpm", "axis without", "with", "force without", "with", "balls")
+    return [Heading("Over the speeds"), Grid(header, rows, frozenset({0, 1, 2, 3, 4}))]
+
+
+def _profile(result: GrindingResult) -> list[Block]:
+    if result.profile is None:
+        return []
+    rows = tuple(
+        (number(one.wheel_angle_deg, 4), *(_newton(each) for each in (one.without_N, one.with_N,
+                                           one.simulated_without_N, one.simulated_N)))
+        for one in result.profile
+    )  # fmt: skip
+    header = ("wheel at, °", "without", "with", "simulated without", "simulated with")
+    return [Heading("Force round the wheel, from its imbalance"), Grid(header, rows, RIGHT)]
+
+
+def _pair(axis: AxisMotion) -> tuple[str, str]:
+    """x and y in µm."""
+    x, y = ("" if each is None else number(1e3 * each, 3) for each in (axis.x_amplitude_mm, axis.y_amplitude_mm))
+    return x, y
+
+
+def _largest(axis: AxisMotion) -> str:
+    both = [each for each in (axis.x_amplitude_mm, axis.y_amplitude_mm) if each is not None]
+    return _um(max(both)) if both else ""
+
+
+def _db(level: float | None) -> str:
+    return "not known" if level is None else f"{level:.1f} dB"
+
+
+def _um(length_mm: float | None) -> str:
+    return "" if length_mm is None else f"{number(1e3 * length_mm, 3)} µm"
+
+
+def _newton(force: float | None, *, parts: bool = False) -> str:
+    return "" if force is None else f"{number(force, 3)} N{' (parts)' if parts else ''}"
+
+
+def _stiffness(value: float) -> str:
+    """As files have it, 4.9e5."""
+    return f"{value:.3g}".replace("e+0", "e")
+
+
+def _limit(length_mm: float | None) -> str:
+    return "none" if length_mm is None else _um(length_mm)

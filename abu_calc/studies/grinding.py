@@ -1,0 +1,293 @@
+"""A machine at its work: whether its autobalancer helps there, what its wheel feels, and how that wears."""
+
+import cmath
+import math
+from typing import Annotated, ClassVar
+
+from abu_calc.analysis import contact_facts as facts
+from abu_calc.analysis import grinding as analysis
+from abu_calc.analysis.grinding import Side, Work
+from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
+from abu_calc.analysis.grinding_verdict import in_words, shortest
+from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.analysis.under_load import Steady, bare, contact_presses, fitted, fixed, runout_of
+from abu_calc.analysis.wear import Wear, needed_exponent, worn
+from abu_calc.analysis.working import harmonic_force
+from abu_calc.errors import InputError, Place
+from abu_calc.formulas.grinding import printed_resultant, runout_rate, stiffness_regions
+from abu_calc.formulas.suspension import natural_frequency
+from abu_calc.progress import Progress, silent
+from abu_calc.sizing import size as size_design
+from abu_calc.sizing.budget import permitted_displacement
+from abu_calc.sizing.design import Design
+from abu_calc.spec.machine import MachineFile
+from abu_calc.spec.read import Machine
+from abu_calc.studies.arguments import checked
+from abu_calc.studies.grinding_model import GrindingModel
+from abu_calc.studies.grinding_records import (
+    AxisMotion,
+    Claim,
+    Comparison,
+    FrictionBand,
+    HodographPoint,
+    Printed,
+    ProfilePoint,
+    Reaction,
+    ResponsePoint,
+    Simulated,
+    TriedRemedy,
+    WearCourse,
+)
+from abu_calc.studies.quantity import Quantity, record
+from abu_calc.studies.result import Provenance, Result
+from abu_calc.units import from_si, to_si, wrapped_deg
+
+USABLE = 0.2
+"""Of the wheel's radius, taken as the depth that may be worn off where the file does not say."""
+CLAIMED = 32.0, 48.0
+"""Minutes a wheel lasts without and with the autobalancer of the MSh-230, Kladiev 1996."""
+
+
+@record
+class GrindingResult(Result):
+    """A machine at its work; motions as if wheel and work never parted, `simulation` as they are."""
+
+    command: ClassVar[str] = "grinding"
+
+    model: GrindingModel
+    verdict: Annotated[str, Quantity("verdict")]
+    helps: Annotated[bool | None, Quantity("the autobalancer lowers the level")]
+    contact: Annotated[str, Quantity("contact")]
+    level_before_db: Annotated[float | None, Quantity("level without autobalancer")]
+    level_after_db: Annotated[float | None, Quantity("level with it")]
+    level_at_once_db: Annotated[float | None, Quantity("with it, pressed before the balls have settled")]
+    remedies: tuple[TriedRemedy, ...]
+    ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
+    ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
+    needed_resultant_g_mm: Annotated[float, Quantity("imbalance asked of the balls")]
+    ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "Θ", 5)]
+    balls: Annotated[str, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
+    printed: Printed | None
+    reaction: Reaction
+    reaction_fixed: Reaction
+    reaction_without: Reaction
+    axis: AxisMotion
+    axis_fixed: AxisMotion
+    axis_without: AxisMotion
+    resting_um: Annotated[float, Quantity("race and friction leave besides", "", 3)]
+    profile: tuple[ProfilePoint, ...] | None
+    hodograph: tuple[HodographPoint, ...]
+    response: tuple[ResponsePoint, ...]
+    resonance_rpm: Annotated[float | None, Quantity("resonance on the contact, without autobalancer")]
+    wear: WearCourse | None
+    wear_without: WearCourse | None
+    wear_rigid: WearCourse | None
+    wear_rigid_without: WearCourse | None
+    wear_bouncing: WearCourse | None
+    wear_bouncing_without: WearCourse | None
+    claim: Claim | None
+    contact_stiffness_regions_N_per_m: Annotated[
+        tuple[float, float] | None, Quantity("contact stiffness up to which balls balance; above which they do again")
+    ]
+    flutter_drag_limit_per_s: Annotated[float | None, Quantity("drag against flutter, as the balls stand", "h₀")]
+    flutter_drag_worst_per_s: Annotated[float | None, Quantity("drag against flutter, balls in a cross", "h₀")]
+    friction: FrictionBand
+    cutting_power_W: Annotated[float, Quantity("cutting power", "fN₀v")]
+    simulation: Simulated | None
+    simulation_at_once: Simulated | None
+    simulation_without: Simulated | None
+    agreement: Comparison | None
+
+
+@checked
+def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) -> GrindingResult:
+    """The machine of a file at its work, by closed forms and by simulation to `accuracy`.
+
+    Raises InputError for a file without [grinding], and with file, line, key and remedy for what is wrong in it.
+    """
+    ACCURACY.check(accuracy)
+    tables = machine.whole("grinding")
+    with machine.located():
+        _refuse_idle(tables)
+        design = size_design(tables)
+        work = analysis.at_work(design, accuracy, progress)
+        tried = () if work.always else analysis.remedies(work, accuracy, progress)
+        compared = analysis.agreement(work, accuracy, progress)
+    steady, runout = work.fitted.steady, runout_of(design.case)
+    balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
+    resultant = balls.resultant if balls else None
+    sides = (work.fitted, work.without)
+    resonance = facts.loaded_resonance(design)
+    wears, rigid = [_wear(work, side.steady) for side in sides], _rigid_wear(work)
+    return GrindingResult(
+        title=tables.machine.name,
+        checks=work_checks(work, shortest(tried), compared),
+        warnings=(*machine.warnings, *_warnings(work)),
+        model=GrindingModel.of(work),
+        provenance=Provenance.of(machine),
+        verdict=in_words(work, tried),
+        helps=work.lowered,
+        contact=design.case.contact.kind if design.case.contact else "",
+        level_before_db=work.levels.before,
+        level_after_db=work.levels.after,
+        level_at_once_db=work.hasty,
+        remedies=tuple(map(TriedRemedy.of, tried)),
+        ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
+        ball_resultant_angle_deg=None if not resultant else wrapped_deg(cmath.phase(resultant)),
+        needed_resultant_g_mm=from_si(abs(balls.needed) if balls else 0.0, "g_mm"),
+        ball_angles_deg=tuple(map(wrapped_deg, balls.angles)) if balls and balls.angles else None,
+        balls=balls.places if balls else "",
+        printed=_printed(work),
+        reaction=Reaction.of(design.case, steady),
+        reaction_fixed=Reaction.of(design.case, still),
+        reaction_without=Reaction.of(design.case, work.without.steady),
+        axis=AxisMotion.of(steady.axis),
+        axis_fixed=AxisMotion.of(still.axis),
+        axis_without=AxisMotion.of(work.without.steady.axis),
+        resting_um=from_si(work.rest, "um"),
+        profile=_profile(work),
+        hodograph=tuple(map(HodographPoint.of, facts.hodograph(design))),
+        response=tuple(map(ResponsePoint.of, facts.response(design))),
+        resonance_rpm=None if resonance is None else from_si(resonance, "rpm"),
+        wear=_course(design, wears[0]),
+        wear_without=_course(design, wears[1]),
+        wear_rigid=_course(design, rigid[0]),
+        wear_rigid_without=_course(design, rigid[1]),
+        wear_bouncing=_course(design, _bouncing(design, work.fitted)),
+        wear_bouncing_without=_course(design, _bouncing(design, work.without)),
+        claim=_claim(work),
+        contact_stiffness_regions_N_per_m=_regions(design, steady),
+        flutter_drag_limit_per_s=None if limits is None else limits[0],
+        flutter_drag_worst_per_s=None if limits is None else limits[1],
+        friction=FrictionBand.of(facts.friction(work)),
+        cutting_power_W=_cutting_power(design),
+        simulation=None if work.fitted.run is None else Simulated.of(work.fitted.run),
+        simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),
+        simulation_without=None if work.without.run is None else Simulated.of(work.without.run),
+        agreement=None if compared is None else Comparison.of(compared),
+    )  # fmt: skip
+
+
+def _refuse_idle(tables: MachineFile) -> None:
+    if tables.grinding is None:
+        raise InputError(
+            "`abu grinding` needs the machine at its work",
+            place=Place(key="grinding"),
+            found="no [grinding] in the file",
+            remedy="Add a table [grinding] with press_force_N, cutting_coefficient and contact; `abu init` writes a "
+            "file that shows it.",
+        )
+
+
+def _regions(design: Design, steady: Steady) -> tuple[float, float] | None:
+    return stiffness_regions(steady.contact.dynamic_stiffness) if contact_presses(design.case) else None
+
+
+def _press(design: Design) -> float:
+    return design.case.contact.press_force if design.case.contact else math.inf
+
+
+def _cutting_power(design: Design) -> float:
+    case = design.case
+    drag = case.contact.cutting_coefficient * case.contact.press_force if case.contact else 0.0
+    return drag * case.speed * case.wheel_radius
+
+
+def _printed(work: Work) -> Printed | None:
+    """The source's formula beside the general one; None where it does not speak of such a machine."""
+    design, steady, balls = work.design, work.fitted.steady, work.fitted.steady.balls
+    one, case = design.autobalancer, design.case
+    if not contact_presses(case) or balls is None:
+        return None
+    mass, ratio = case.body.effective_mass(one.mass), one.requirement.plane_ratio
+    natural = natural_frequency(case.suspension, 0, mass)
+    printed = ratio * printed_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
+    share = abs(printed) / (2 * one.ball_mass * one.pitch_radius)
+    half = math.acos(share) if one.ball_count == 2 and share <= 1 else None
+    place = cmath.phase(printed)
+    return Printed(
+        resultant_g_mm=from_si(abs(printed), "g_mm"),
+        resultant_angle_deg=wrapped_deg(place),
+        ball_angles_deg=None if half is None else (wrapped_deg(place - half), wrapped_deg(place + half)),
+        error_deg=abs(wrapped_deg(cmath.phase(printed / balls.needed))) if balls.needed and printed else None,
+        open_g_mm=from_si(abs(printed - balls.needed), "g_mm"),
+    )
+
+
+def _profile(work: Work) -> tuple[ProfilePoint, ...] | None:
+    if not contact_presses(work.design.case):
+        return None
+    runs = [{} if side.run is None else dict(side.run.profile) for side in (work.fitted, work.without)]
+    return ProfilePoint.round(_press(work.design), work.fitted.steady, work.without.steady, runs[0], runs[1])
+
+
+def _wear(work: Work, steady: Steady) -> Wear | None:
+    design = work.design
+    if not contact_presses(design.case) or steady.imbalance is None:
+        return None
+    mass = 0.0 if steady.balls is None else design.autobalancer.mass
+    allowed, rest = permitted_displacement(design.case, mass, design.case.speed), work.rest if mass else 0.0
+    permitted = math.sqrt(max(allowed**2 - rest**2, 0.0))
+    return worn(steady, _press(design), design.case.table.wheel.mass_kg, _usable(design), permitted)
+
+
+def _rigid_wear(work: Work) -> tuple[Wear | None, Wear | None]:
+    design = work.design
+    if not contact_presses(design.case):
+        return None, None
+    runout = runout_of(design.case)
+    return _wear(work, fitted(design, runout, rigid=True)), _wear(work, bare(design, runout, rigid=True))
+
+
+def _usable(design: Design) -> float:
+    given = design.case.table.wheel.usable_wear_mm
+    return USABLE * design.case.wheel_radius if given is None else to_si(given, "mm")
+
+
+def _bouncing(design: Design, side: Side) -> Wear | None:
+    """The rate of a wheel that parts from its work, by the simulated force."""
+    contact = design.case.contact
+    if side.run is None or not side.parts or contact is None or contact.kind != "compliant":
+        return None
+    pressure, runout = side.run.pressure, runout_of(design.case)
+    centres = (pressure * runout.conjugate()).real > 0
+    return Wear(pressure, runout_rate(pressure, runout, contact.press_force), centres, None, ())
+
+
+def _course(design: Design, wear: Wear | None) -> WearCourse | None:
+    wheel = design.case.table.wheel
+    pace = wheel.life_min / to_si(wheel.usable_wear_mm, "mm") if wheel.life_min and wheel.usable_wear_mm else None
+    return None if wear is None else WearCourse.of(wear, runout_of(design.case), pace)
+
+
+def _claim(work: Work) -> Claim | None:
+    """What it would take for the wheel to live as much longer as the source has it."""
+    if not contact_presses(work.design.case):
+        return None
+    press, (before, after) = _press(work.design), CLAIMED
+    forces = [
+        side.run.force if side.parts and side.run is not None else harmonic_force(press, side.steady.pressure or 0j)
+        for side in (work.without, work.fitted)
+    ]
+    return Claim(
+        life_without_min=before,
+        life_with_min=after,
+        ratio_by_archard=1.0,
+        needed_exponent=needed_exponent(forces[0], forces[1], after / before),
+        needed_press_N=press * before / after,
+    )
+
+
+def _warnings(work: Work) -> list[str]:
+    design, found = work.design, list(work.design.warnings)
+    for side in (work.without, work.fitted, work.at_once):
+        found += (f"{text[0].upper()}{text[1:]}" for text in (side.run.warnings if side.run else ()))
+        if side.failure and side.steady.amplitude is not None and not side.pulls:
+            found.append(f"The level is that of the closed form: no trustworthy simulation, {side.failure}.")
+    if design.case.race_offset:
+        found.append(
+            "The race is off the wheel's plane: closed forms take the wheel's plane, the simulation that of the race."
+        )
+    if work.fitted.parts and contact_presses(design.case):
+        found.append("Wheel and work part: ball places, axis and reaction are those of a wheel that does not.")
+    return list(dict.fromkeys(found))

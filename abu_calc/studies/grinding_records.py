@@ -1,0 +1,307 @@
+"""The parts of the result of `abu grinding`, in user units."""
+
+import cmath
+import math
+from collections.abc import Mapping
+from typing import Annotated, Self
+
+from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
+from abu_calc.analysis.grinding import Agreement, Remedy
+from abu_calc.analysis.under_load import Steady
+from abu_calc.analysis.wear import Stage, Wear
+from abu_calc.analysis.working import Working
+from abu_calc.sizing.case import Case
+from abu_calc.studies.quantity import Quantity, Record, record
+from abu_calc.units import from_si, wrapped_deg
+
+
+@record
+class AxisMotion(Record):
+    """Amplitudes of the axis; None where balls come to no rest."""
+
+    x_amplitude_mm: Annotated[float | None, Quantity("along the work", "|X|")]
+    y_amplitude_mm: Annotated[float | None, Quantity("normal to the work", "|Y|")]
+
+    @classmethod
+    def of(cls, axis: tuple[complex, complex] | None) -> Self:
+        """That of phasors."""
+        x, y = (None, None) if axis is None else (from_si(abs(each), "mm") for each in axis)
+        return cls(x_amplitude_mm=x, y_amplitude_mm=y)
+
+
+@record
+class Reaction(Record):
+    """Force of wheel and work, N₀ + amplitude·cos(Ωt + angle), as if they never parted."""
+
+    mean_N: Annotated[float, Quantity("mean force", "N₀")]
+    amplitude_N: Annotated[float | None, Quantity("variable part", "|N_c|")]
+    angle_deg: Annotated[float | None, Quantity("its angle", "arg N_c")]
+    hardest_at_deg: Annotated[float | None, Quantity("point of the wheel pressed hardest, from the imbalance")]
+    separates: Annotated[bool, Quantity("wheel and work part")]
+    largest_runout_mm: Annotated[float | None, Quantity("largest runout without parting", "ε")]
+
+    @classmethod
+    def of(cls, case: Case, steady: Steady) -> Self:
+        """That of a steady motion."""
+        force, press = steady.reaction, case.contact.press_force if case.contact else 0.0
+        limit, known = largest_runout(case, steady), force is not None and abs(force) > 0
+        return cls(
+            mean_N=press,
+            amplitude_N=None if force is None else abs(force),
+            angle_deg=wrapped_deg(cmath.phase(force)) if force is not None and known else None,
+            hardest_at_deg=wrapped_deg(cmath.phase(-1j * force)) if force is not None and known else None,
+            separates=known and case.contact is not None and abs(force or 0j) > press,
+            largest_runout_mm=None if limit is None else from_si(limit, "mm"),
+        )
+
+
+@record
+class Printed(Record):
+    """What the source's formula asks of the balls, where it puts two, and how wrong that is here."""
+
+    resultant_g_mm: Annotated[float, Quantity("imbalance of the balls, printed formula", "|V|")]
+    resultant_angle_deg: Annotated[float, Quantity("its angle", "arg V")]
+    ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "Θ", 5)]
+    error_deg: Annotated[float | None, Quantity("the printed formula is off by")]
+    open_g_mm: Annotated[float | None, Quantity("imbalance it would leave of what is to be carried")]
+
+
+@record
+class WearStage(Record):
+    """The wheel after some wear."""
+
+    depth_um: Annotated[float, Quantity("worn off")]
+    time_min: Annotated[float | None, Quantity("after")]
+    runout_mm: Annotated[float, Quantity("runout", "ε")]
+    runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ₀")]
+    imbalance_g_mm: Annotated[float, Quantity("imbalance of the wheel", "m₀e")]
+    variable_force_N: Annotated[float, Quantity("variable force", "|H|")]
+
+    @classmethod
+    def of(cls, stage: Stage, pace: float | None) -> Self:
+        """That of a stage; `pace` in minutes per metre."""
+        return cls(
+            depth_um=from_si(stage.depth, "um"),
+            time_min=None if pace is None else pace * stage.depth,
+            runout_mm=from_si(abs(stage.runout), "mm"),
+            runout_angle_deg=wrapped_deg(cmath.phase(stage.runout)),
+            imbalance_g_mm=from_si(abs(stage.imbalance), "g_mm"),
+            variable_force_N=abs(stage.pressure),
+        )
+
+
+@record
+class WearCourse(Record):
+    """How the wheel wears: the rate of its runout is below zero where wear centres it."""
+
+    centres: Annotated[bool, Quantity("wear centres the wheel")]
+    runout_rate: Annotated[
+        float, Quantity("change of the runout per depth worn off", "dε/ds", 4, "as if wheel and work never parted")
+    ]
+    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
+    hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
+    ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
+    depth_um: Annotated[float | None, Quantity("worn off until then")]
+    time_min: Annotated[float | None, Quantity("until then")]
+    stages: tuple[WearStage, ...]
+
+    @classmethod
+    def of(cls, wear: Wear, runout: complex, pace: float | None) -> Self:
+        """`pace` in minutes per metre of depth."""
+        away = cmath.phase(wear.pressure) - cmath.phase(runout)
+        return cls(
+            centres=wear.centres,
+            runout_rate=wear.rate,
+            pressure_amplitude_N=abs(wear.pressure),
+            hardest_at_deg=wrapped_deg(away) if wear.pressure else None,
+            ends=wear.event,
+            depth_um=None if wear.depth is None else from_si(wear.depth, "um"),
+            time_min=None if wear.depth is None or pace is None else pace * wear.depth,
+            stages=tuple(WearStage.of(stage, pace) for stage in wear.stages),
+        )
+
+
+@record
+class Claim(Record):
+    """The source's claim that a wheel lives 48 minutes with an autobalancer and 32 without, and what it would take."""
+
+    life_without_min: Annotated[float, Quantity("life without, as printed")]
+    life_with_min: Annotated[float, Quantity("life with, as printed")]
+    ratio_by_archard: Annotated[float, Quantity("ratio of lives if wear goes with the force")]
+    needed_exponent: Annotated[float | None, Quantity("power of the force that wear would go with")]
+    needed_press_N: Annotated[float, Quantity("mean force that would do it, by the same law")]
+
+
+@record
+class FrictionBand(Record):
+    """Dry friction of the balls, and whether work shakes it out."""
+
+    typical_um: Annotated[float, Quantity("friction holds the axis off by, typically")]
+    worst_um: Annotated[float | None, Quantity("at the worst")]
+    threshold_um: Annotated[float, Quantity("shaken out by more than", "k_r·R_p/r")]
+    axial_um: Annotated[float, Quantity("shaking across the race, by axial runout", "a_z")]
+    axial_shakes: Annotated[bool, Quantity("axial runout shakes it out")]
+    whirl_um: Annotated[float | None, Quantity("shaking along the race, by runout in the plane", "|X − iY|/2")]
+    whirl_shakes: Annotated[bool, Quantity("runout in the plane shakes it out")]
+    creep_s: Annotated[float | None, Quantity("balls then creep to their places within")]
+
+    @classmethod
+    def of(cls, found: Friction) -> Self:
+        """In user units."""
+        whirl = found.whirl
+        return cls(
+            typical_um=from_si(found.typical, "um"),
+            worst_um=from_si(found.worst, "um") if math.isfinite(found.worst) else None,
+            threshold_um=from_si(found.threshold, "um"),
+            axial_um=from_si(found.axial, "um"),
+            axial_shakes=found.axial > found.threshold > 0,
+            whirl_um=None if whirl is None else from_si(whirl, "um"),
+            whirl_shakes=found.creep is not None,
+            creep_s=found.creep,
+        )
+
+
+@record
+class HodographPoint(Record):
+    """Axis with the runout at another angle from the imbalance."""
+
+    runout_angle_deg: Annotated[float, Quantity("runout from the imbalance", "φ₀")]
+    without: AxisMotion
+    fitted: AxisMotion
+
+    @classmethod
+    def of(cls, one: AtAngle) -> Self:
+        """In user units."""
+        return cls(
+            runout_angle_deg=math.degrees(one.angle),
+            without=AxisMotion.of(one.without),
+            fitted=AxisMotion.of(one.fitted),
+        )
+
+
+@record
+class ResponsePoint(Record):
+    """Axis and variable force at a speed."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    without: AxisMotion
+    fitted: AxisMotion
+    force_without_N: Annotated[float | None, Quantity("variable force without autobalancer")]
+    force_with_N: Annotated[float | None, Quantity("variable force with it")]
+    balls: Annotated[str | None, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
+
+    @classmethod
+    def of(cls, one: AtSpeed) -> Self:
+        """In user units."""
+        bare, free = one.without, one.fitted
+        force = [None if each is None or each.reaction is None else abs(each.reaction) for each in (bare, free)]
+        return cls(
+            speed_rpm=from_si(one.speed, "rpm"),
+            without=AxisMotion.of(bare.axis if bare else None),
+            fitted=AxisMotion.of(free.axis if free else None),
+            force_without_N=force[0],
+            force_with_N=force[1],
+            balls=free.balls.places if free and free.balls else None,
+        )
+
+
+@record
+class Simulated(Record):
+    """The end of a run with every effect that counts."""
+
+    x_amplitude_mm: Annotated[float, Quantity("along the work, from the mean place")]
+    y_amplitude_mm: Annotated[float, Quantity("normal to the work")]
+    velocity_rms_mm_per_s: Annotated[float, Quantity("velocity, rms")]
+    imbalance_g_mm: Annotated[float, Quantity("imbalance of wheel and balls")]
+    force_amplitude_N: Annotated[float | None, Quantity("variable force, once per turn")]
+    largest_force_N: Annotated[float | None, Quantity("largest force")]
+    apart: Annotated[float, Quantity("share of the time apart", "", 3, "", percent=True)]
+    hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the imbalance")]
+    ball_angles_deg: Annotated[tuple[float, ...], Quantity("balls end at", "θ", 5)]
+
+    @classmethod
+    def of(cls, run: Working) -> Self:
+        """In user units."""
+        presses = len(run.force) > 0
+        return cls(
+            x_amplitude_mm=from_si(run.x, "mm"),
+            y_amplitude_mm=from_si(run.y, "mm"),
+            velocity_rms_mm_per_s=from_si(run.velocity, "mm_per_s"),
+            imbalance_g_mm=from_si(abs(run.imbalance), "g_mm"),
+            force_amplitude_N=abs(run.reaction) if presses else None,
+            largest_force_N=float(run.force.max()) if presses else None,
+            apart=run.apart,
+            hardest_at_deg=wrapped_deg(cmath.phase(run.pressure)) if presses and run.reaction else None,
+            ball_angles_deg=tuple(map(wrapped_deg, run.ball_angles)),
+        )
+
+
+@record
+class Comparison(Record):
+    """How far the simulation of the contact alone is from the closed form, relative."""
+
+    axis: Annotated[float | None, Quantity("axis", "", 3)]
+    reaction: Annotated[float | None, Quantity("variable force", "", 3)]
+    imbalance: Annotated[float | None, Quantity("imbalance", "", 3)]
+
+    @classmethod
+    def of(cls, found: Agreement) -> Self:
+        """The same numbers."""
+        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance)
+
+
+@record
+class TriedRemedy(Record):
+    """What was tried and lowers the level under load, and the levels it gave."""
+
+    runout_mm: Annotated[float | None, Quantity("runout", "ε")]
+    contact_stiffness_N_per_m: Annotated[float | None, Quantity("contact stiffness", "c_n")]
+    press_force_N: Annotated[float | None, Quantity("press force", "N₀")]
+    level_before_db: Annotated[float | None, Quantity("level without autobalancer")]
+    level_after_db: Annotated[float | None, Quantity("level with it")]
+
+    @classmethod
+    def of(cls, found: Remedy) -> Self:
+        """In user units."""
+        return cls(
+            runout_mm=from_si(found.value, "mm") if found.what == "runout" else None,
+            contact_stiffness_N_per_m=found.value if found.what == "stiffness" else None,
+            press_force_N=found.value if found.what == "press" else None,
+            level_before_db=found.levels.before,
+            level_after_db=found.levels.after,
+        )
+
+
+@record
+class ProfilePoint(Record):
+    """Force on a point of the wheel, from its imbalance: with and without autobalancer, as if never parting; and as
+    simulated, where that was done.
+    """
+
+    wheel_angle_deg: Annotated[float, Quantity("point of the wheel", "ψ")]
+    with_N: Annotated[float | None, Quantity("force with the autobalancer", "N")]
+    without_N: Annotated[float | None, Quantity("force without", "N")]
+    simulated_N: Annotated[float | None, Quantity("simulated with", "N")]
+    simulated_without_N: Annotated[float | None, Quantity("simulated without", "N")]
+
+    @classmethod
+    def round(
+        cls, press: float, free: Steady, bare: Steady, run: Mapping[float, float], alone: Mapping[float, float]
+    ) -> tuple["ProfilePoint", ...]:
+        """Round the wheel, in 24 points; simulated ones by the nearest of theirs."""
+        angles = [2 * math.pi * step / 24 for step in range(24)]
+
+        def steady(one: Steady, angle: float) -> float | None:
+            return None if one.pressure is None else press + (one.pressure * cmath.exp(-1j * angle)).real
+
+        return tuple(
+            cls(wheel_angle_deg=math.degrees(angle), with_N=steady(free, angle), without_N=steady(bare, angle),
+                simulated_N=_nearest(run, angle), simulated_without_N=_nearest(alone, angle))
+            for angle in angles
+        )  # fmt: skip
+
+
+def _nearest(found: Mapping[float, float], angle: float) -> float | None:
+    if not found:
+        return None
+    return found[min(found, key=lambda one: abs(math.remainder(one - angle, 2 * math.pi)))]
