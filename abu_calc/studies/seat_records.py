@@ -181,6 +181,9 @@ class SeatResult(Record):
     selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
     notes: Annotated[tuple[str, ...], Quantity("notes")]
     internal_clearance: Clearance | None
+    diameter_mm: Annotated[float, Quantity("diameter of the seat", "d")]
+    ring_width_mm: Annotated[float, Quantity("width of the ring", "B")]
+    chamfer_mm: Annotated[float | None, Quantity("chamfer of the ring", "r")]
 
     @property
     def tightest_um(self) -> float:
@@ -190,7 +193,7 @@ class SeatResult(Record):
     @classmethod
     def of(cls, seat: "SeatFit", clearance: Clearance | None) -> Self:
         """In user units; `clearance`: what is left in the seat's bearing."""
-        intensity, sorted_out = seat.load_intensity, seat.selection
+        intensity, sorted_out, ring = seat.load_intensity, seat.selection, seat.joint.ring
         return cls(
             name=seat.name,
             seat=seat.seat,
@@ -218,6 +221,9 @@ class SeatResult(Record):
             selective_interference_um=um_pair(sorted_out.interference) if sorted_out else None,
             notes=seat.notes,
             internal_clearance=clearance,
+            diameter_mm=from_si(ring.diameter, "mm"),
+            ring_width_mm=from_si(ring.width, "mm"),
+            chamfer_mm=None if ring.chamfer is None else from_si(ring.chamfer, "mm"),
         )
 
 
