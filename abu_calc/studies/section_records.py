@@ -2,7 +2,16 @@
 
 from typing import TYPE_CHECKING, Annotated, Self
 
-from abu_calc.sizing import drawing as asked
+from abu_calc.sizing.drawing import (
+    BORE,
+    CASE_DEPTH,
+    GROOVE_TOLERANCE,
+    HARDNESS,
+    OVALITY,
+    RACE_TOLERANCE,
+    ROUGHNESS,
+    bore_limits,
+)
 from abu_calc.sizing.section import section
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si
@@ -42,6 +51,7 @@ class SectionPart(Record):
 class Section(Record):
     """Lengths, tolerances and parts of the housing, as its drawing shows them; requirements are assumed practice."""
 
+    design: Annotated[str, Quantity("kind of housing")]
     bore_diameter_mm: Annotated[float, Quantity("bore", "", 5)]
     bore_class: Annotated[str, Quantity("tolerance class of the bore")]
     bore_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the bore")]
@@ -65,25 +75,26 @@ class Section(Record):
     def of(cls, design: "Design") -> Self:
         """Of a design."""
         found = section(design.case, design.autobalancer)
-        limits = asked.bore_limits(2 * found.bore_radius)
+        limits = bore_limits(2 * found.bore_radius)
         return cls(
+            design=design.case.autobalancer.design,
             bore_diameter_mm=_mm(2 * found.bore_radius),
-            bore_class=asked.BORE,
+            bore_class=BORE,
             bore_limits_um=None if limits is None else (_um(limits.lower), _um(limits.upper)),
             hub_diameter_mm=_mm(2 * found.hub_radius),
             race_diameter_mm=_mm(2 * found.race_radius),
-            race_tolerance_mm=_mm(asked.RACE_TOLERANCE),
+            race_tolerance_mm=_mm(RACE_TOLERANCE),
             shoulder_diameter_mm=_mm(2 * found.shoulder_radius),
-            groove_tolerance_mm=_mm(asked.GROOVE_TOLERANCE),
+            groove_tolerance_mm=_mm(GROOVE_TOLERANCE),
             ring_diameter_mm=_mm(2 * found.ring_radius),
             wall_mm=_mm(found.ring_radius - found.race_radius),
             web_mm=_mm(found.web),
             inner_width_mm=_mm(found.inner_width),
             runout_um=_um(2 * design.case.race_eccentricity),
-            circularity_um=_um(asked.OVALITY),
-            roughness_Ra_um=_um(asked.ROUGHNESS),
-            hardness=asked.HARDNESS,
-            case_depth_mm=_mm(asked.CASE_DEPTH),
+            circularity_um=_um(OVALITY),
+            roughness_Ra_um=_um(ROUGHNESS),
+            hardness=HARDNESS,
+            case_depth_mm=_mm(CASE_DEPTH),
             parts=tuple(map(SectionPart.of, found.parts)),
         )
 
