@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from abu_calc.report.drawing.dimensions import arrow, datum, leader, roughness, tolerance_frame
+from abu_calc.report.drawing.dimensions import arrow, datum, fits, leader, roughness, tolerance_frame
 from abu_calc.report.drawing.extent import extent, moved
 from abu_calc.report.drawing.shapes import (
     HEIGHT,
@@ -20,7 +20,8 @@ from abu_calc.report.drawing.shapes import (
     digits,
     text_width,
 )
-from abu_calc.studies.section_records import SectionPart
+from abu_calc.studies.design_records import Autobalancer
+from abu_calc.studies.section_records import Section, SectionPart
 from abu_calc.studies.size import SizeResult
 
 HATCHES = {"body": (45.0, 2.5), "race ring": (135.0, 2.5), "cover": (135.0, 1.5)}
@@ -29,6 +30,8 @@ STACK = 10.0
 STEP = 9.0
 COLUMN = 14.0
 """From the part to the texts right of it."""
+DATUM = 15.0
+"""What the sign of a datum takes below the bore."""
 OVERHANG = 4.0
 """Of centre lines."""
 
@@ -55,28 +58,35 @@ def face_view(result: SizeResult, scale: float) -> tuple[Shape, ...]:
     """The face seen on the open side, its centre at the origin, balls evenly round the race."""
     one, section, unit = result.autobalancer, result.section, 1 / scale
     outer, pitch = one.outer_diameter_mm / 2, one.pitch_radius_mm
-    seen = sorted({section.bore_diameter_mm, section.hub_diameter_mm, section.shoulder_diameter_mm,
-                   section.race_diameter_mm, section.ring_diameter_mm, one.outer_diameter_mm})  # fmt: skip
+    seen = {round(diameter, 6) for diameter in (
+        section.bore_diameter_mm, section.hub_diameter_mm, section.shoulder_diameter_mm, section.race_diameter_mm,
+        section.ring_diameter_mm, one.outer_diameter_mm,
+    )}  # fmt: skip
     reach = outer + OVERHANG * unit
-
-    def between(wanted: float) -> float:
-        """The angle half-way between two balls that is nearest."""
-        part = 360 / one.ball_count
-        return 90 + (round((wanted - 90) / part - 0.5) + 0.5) * part
-
     return (
-        *(Arc("outline", (0, 0), diameter / 2) for diameter in seen),
+        *(Arc("outline", (0, 0), diameter / 2) for diameter in sorted(seen)),
         Arc("centre", (0, 0), pitch),
         Line("centre", (-reach, 0), (reach, 0)),
         *_cutting_plane(outer, scale),
         *_balls_seen(result),
-        *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text) for radius, angle, text in (
-            (one.race_radius_mm, between(135), f"R{digits(one.race_radius_mm)} ±{digits(section.race_tolerance_mm)}"),
-            (pitch, between(225), f"(R{digits(pitch)})"),
-            (section.hub_diameter_mm / 2, between(315), f"R{digits(section.hub_diameter_mm / 2)}"),
-        )),
+        *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text) for (radius, text), angle in zip((
+            (one.race_radius_mm, f"R{digits(one.race_radius_mm)} ±{digits(section.race_tolerance_mm)}"),
+            (pitch, f"(R{digits(pitch)})"),
+            (section.hub_diameter_mm / 2, f"R{digits(section.hub_diameter_mm / 2)}"),
+        ), _clear_of_balls(one), strict=True)),
         Text((0, outer + (STACK + 2 * STEP) * unit), "cover off", HEIGHT, "centre"),
     )  # fmt: skip
+
+
+def _clear_of_balls(one: Autobalancer) -> tuple[float, ...]:
+    """Angles for three radii in different corners, each between two balls if there is a gap near."""
+    part, half = 360 / one.ball_count, math.degrees(math.asin(one.ball_diameter_mm / 2 / one.pitch_radius_mm))
+    found = list[float]()
+    for wanted in (135.0, 225.0, 315.0):
+        gap = 90 + (round((wanted - 90) / part - 0.5) + 0.5) * part
+        crossed = abs((wanted - 90 + part / 2) % part - part / 2) < half
+        found.append(gap if crossed and abs(gap - wanted) < 40 else wanted)
+    return tuple(found)
 
 
 def section_drawing(result: SizeResult, scale: float) -> Drawing:
@@ -148,19 +158,31 @@ def _balls_cut(result: SizeResult) -> Iterator[Shape]:
 def _diameters(result: SizeResult, unit: float) -> Iterator[Shape]:
     """Left of the closed web, the smallest nearest to it."""
     one, section = result.autobalancer, result.section
-    bore = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}"
-    limits = ""
-    if section.bore_limits_um is not None:
-        low, high = (digits(limit / 1000, 4) for limit in section.bore_limits_um)
-        limits = f"(+{high} / {low})"
+    bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}", bore_limits(section)
+    if not fits(section.bore_diameter_mm, limits, 1 / unit):
+        limits = ""
     rows = [(section.bore_diameter_mm, bore, 0.0)]
-    if section.ring_diameter_mm < one.outer_diameter_mm:
+    if any(part.name == "race ring" for part in section.parts):
         rows.append((section.ring_diameter_mm, f"Ø{digits(section.ring_diameter_mm)}", section.web_mm))
     rows.append((one.outer_diameter_mm, f"Ø{digits(one.outer_diameter_mm)}", 0.0))
     for index, (diameter, text, x) in enumerate(rows):
         at = -(STACK + STEP * index) * unit
         yield Length((x, -diameter / 2), (x, diameter / 2), at, text, True, below=limits if index == 0 else "")
-    yield from datum((-STACK * unit, -section.bore_diameter_mm / 2), "A", 1 / unit)
+    half = section.bore_diameter_mm / 2
+    if one.outer_diameter_mm / 2 - half > DATUM * unit:
+        yield from datum((-STACK * unit, -half), "A", 1 / unit)
+    else:
+        right = one.width_mm
+        yield Line("dimension", (right + unit, -half), (right + 9 * unit, -half))
+        yield from datum((right + 6 * unit, -half), "A", 1 / unit, upwards=True)
+
+
+def bore_limits(section: Section) -> str:
+    """Limits of the bore [mm] as a drawing writes them; nothing where they are not tabulated."""
+    if section.bore_limits_um is None:
+        return ""
+    low, high = (digits(limit / 1000, 4) for limit in section.bore_limits_um)
+    return f"(+{high} / {low})"
 
 
 def _widths(result: SizeResult, unit: float) -> Iterator[Length]:

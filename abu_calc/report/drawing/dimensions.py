@@ -40,9 +40,9 @@ def picture(dimension: Length | Radius, scale: float) -> tuple[Primitive, ...]:
     return _length(dimension, scale) if isinstance(dimension, Length) else _radius(dimension, scale)
 
 
-def fits_between(one: Length, scale: float) -> bool:
-    """Whether the text has room between the arrows."""
-    return one.value * scale >= _longest(one) + 2
+def fits(value: float, text: str, scale: float) -> bool:
+    """Whether a text has room on the line of a dimension, between its arrows' lines."""
+    return value * scale >= max(text_width(text, HEIGHT) + 1, 3 * ARROW)
 
 
 def _length(one: Length, scale: float) -> tuple[Primitive, ...]:
@@ -59,7 +59,7 @@ def _length(one: Length, scale: float) -> tuple[Primitive, ...]:
         side = math.copysign(unit, one.at - point[1 - axis])
         ends = point[1 - axis] + side, one.at + BEYOND * side
         found.append(Line("dimension", *(at(point[axis], end) for end in ends)))
-    if one.value * scale > 3 * ARROW:
+    if one.value * scale >= 3 * ARROW:
         found += _arrow(at(low, one.at), at(1, 0), unit), _arrow(at(high, one.at), at(-1, 0), unit)
     else:
         found += (_stroke(at(end, one.at), unit) for end in (low, high))
@@ -81,17 +81,13 @@ def _stroke(middle: Point, unit: float) -> Line:
 
 def _place(one: Length, ends: Point, unit: float) -> tuple[tuple[float, Align], Point]:
     """Where the text stands, and how far the line reaches."""
-    (low, high), long = ends, _longest(one) * unit
-    if fits_between(one, 1 / unit):
+    (low, high), long = ends, text_width(max(one.text, one.below, key=len), HEIGHT) * unit
+    if fits(one.value, max(one.text, one.below, key=len), 1 / unit):
         return ((low + high) / 2, "centre"), ends
     gap = ARROW * unit
     if one.beyond == "start":
         return (low - gap - long, "left"), (low - gap - long, high)
     return (high + gap, "left"), (low, high + gap + long)
-
-
-def _longest(one: Length) -> float:
-    return max(text_width(one.text, HEIGHT), text_width(one.below, HEIGHT))
 
 
 def _arrow(tip: Point, away: Point, unit: float) -> Solid:
@@ -154,15 +150,17 @@ def _sign(name: str, middle: Point, unit: float) -> tuple[Primitive, ...]:
     return arrow((x + reach, y + reach), (x - reach, y - reach), 1 / unit)
 
 
-def datum(point: Point, letter: str, scale: float) -> tuple[Primitive, ...]:
-    """The triangle of a datum below a point, and its letter in a box."""
+def datum(point: Point, letter: str, scale: float, *, upwards: bool = False) -> tuple[Primitive, ...]:
+    """The triangle of a datum below a point, or above it, and its letter in a box."""
     unit, (x, y) = 1 / scale, point
-    base, half, top = y - 3 * unit, HEIGHT * unit, y - 6 * unit
-    box = ((x - half, top), (x + half, top), (x + half, top - 2 * half), (x - half, top - 2 * half))
+    half, away = HEIGHT * unit, unit if upwards else -unit
+    base, near = y + 3 * away, y + 6 * away
+    low = near if upwards else near - 2 * half
+    box = ((x - half, low), (x + half, low), (x + half, low + 2 * half), (x - half, low + 2 * half))
     edges = (Line("dimension", a, b) for a, b in zip(box, (*box[1:], box[0]), strict=True))
     triangle = Solid(((x - 1.8 * unit, y), (x + 1.8 * unit, y), (x, base)))
-    return (triangle, Line("dimension", (x, base), (x, top)), *edges,
-            Text((x, top - 1.5 * half), letter, align="centre"))  # fmt: skip
+    return (triangle, Line("dimension", (x, base), (x, near)), *edges,
+            Text((x, low + 0.5 * half), letter, align="centre"))  # fmt: skip
 
 
 def roughness(point: Point, value: str, scale: float) -> tuple[Primitive, ...]:

@@ -54,7 +54,7 @@ def _parts(shaft: SeatResult, housing: SeatResult, beyond: float) -> Iterator[Sh
         yield Arc("outline", (wide / 2, side * (bore + outside) / 2), min((outside - bore) / 2 - ring, 0.45 * wide))
     for x in (left, right):
         yield Line("outline", (x, -bore), (x, bore))
-    yield Line("centre", (left - 0.2 * wide, 0), (right + 0.2 * wide, 0))
+    yield Line("centre", (left - 0.05 * wide, 0), (right + 0.2 * wide, 0))
 
 
 def _ring(left: float, right: float, seat: float, free: float, chamfer: float) -> tuple[Corner, ...]:

@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 from typing import Final
 
-from abu_calc.report.drawing.autobalancer import described, face_view, section_view
+from abu_calc.report.drawing.autobalancer import bore_limits, described, face_view, section_view
+from abu_calc.report.drawing.dimensions import fits
 from abu_calc.report.drawing.extent import extent, moved
 from abu_calc.report.drawing.shapes import (
     HEIGHT,
@@ -45,6 +46,9 @@ def section_sheet(result: SizeResult) -> Drawing:
     room = WIDE - MARGIN - BINDING - GAP, HIGH - 2 * MARGIN - below - GAP
     scale, views = _views(result, room)
     unit, (low, high) = 1 / scale, extent(views, scale)
+    bore = result.section.bore_diameter_mm, bore_limits(result.section)
+    if bore[1] and not fits(*bore, scale):
+        notes = (f"Ø{digits(bore[0])} {result.section.bore_class}: {bore[1]} mm", *notes)
     # The views stand in the middle of what is left of the sheet.
     corner = ((low[0] + high[0] - (WIDE + BINDING - MARGIN) * unit) / 2,
               (low[1] + high[1] - (HIGH + below) * unit) / 2)  # fmt: skip
@@ -162,7 +166,7 @@ def _notes(result: SizeResult) -> Iterator[str]:
     width = int((WIDE - MARGIN - BINDING - BLOCK[0] - 14) / text_width("0", SMALL))
     lines = [f"{line.feature}: {line.requirement}" for line in result.drawing if line.feature not in SHOWN]
     for number, line in enumerate(lines, 1):
-        yield from textwrap.wrap(plain(line), width, initial_indent=f"{number}  ", subsequent_indent="    ")
+        yield from textwrap.wrap(plain(line), width, initial_indent=f"{number} ", subsequent_indent="    ")
 
 
 def _written(notes: Sequence[str]) -> Iterator[Text]:

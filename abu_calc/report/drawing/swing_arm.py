@@ -80,21 +80,25 @@ def _work(arm: SwingArm, scale: float) -> Iterator[Shape]:
     yield Line("dimension", centre, touch)
     if arm.contact_angle_deg:
         yield Arc("dimension", centre, 0.55 * wheel, 180, towards)
-    half = max(0.9 * wheel, 12 / scale)
+    half = _half_work(arm, scale)
     # Seen from the wheel the strokes lie beyond the surface.
     yield from _ground(_turned(half, towards - 90, touch), _turned(half, towards + 90, touch), scale)
 
 
+def _half_work(arm: SwingArm, scale: float) -> float:
+    """Half of the surface that is drawn."""
+    return max(0.45 * arm.wheel_diameter_mm, 12 / scale)
+
+
 def _dimensions(arm: SwingArm, scale: float) -> Iterator[Shape]:
     wheel, length, unit = arm.wheel_diameter_mm / 2, arm.arm_length_mm, 1 / scale
-    top = max(wheel, 0.0) + 14 * unit
+    top, right = wheel + 14 * unit, length + max(wheel, _half_work(arm, scale)) + 10 * unit
     yield Length((0, 0), (length, 0), top, f"l = {digits(length)}")
-    shelf = length + wheel + 10 * unit, wheel + 4 * unit
-    yield Radius((length, 0), wheel, 45, shelf, f"wheel R{digits(wheel)}")
+    yield Radius((length, 0), wheel, 45, (right, wheel + 4 * unit), f"wheel R{digits(wheel)}")
     angle = _turned(0.55 * wheel, 180 + arm.contact_angle_deg / 2, (length, 0.0))
-    yield from leader(angle, (length + wheel + 10 * unit, -4 * unit), f"Z = {digits(arm.contact_angle_deg)}°", scale)
+    yield from leader(angle, (right, -4 * unit), f"Z = {digits(arm.contact_angle_deg)}°", scale)
     rest = _turned(0.7 * length, arm.touch_angle_deg / 2)
-    yield from leader(rest, (0.45 * length, -8 * unit), f"φ₀ = {digits(arm.touch_angle_deg)}°", scale)
+    yield from leader(rest, (-10 * unit, 6 * unit), f"φ₀ = {digits(arm.touch_angle_deg)}°", scale)
 
 
 def _bounds(arm: SwingArm, scale: float) -> Iterator[Text]:
@@ -105,6 +109,6 @@ def _bounds(arm: SwingArm, scale: float) -> Iterator[Text]:
         f"highest resonance {number(arm.resonance_rpm)} rpm",
         f"damping > {number(arm.damping_limit_N_s_per_m, 3)} N·s/m",
     )
-    low = -max(arm.wheel_diameter_mm / 2 + 12 / scale, 30 / scale)
+    low = -1.4 * max(arm.wheel_diameter_mm / 2, _half_work(arm, scale)) - 14 / scale
     for index, line in enumerate(lines):
         yield Text((-10 / scale, low - 1.7 * HEIGHT * index / scale), line)
