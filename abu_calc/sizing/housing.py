@@ -101,15 +101,9 @@ def width(design: Design, ball_diameter: float) -> float:
     return ball_diameter + 2 * (GROOVE_CLEARANCE + RULES[design].web)
 
 
-@formula(
-    "Depth of the groove at the edges of the race",
-    "s = ρ − √(ρ² − (b/2)²)",
-    "m",
-    where="ρ groove radius, b width between the webs [m].",
-    source="circle",
-)
 def groove_depth(groove: float, inner_width: float) -> float:
-    """
+    """Depth of the groove at the edges of the race [m], s = ρ − √(ρ² − (b/2)²), b width between the webs.
+
     >>> round(1e3 * groove_depth(24.43e-3, 16.6e-3), 2)
     1.45
     """

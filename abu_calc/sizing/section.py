@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
-from abu_calc.formula import formula
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL, groove_depth, groove_radius
@@ -115,14 +114,11 @@ def _box(left: float, right: float, inner: float, outer: float) -> Outline:
     return Vertex(left, inner), Vertex(right, inner), Vertex(right, outer), Vertex(left, outer)
 
 
-@formula(
-    "Volume of an outline turned round the axis",
-    "2π·∫r dA",
-    "m³",
-    where="Polygon by Green's theorem; each arc adds its segment at its centroid.",
-    source="Pappus–Guldin",
-)
 def volume_of_revolution(outline: Outline) -> float:
+    """Volume of an outline turned round the axis [m³], 2π·∫r dA (Pappus–Guldin).
+
+    The polygon by Green's theorem; each arc adds its segment at its centroid.
+    """
     return 2 * math.pi * _moments(outline)[1]
 
 

@@ -43,8 +43,9 @@ def test_parts_and_balls_weigh_what_the_design_weighs(name: str) -> None:
 def test_the_race_lies_on_its_circle_and_holds_the_ball(name: str) -> None:
     one, section = result(name).autobalancer, result(name).section
     holder = next(part for part in section.parts if part.name == ("race ring" if len(section.parts) > 2 else "body"))
-    race = [(x, r) for x, r in flattened(holder.outline_mm, 40)
-            if section.web_mm + 1e-6 < x < one.width_mm - section.web_mm - 1e-6 and r > section.hub_diameter_mm / 2]  # fmt: skip
+    left, right = section.web_mm + 1e-6, one.width_mm - section.web_mm - 1e-6
+    found = flattened(holder.outline_mm, 40)
+    race = [(x, r) for x, r in found if left < x < right and r > section.hub_diameter_mm / 2]
     if one.groove_radius_mm is None:
         assert section.shoulder_diameter_mm == section.race_diameter_mm
         return
