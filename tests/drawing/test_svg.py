@@ -1,6 +1,8 @@
 """The SVG file: well formed, true to scale, nothing over anything, and the same drawing as the DXF."""
 
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from functools import cache
 from itertools import combinations
@@ -188,6 +190,16 @@ def test_sketch_of_bearing_seats(name: str, tmp_path: Path) -> None:
     assert seen.status in (0, 1), seen.err
     texts = ["".join(each.itertext()) for each in ElementTree.parse(target).getroot().iter(f"{SVG}text")]
     assert any(text.endswith(" k6") for text in texts) and any(text.endswith(" H7") for text in texts)
+
+
+def test_drawing_seats_loads_no_numerics(tmp_path: Path) -> None:
+    code = (
+        "import sys\nfrom abu_calc.cli.app import run\n"
+        f"run(['check-fit', 'mmg-3200k-knife-shaft', '-q', '-o', {str(tmp_path / 'x.svg')!r}])\n"
+        "sys.exit(bool({'numpy', 'scipy', 'ezdxf'} & sys.modules.keys()))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    assert (tmp_path / "x.svg").exists()
 
 
 def test_sizes_and_limits_of_the_knife_shaft_s_seats() -> None:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from abu_calc.report.drawing.dimensions import arrow, datum, fits, leader, roughness, tolerance_frame
 from abu_calc.report.drawing.extent import extent, moved
@@ -20,9 +21,11 @@ from abu_calc.report.drawing.shapes import (
     digits,
     text_width,
 )
-from abu_calc.studies.design_records import Autobalancer
-from abu_calc.studies.section_records import Section, SectionPart
-from abu_calc.studies.size import SizeResult
+
+if TYPE_CHECKING:
+    from abu_calc.studies.design_records import Autobalancer
+    from abu_calc.studies.section_records import Section, SectionPart
+    from abu_calc.studies.size import SizeResult
 
 HATCHES = {"body": (45.0, 2.5), "race ring": (135.0, 2.5), "cover": (135.0, 1.5)}
 STACK = 10.0
@@ -36,7 +39,7 @@ OVERHANG = 4.0
 """Of centre lines."""
 
 
-def section_view(result: SizeResult, scale: float, right: float = 0.0) -> tuple[Shape, ...]:
+def section_view(result: "SizeResult", scale: float, right: float = 0.0) -> tuple[Shape, ...]:
     """The section, the axis along y = 0; its closed web stands at x = `right`."""
     one, unit = result.autobalancer, 1 / scale
     outer = one.outer_diameter_mm / 2
@@ -54,7 +57,7 @@ def section_view(result: SizeResult, scale: float, right: float = 0.0) -> tuple[
     return tuple(moved(shape, (right, 0.0)) for shape in shapes)
 
 
-def face_view(result: SizeResult, scale: float) -> tuple[Shape, ...]:
+def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
     """The face seen on the open side, its centre at the origin, balls evenly round the race."""
     one, section, unit = result.autobalancer, result.section, 1 / scale
     outer, pitch = one.outer_diameter_mm / 2, one.pitch_radius_mm
@@ -78,7 +81,7 @@ def face_view(result: SizeResult, scale: float) -> tuple[Shape, ...]:
     )  # fmt: skip
 
 
-def _clear_of_balls(one: Autobalancer) -> tuple[float, ...]:
+def _clear_of_balls(one: "Autobalancer") -> tuple[float, ...]:
     """Angles for three radii in different corners, each between two balls if there is a gap near."""
     part, half = 360 / one.ball_count, math.degrees(math.asin(one.ball_diameter_mm / 2 / one.pitch_radius_mm))
     found = list[float]()
@@ -89,17 +92,17 @@ def _clear_of_balls(one: Autobalancer) -> tuple[float, ...]:
     return tuple(found)
 
 
-def section_drawing(result: SizeResult, scale: float) -> Drawing:
+def section_drawing(result: "SizeResult", scale: float) -> Drawing:
     """The section alone, as a report shows it."""
     return _alone("section", f"Section of the autobalancer, {result.title}", result, section_view(result, scale), scale)
 
 
-def face_drawing(result: SizeResult, scale: float) -> Drawing:
+def face_drawing(result: "SizeResult", scale: float) -> Drawing:
     """The face alone, as a report shows it."""
     return _alone("face", f"Face of the autobalancer, {result.title}", result, face_view(result, scale), scale)
 
 
-def _alone(name: str, title: str, result: SizeResult, shapes: Sequence[Shape], scale: float) -> Drawing:
+def _alone(name: str, title: str, result: "SizeResult", shapes: Sequence[Shape], scale: float) -> Drawing:
     low, high = extent(shapes, scale)
     margin = 3 / scale
     return Drawing(
@@ -108,7 +111,7 @@ def _alone(name: str, title: str, result: SizeResult, shapes: Sequence[Shape], s
     )  # fmt: skip
 
 
-def described(result: SizeResult) -> str:
+def described(result: "SizeResult") -> str:
     """The drawing in words, for those who cannot see it."""
     one, section = result.autobalancer, result.section
     groove = "straight across" if one.groove_radius_mm is None else f"groove radius {digits(one.groove_radius_mm)} mm"
@@ -122,7 +125,7 @@ def described(result: SizeResult) -> str:
     )
 
 
-def _cut(parts: Sequence[SectionPart]) -> Iterator[Region]:
+def _cut(parts: "Sequence[SectionPart]") -> Iterator[Region]:
     """Both halves of each part."""
     for part in parts:
         angle, spacing = HATCHES[part.name]
@@ -131,14 +134,14 @@ def _cut(parts: Sequence[SectionPart]) -> Iterator[Region]:
             yield Region(corners, part.name, angle, spacing)
 
 
-def _seen_behind(result: SizeResult) -> Iterator[Line]:
+def _seen_behind(result: "SizeResult") -> Iterator[Line]:
     """The edges of the bore behind the plane of the section."""
     bore = result.section.bore_diameter_mm / 2
     for x in (0.0, result.autobalancer.width_mm):
         yield Line("outline", (x, -bore), (x, bore))
 
 
-def _balls_cut(result: SizeResult) -> Iterator[Shape]:
+def _balls_cut(result: "SizeResult") -> Iterator[Shape]:
     """The ball at the top, and that at the bottom where there is one; rollers seen from the side."""
     one = result.autobalancer
     radius, middle, reach = one.ball_diameter_mm / 2, one.width_mm / 2, 0.62 * one.ball_diameter_mm
@@ -155,7 +158,7 @@ def _balls_cut(result: SizeResult) -> Iterator[Shape]:
     yield Line("centre", (middle, one.pitch_radius_mm - reach), (middle, min(top, one.pitch_radius_mm + reach)))
 
 
-def _diameters(result: SizeResult, unit: float) -> Iterator[Shape]:
+def _diameters(result: "SizeResult", unit: float) -> Iterator[Shape]:
     """Left of the closed web, the smallest nearest to it."""
     one, section = result.autobalancer, result.section
     bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}", bore_limits(section)
@@ -177,7 +180,7 @@ def _diameters(result: SizeResult, unit: float) -> Iterator[Shape]:
         yield from datum((right + 6 * unit, -half), "A", 1 / unit, upwards=True)
 
 
-def bore_limits(section: Section) -> str:
+def bore_limits(section: "Section") -> str:
     """Limits of the bore [mm] as a drawing writes them; nothing where they are not tabulated."""
     if section.bore_limits_um is None:
         return ""
@@ -185,7 +188,7 @@ def bore_limits(section: Section) -> str:
     return f"(+{high} / {low})"
 
 
-def _widths(result: SizeResult, unit: float) -> Iterator[Length]:
+def _widths(result: "SizeResult", unit: float) -> Iterator[Length]:
     """Between web and cover, the cover, and all above; the web below."""
     one, section = result.autobalancer, result.section
     outer, right = one.outer_diameter_mm / 2, one.width_mm
@@ -197,7 +200,7 @@ def _widths(result: SizeResult, unit: float) -> Iterator[Length]:
     yield Length((0, -outer), (web, -shoulder), -outer - STACK * unit, digits(web), beyond="start")
 
 
-def _race_notes(result: SizeResult, scale: float) -> Iterator[Shape]:
+def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
     """What the race must be: form, runout, surface, hardness above; the groove's radius below."""
     one, section, unit = result.autobalancer, result.section, 1 / scale
     outer, right = one.outer_diameter_mm / 2, one.width_mm + COLUMN * unit
@@ -217,7 +220,7 @@ def _race_notes(result: SizeResult, scale: float) -> Iterator[Shape]:
         yield Radius(centre, one.groove_radius_mm, angle, (right, -outer - STACK * unit), text)
 
 
-def _on_race(result: SizeResult, share: float) -> Point:
+def _on_race(result: "SizeResult", share: float) -> Point:
     """A point on the race, so far from its middle to the cover."""
     one, section = result.autobalancer, result.section
     x = share * section.inner_width_mm / 2
@@ -227,7 +230,7 @@ def _on_race(result: SizeResult, share: float) -> Point:
     return one.width_mm / 2 + x, one.race_radius_mm - drop
 
 
-def _part_names(result: SizeResult, scale: float) -> Iterator[Shape]:
+def _part_names(result: "SizeResult", scale: float) -> Iterator[Shape]:
     """Balls and parts by name, right of the section, one below the other."""
     one, section, unit = result.autobalancer, result.section, 1 / scale
     right, radius = one.width_mm, one.ball_diameter_mm / 2
@@ -261,7 +264,7 @@ def _cutting_plane(outer: float, scale: float) -> Iterator[Shape]:
         yield Text((-3 * unit, y - (HEIGHT * unit if side > 0 else 0)), "A", 1.4 * HEIGHT, "right")
 
 
-def _balls_seen(result: SizeResult) -> Iterator[Shape]:
+def _balls_seen(result: "SizeResult") -> Iterator[Shape]:
     """Circles, and their part behind the edge of the groove as hidden lines."""
     one = result.autobalancer
     pitch, radius, edge = one.pitch_radius_mm, one.ball_diameter_mm / 2, result.section.shoulder_diameter_mm / 2

@@ -6,8 +6,19 @@ Rings and rolling elements are schematic; bore, outside and width are to scale.
 from collections.abc import Iterator
 
 from abu_calc.report.drawing.dimensions import leader, roughness
-from abu_calc.report.drawing.shapes import HEIGHT, Arc, Corner, Drawing, Length, Line, Region, Shape, Text, digits
-from abu_calc.report.drawing.sheet import SCALES
+from abu_calc.report.drawing.shapes import (
+    HEIGHT,
+    SCALES,
+    Arc,
+    Corner,
+    Drawing,
+    Length,
+    Line,
+    Region,
+    Shape,
+    Text,
+    digits,
+)
 from abu_calc.report.drawing.sketch import scale_for, sketch
 from abu_calc.studies.result import Result
 from abu_calc.studies.seat_records import Pair, SeatResult

@@ -10,6 +10,8 @@ Corner = tuple[float, float, float]
 Layer = Literal["outline", "hidden", "centre", "hatch", "dimension", "text", "frame"]
 Align = Literal["left", "centre", "right"]
 
+SCALES: Final = (20.0, 10.0, 5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.04, 0.025, 0.02, 0.01)
+"""ISO 5455 with those between of GOST 2.302-68."""
 HEIGHT: Final = 3.5
 """Of most texts."""
 SMALL: Final = 2.5

@@ -3,13 +3,14 @@
 import textwrap
 from collections.abc import Iterator, Sequence
 from pathlib import PurePath
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.report.drawing.autobalancer import bore_limits, described, face_view, section_view
 from abu_calc.report.drawing.dimensions import fits
 from abu_calc.report.drawing.extent import extent, moved
 from abu_calc.report.drawing.shapes import (
     HEIGHT,
+    SCALES,
     SMALL,
     Drawing,
     Line,
@@ -21,8 +22,10 @@ from abu_calc.report.drawing.shapes import (
     plain,
     text_width,
 )
-from abu_calc.studies.result import Result
-from abu_calc.studies.size import SizeResult
+
+if TYPE_CHECKING:
+    from abu_calc.studies.result import Result
+    from abu_calc.studies.size import SizeResult
 
 WIDE, HIGH = 420.0, 297.0
 """A3 [mm]."""
@@ -33,13 +36,11 @@ ROW = 6.0
 NOTE_ROW = 4.2
 GAP = 12.0
 """Between views, and between them and the frame. All on paper [mm]."""
-SCALES: Final = (20.0, 10.0, 5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.04, 0.025, 0.02, 0.01)
-"""ISO 5455 with those between of GOST 2.302-68."""
 SHOWN: Final = frozenset({"race", "groove", "race circularity", "race surface", "rolling friction"})
 """Lines of the drawing table that the views say themselves."""
 
 
-def section_sheet(result: SizeResult) -> Drawing:
+def section_sheet(result: "SizeResult") -> Drawing:
     """Section and face on an A3 sheet, in the largest standard scale for which there is room."""
     notes = tuple(_notes(result))
     below = max(BLOCK[1] + ROW * (len(result.section.parts) + 2), NOTE_ROW * len(notes) + 2 * ROW)
@@ -60,7 +61,7 @@ def section_sheet(result: SizeResult) -> Drawing:
     )  # fmt: skip
 
 
-def _views(result: SizeResult, room: Point) -> tuple[float, tuple[Shape, ...]]:
+def _views(result: "SizeResult", room: Point) -> tuple[float, tuple[Shape, ...]]:
     """The largest scale for which there is room on paper, and both views beside each other in it."""
     for scale in SCALES:
         face, section = face_view(result, scale), section_view(result, scale)
@@ -93,7 +94,7 @@ def _frame() -> Iterator[Line]:
     yield from _box(BINDING, MARGIN, WIDE - MARGIN, HIGH - MARGIN)
 
 
-def _title_block(result: SizeResult, scale: float) -> Iterator[Line | Text]:
+def _title_block(result: "SizeResult", scale: float) -> Iterator[Line | Text]:
     """Machine, file with hash, date, version, scale, mass, verdict."""
     left, low, right, high = WIDE - MARGIN - BLOCK[0], MARGIN, WIDE - MARGIN, MARGIN + BLOCK[1]
     source, middle = result.provenance, left + 0.62 * BLOCK[0]
@@ -133,7 +134,7 @@ def ratio(scale: float) -> str:
     return f"{digits(scale)}:1" if scale >= 1 else f"1:{digits(1 / scale)}"
 
 
-def verdict(result: Result) -> str:
+def verdict(result: "Result") -> str:
     """In a word, and what stands in the way."""
     if result.status == "pass":
         return "PASS"
@@ -141,7 +142,7 @@ def verdict(result: Result) -> str:
     return f"{'FAIL' if result.status == 'fail' else 'NOT DONE'}: {' '.join(codes)}"
 
 
-def _parts_list(result: SizeResult) -> Iterator[Line | Text]:
+def _parts_list(result: "SizeResult") -> Iterator[Line | Text]:
     """Above the title block, from below: what the autobalancer is made of."""
     one, low = result.autobalancer, MARGIN + BLOCK[1]
     left, right = WIDE - MARGIN - BLOCK[0], WIDE - MARGIN
@@ -161,7 +162,7 @@ def _parts_list(result: SizeResult) -> Iterator[Line | Text]:
         yield Line("frame", (x, low), (x, low + ROW * len(rows)))
 
 
-def _notes(result: SizeResult) -> Iterator[str]:
+def _notes(result: "SizeResult") -> Iterator[str]:
     """The lines of the drawing table that no dimension says, wrapped."""
     width = int((WIDE - MARGIN - BINDING - BLOCK[0] - 14) / text_width("0", SMALL))
     lines = [f"{line.feature}: {line.requirement}" for line in result.drawing if line.feature not in SHOWN]

@@ -5,7 +5,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from abu_calc.report.drawing.shapes import Drawing
-from abu_calc.report.drawing.sheet import section_sheet
 from abu_calc.studies.result import Result
 from abu_calc.studies.seat_records import SeatResult
 
@@ -16,6 +15,8 @@ if TYPE_CHECKING:
 
 def size_sheets(result: "SizeResult") -> tuple[Drawing, ...]:
     """The section, and sketches of the swing arm and of bearing seats where the machine has them."""
+    from abu_calc.report.drawing.sheet import section_sheet
+
     return section_sheet(result), *arm_sheets(result), *_seats(result, result.fits)
 
 

@@ -4,8 +4,19 @@ import math
 from collections.abc import Iterator
 
 from abu_calc.report.drawing.dimensions import leader
-from abu_calc.report.drawing.shapes import HEIGHT, Arc, Drawing, Length, Line, Point, Radius, Shape, Text, digits
-from abu_calc.report.drawing.sheet import SCALES
+from abu_calc.report.drawing.shapes import (
+    HEIGHT,
+    SCALES,
+    Arc,
+    Drawing,
+    Length,
+    Line,
+    Point,
+    Radius,
+    Shape,
+    Text,
+    digits,
+)
 from abu_calc.report.drawing.sketch import scale_for, sketch
 from abu_calc.report.numbers import number
 from abu_calc.studies.design_records import SwingArm
