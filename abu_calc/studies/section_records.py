@@ -33,7 +33,7 @@ class SectionPart(Record):
     material: Annotated[str, Quantity("material")]
     mass_g: Annotated[float, Quantity("mass")]
     section_area_mm2: Annotated[float, Quantity("area of the half section")]
-    outline_mm: tuple[tuple[float, float, float], ...]
+    outline_mm: Annotated[tuple[tuple[float, float, float], ...], Quantity("outline of the half section")]
 
     @classmethod
     def of(cls, part: "Part") -> Self:

@@ -29,6 +29,11 @@ MACHINES: dict[str, tuple[str, ...]] = {
     "large bore": ("autobalancer.max_outer_diameter_mm=100", "autobalancer.bore_diameter_mm=80",
                    "autobalancer.min_wall_mm=1", "autobalancer.ball_count=7", "autobalancer.ball_diameter_mm=3"),
     "thick wall": ("autobalancer.max_outer_diameter_mm=120", "autobalancer.min_wall_mm=25"),
+    "narrow": ("autobalancer.max_outer_diameter_mm=56.5", "autobalancer.bore_diameter_mm=28.4",
+               "autobalancer.ball_diameter_mm=2", "autobalancer.ball_count=7", "autobalancer.design=light"),
+    "small scale": ("autobalancer.max_outer_diameter_mm=378.8", "autobalancer.bore_diameter_mm=296.2",
+                    "autobalancer.ball_diameter_mm=20", "autobalancer.ball_count=9",
+                    "autobalancer.design=bearing-ring"),
     "hostile name": (f"machine.name='{HOSTILE}'",),
 }  # fmt: skip
 

@@ -112,4 +112,5 @@ def test_in_characters_every_part_is_seen(name: str, rows: int) -> None:
 
 def test_too_few_lines_show_nothing() -> None:
     one = result("one-piece")
-    assert section_lines(one.autobalancer, one.section, 3) == []
+    for rows in (-40, 0, 3):
+        assert section_lines(one.autobalancer, one.section, rows) == []

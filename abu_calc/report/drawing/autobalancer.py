@@ -194,7 +194,8 @@ def _widths(result: "SizeResult", unit: float) -> Iterator[Length]:
     outer, right = one.outer_diameter_mm / 2, one.width_mm
     web, shoulder = section.web_mm, section.shoulder_diameter_mm / 2
     top = outer + STACK * unit
-    yield Length((web, shoulder), (right - web, shoulder), top, digits(section.inner_width_mm), beyond="start")
+    inner = digits(section.inner_width_mm)
+    yield Length((web, shoulder), (right - web, shoulder), top, inner, beyond="start", clear=web)
     yield Length((right - web, shoulder), (right, outer), top, digits(web))
     yield Length((0, outer), (right, outer), top + STEP * unit, digits(right))
     yield Length((0, -outer), (web, -shoulder), -outer - STACK * unit, digits(web), beyond="start")
@@ -217,7 +218,9 @@ def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
         centre = one.width_mm / 2, -(one.race_radius_mm - one.groove_radius_mm)
         text = f"R{digits(one.groove_radius_mm, 2)} ±{digits(section.groove_tolerance_mm)}"
         angle = -90 + math.degrees(math.asin(section.inner_width_mm / 2 / one.groove_radius_mm)) / 3
-        yield Radius(centre, one.groove_radius_mm, angle, (right, -outer - STACK * unit), text)
+        lowest = min(y for _, _, _, y in _named(result, unit))
+        shelf = right, min(-outer - STACK * unit, lowest - 2.2 * HEIGHT * unit)
+        yield Radius(centre, one.groove_radius_mm, angle, shelf, text)
 
 
 def _on_race(result: "SizeResult", share: float) -> Point:
@@ -231,24 +234,28 @@ def _on_race(result: "SizeResult", share: float) -> Point:
 
 
 def _part_names(result: "SizeResult", scale: float) -> Iterator[Shape]:
-    """Balls and parts by name, right of the section, one below the other."""
-    one, section, unit = result.autobalancer, result.section, 1 / scale
-    right, radius = one.width_mm, one.ball_diameter_mm / 2
-    hub, bore = section.hub_diameter_mm / 2, section.bore_diameter_mm / 2
-    edge = math.sqrt(0.5) * radius if one.corrector == "ball" else radius
-    ball = one.width_mm / 2 + edge, one.pitch_radius_mm - (edge if one.corrector == "ball" else 0)
-    named = [(ball, f"{one.ball_count} × Ø{digits(one.ball_diameter_mm)}", True)]
-    parts = {part.name for part in section.parts}
-    if "race ring" in parts:
-        named.append(((right - section.web_mm / 2, -(section.race_diameter_mm + section.ring_diameter_mm) / 4),
-                      "race ring", False))  # fmt: skip
-    named.append(((right - section.web_mm / 2, -(hub + section.race_diameter_mm / 2) / 2), "cover", False))
-    named.append(((right - section.web_mm / 2, -(hub + bore) / 2), "body", False))
-    named.sort(key=lambda row: -row[0][1])
+    """Balls and parts by name, right of the section."""
+    column = result.autobalancer.width_mm + COLUMN / scale
+    for tip, text, pointed, y in _named(result, 1 / scale):
+        yield from leader(tip, (column, y), text, scale, pointed=pointed)
+
+
+def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool, float]]:
+    """Point, name, whether an arrow or a dot stands at the point, height of the text: one below the other."""
+    one, section = result.autobalancer, result.section
+    x, radius = one.width_mm - section.web_mm / 2, one.ball_diameter_mm / 2
+    hub, race, ring = section.hub_diameter_mm / 2, section.race_diameter_mm / 2, section.ring_diameter_mm / 2
+    edge = math.sqrt(0.5) * radius
+    ball = (edge, edge) if one.corrector == "ball" else (radius, 0.0)
+    tips = {"body": (x, -(hub + section.bore_diameter_mm / 2) / 2), "cover": (x, -(hub + race) / 2),
+            "race ring": (x, -(race + ring) / 2)}  # fmt: skip
+    named = [((one.width_mm / 2 + ball[0], one.pitch_radius_mm - ball[1]),
+              f"{one.ball_count} × Ø{digits(one.ball_diameter_mm)}", True)]  # fmt: skip
+    named += [(tips[part.name], part.name, False) for part in section.parts]
     top = one.outer_diameter_mm / 2 - 7.2 * HEIGHT * unit
-    for tip, text, pointed in named:
+    for tip, text, pointed in sorted(named, key=lambda row: -row[0][1]):
         top = min(top, tip[1])
-        yield from leader(tip, (right + COLUMN * unit, top), text, scale, pointed=pointed)
+        yield tip, text, pointed, top
         top -= 2.2 * HEIGHT * unit
 
 

@@ -23,10 +23,12 @@ ENOUGH = 0.3
 
 def section_lines(one: Autobalancer, section: Section, rows: int) -> list[str]:
     """The section in at most so many lines, the cover on top; none where so few lines cannot show it."""
+    if rows < LEAST_ROWS:
+        return []
     across, along = one.outer_diameter_mm / 2, one.width_mm
     column = max(2 * across / COLUMNS, along / rows / ASPECT)
     half, down = round(across / column), round(along / column / ASPECT)
-    if rows < LEAST_ROWS or half < 2 * LEAST_ROWS:
+    if half < 2 * LEAST_ROWS:
         return []
     down = max(down, LEAST_ROWS)
     flat = [(SIGNS[part.name], tuple(flattened(part.outline_mm))) for part in section.parts]

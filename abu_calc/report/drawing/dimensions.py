@@ -84,7 +84,7 @@ def _place(one: Length, ends: Point, unit: float) -> tuple[tuple[float, Align], 
     (low, high), long = ends, text_width(max(one.text, one.below, key=len), HEIGHT) * unit
     if fits(one.value, max(one.text, one.below, key=len), 1 / unit):
         return ((low + high) / 2, "centre"), ends
-    gap = ARROW * unit
+    gap = ARROW * unit + one.clear
     if one.beyond == "start":
         return (low - gap - long, "left"), (low - gap - long, high)
     return (high + gap, "left"), (low, high + gap + long)

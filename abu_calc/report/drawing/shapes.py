@@ -101,7 +101,8 @@ class Text:
 class Length:
     """A dimension along x or y between two points, its line at `at` on the other axis; `text` holds its value.
 
-    `beyond`: where the text stands if it has no room between the arrows; `below`: what stands below the line.
+    `beyond`: where the text stands if it has no room between the arrows, `clear` how much farther off than others;
+    `below`: what stands below the line.
     """
 
     start: Point
@@ -111,6 +112,7 @@ class Length:
     upright: bool = False
     beyond: Literal["start", "end"] = "end"
     below: str = ""
+    clear: float = 0.0
 
     @property
     def value(self) -> float:
