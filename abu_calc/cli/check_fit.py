@@ -12,6 +12,7 @@ from abu_calc.report.blocks import Block
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.report.drawing.shapes import Drawing
     from abu_calc.spec.read import Machine
     from abu_calc.studies.check_fit import CheckFitResult
 
@@ -31,7 +32,7 @@ def check_fit(
     source = _of_options(given, set_ or ()) if machine is None else _of_file(machine, set_ or (), given)
     result = study(source)
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(source, result, explain), short)
+    return Outcome.of(result, lambda: _blocks(source, result, explain), short, lambda: _drawings(result))
 
 
 def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
@@ -51,6 +52,12 @@ def _blocks(source: "Machine", result: "CheckFitResult", explain: bool) -> tuple
     from abu_calc.studies.seat_model import bearing_models
 
     return (*check_fit_blocks(result), *step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))
+
+
+def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
+    from abu_calc.report.drawing.sheets import seat_sheets
+
+    return seat_sheets(result)
 
 
 def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":
@@ -74,4 +81,4 @@ def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine"
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "check-fit", check_fit, (option.parameter for option in OPTIONS))
+    add_command(app, "check-fit", check_fit, (option.parameter for option in OPTIONS), drawn=(".svg",))

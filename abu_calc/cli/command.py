@@ -32,7 +32,8 @@ def _shared(
             "--output",
             "-o",
             metavar="FILE",
-            help="Also write a file; its suffix says as what (.json, .toml, .csv; .txt: the whole report).",
+            help="Also write a file; its suffix says as what (.json, .toml, .csv; .txt: the whole report; "
+            "drawings: size .dxf and .svg, check-fit .svg).",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
@@ -44,11 +45,15 @@ def _shared(
 
 
 def add_command(
-    app: typer.Typer, name: str, function: Callable[..., Outcome], more: Iterable[inspect.Parameter] = ()
+    app: typer.Typer,
+    name: str,
+    function: Callable[..., Outcome],
+    more: Iterable[inspect.Parameter] = (),
+    drawn: tuple[str, ...] = (),
 ) -> None:
     """Register a command whose function returns an Outcome, with the shared options behind its own.
 
-    `more`: options from a table, which the function takes as `**` keywords.
+    `more`: options from a table, which the function takes as `**` keywords; `drawn`: suffixes of its drawing's files.
     """
     named = inspect.signature(function, eval_str=True).parameters.values()
     own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
@@ -57,7 +62,7 @@ def add_command(
 
     def run(**given: Any) -> None:
         how = _shared(**{key: given[key] for key in shared})
-        how.check()
+        how.check(drawn)
         wanted = {"how": how} if "how" in own else {}
         with _naming_options(options):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)

@@ -23,13 +23,14 @@ class Delivery(NamedTuple):
     color: bool = True
     full: bool = False
 
-    def check(self) -> None:
-        """Refuse before computing what could not be written after."""
+    def check(self, drawn: tuple[str, ...] = ()) -> None:
+        """Refuse before computing what could not be written after; `drawn`: formats of the command's drawing."""
         if self.output is not None:
-            from abu_calc.report.files import FORMATS
+            from abu_calc.report.files import FORMATS, check_extra
             from abu_calc.report.write import check_target
 
-            check_target(self.output, force=self.force, suffixes=tuple(FORMATS))
+            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn))
+            check_extra(self.output.suffix.lower())
 
 
 def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:

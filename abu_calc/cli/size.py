@@ -12,6 +12,7 @@ from abu_calc.report.blocks import Block
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
+    from abu_calc.report.drawing.shapes import Drawing
     from abu_calc.studies.size import SizeResult
 
 
@@ -31,7 +32,7 @@ def size(
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(result, explain), short)
+    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
 
 
 def _screen(result: "SizeResult") -> tuple[Block, ...]:
@@ -50,6 +51,12 @@ def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:
     return size_blocks(result) + explanation_blocks(result)
 
 
+def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
+    from abu_calc.report.drawing.sheets import size_sheets
+
+    return size_sheets(result)
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "size", size)
+    add_command(app, "size", size, drawn=(".dxf", ".svg"))

@@ -35,4 +35,12 @@ class Grid(NamedTuple):
     right: frozenset[int] = frozenset()
 
 
-Block = Heading | Paragraph | Facts | Grid
+class Picture(NamedTuple):
+    """Drawn in characters, with a caption that says what to see; left out where lines are shorter than it is wide."""
+
+    lines: tuple[str, ...]
+    caption: str
+    indent: int = 8
+
+
+Block = Heading | Paragraph | Facts | Grid | Picture

@@ -1,10 +1,12 @@
 """Results as files: the suffix chooses the format."""
 
 import csv
+import importlib.util
 import io
 from collections.abc import Callable
 from typing import Any, Final
 
+from abu_calc.errors import OutputError
 from abu_calc.escapes import escaped, escaped_toml
 from abu_calc.report.outcome import Outcome, document, to_json
 from abu_calc.report.text import as_text
@@ -43,9 +45,23 @@ def _cell(value: Any) -> Any:
     return f"'{text}" if text.startswith(FORMULAS) else text
 
 
+def as_svg(outcome: Outcome) -> str:
+    """Every sheet of the drawing, below one another."""
+    from abu_calc.report.drawing.svg import svg_file
+
+    return svg_file(outcome.drawings() if outcome.drawings else ())
+
+
+def as_dxf(outcome: Outcome) -> str:
+    """The first sheet of the drawing: what can be made by it."""
+    from abu_calc.report.drawing.dxf import dxf_text
+
+    return dxf_text((outcome.drawings() if outcome.drawings else ())[0])
+
+
 def as_file(outcome: Outcome, suffix: str) -> str:
     """The text of a file with this suffix; what stands for itself is written as it is."""
-    return FORMATS[suffix](outcome) if outcome.plain is None else outcome.plain
+    return {**FORMATS, **DRAWN}[suffix](outcome) if outcome.plain is None else outcome.plain
 
 
 FORMATS: dict[str, Callable[[Outcome], str]] = {
@@ -54,6 +70,21 @@ FORMATS: dict[str, Callable[[Outcome], str]] = {
     ".csv": as_csv,
     ".txt": lambda outcome: as_text(outcome.blocks),
 }
+
+DRAWN: dict[str, Callable[[Outcome], str]] = {".dxf": as_dxf, ".svg": as_svg}
+"""Formats of those commands alone that draw."""
+NEEDS = {".dxf": "ezdxf"}
+"""Packages of the extra `report`."""
+
+
+def check_extra(suffix: str) -> None:
+    """Refuse early a format whose package is not installed."""
+    package = NEEDS.get(suffix)
+    if package is not None and importlib.util.find_spec(package) is None:
+        raise OutputError(
+            f"{suffix} files need the package {package}, which is not installed",
+            remedy='Install it: pip install "abu-calc[report]"',
+        )
 
 
 def _named(result: Any) -> dict[str, Any]:

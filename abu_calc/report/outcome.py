@@ -10,6 +10,7 @@ from abu_calc.errors import AbuError, InputError
 from abu_calc.report.blocks import Block
 
 if TYPE_CHECKING:
+    from abu_calc.report.drawing.shapes import Drawing
     from abu_calc.report.write import Target
     from abu_calc.studies.result import Provenance, Result
 
@@ -32,6 +33,8 @@ class Outcome:
     status: Status = "pass"
     short: Callable[[], tuple[Block, ...]] | None = None
     """The one screen that stands in a terminal for blocks that take more."""
+    drawings: "Callable[[], tuple[Drawing, ...]] | None" = None
+    """What makes the sheets of a drawing, where the command has one."""
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
     further: tuple["Target", ...] = ()
@@ -43,11 +46,12 @@ class Outcome:
         result: "Result",
         view: Callable[[], tuple[Block, ...]],
         short: Callable[[], tuple[Block, ...]] | None = None,
+        drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
     ) -> "Outcome":
-        """That of a study, and what makes its blocks, all of them and one screen."""
+        """That of a study, and what makes its blocks, all of them and one screen, and its drawings."""
         return cls(
             result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
-            result.warnings, result.status, short,
+            result.warnings, result.status, short, drawings,
         )  # fmt: skip
 
     @property

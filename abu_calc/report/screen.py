@@ -4,7 +4,7 @@ to look next. What there is no room for is counted, never left out in silence.
 
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import Final
 
@@ -25,11 +25,16 @@ WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "
 
 
 def one_screen(
-    result: Result, about: Sequence[Block], body: Sequence[Block] = (), more: Sequence[str] = ()
+    result: Result,
+    about: Sequence[Block],
+    body: Sequence[Block] = (),
+    more: Sequence[str] = (),
+    picture: Callable[[int], Sequence[Block]] | None = None,
 ) -> tuple[Block, ...]:
     """`about`: title, verdict, the thing in a line; `body`: its numbers; `more`: further places to look.
 
-    First come the checks that did not pass, then the body, then the warnings; each as far as there is room.
+    First come the checks that did not pass, then the body, then the warnings; each as far as there is room. In the
+    lines that are left then, `picture` draws what it can, below the body.
     """
     passed = [Paragraph(_passed(result.checks))] if result.checks else []
     last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
@@ -43,7 +48,8 @@ def one_screen(
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
     rest = _fitted(warnings, [], room - height([BLANK, *shown]) - 2)
     below: list[Block] = [Heading("Warnings"), *rest] if rest else []
-    return (*about, *told, *parted, *below, *last)
+    drawn = picture(LINES - height([*about, *told, *parted, BLANK, *below, *last])) if picture else ()
+    return (*about, *told, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
 
 
 def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:

@@ -3,7 +3,8 @@
 import math
 from typing import NamedTuple
 
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph, Picture
+from abu_calc.report.drawing.characters import legend, section_lines
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import limit_in_file
 from abu_calc.report.screen import BLANK, one_screen, verdict_line
@@ -14,6 +15,9 @@ from abu_calc.studies.size import SizeResult
 
 MORE = ("--explain, every formula with its numbers",)
 
+MOST_ROWS = 9
+"""Of the section on one screen."""
+
 
 class Spread(NamedTuple):
     """A number as one run or the typical one has it, and the worst of many, if there were many."""
@@ -23,8 +27,21 @@ class Spread(NamedTuple):
 
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
-    """The one screen."""
-    return one_screen(result, about(result), numbers_that_matter(result)[1:], MORE)
+    """The one screen; the section stands in the room that is left."""
+    return one_screen(
+        result, about(result), numbers_that_matter(result)[1:], MORE,
+        lambda room: section_picture(result, min(room - 1, MOST_ROWS)),
+    )  # fmt: skip
+
+
+def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
+    """The section in at most so many lines, and one that says what it shows; nothing where that is too few."""
+    lines = section_lines(result.autobalancer, result.section, rows)
+    if not lines:
+        return ()
+    column = result.autobalancer.outer_diameter_mm / (max(map(len, lines)) - 1)
+    caption = f"Section, {number(column, 2)} mm a column: {legend(result.section)}."
+    return (Picture(tuple(lines), caption),)
 
 
 def about(result: SizeResult) -> list[Block]:

@@ -6,7 +6,7 @@ from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
 from abu_calc.report.shown_text import measured_after_blocks, shown_blocks
-from abu_calc.report.size_screen import about, balls, numbers_that_matter
+from abu_calc.report.size_screen import about, balls, numbers_that_matter, section_picture
 from abu_calc.studies.design_records import Autobalancer, Frequency, StabilityBoundary
 from abu_calc.studies.simulated_scene import SimulatedScene
 from abu_calc.studies.size import SizeResult
@@ -21,6 +21,9 @@ START = (
     "out may change, `abu effects` tells more."
 )
 
+ROWS = 15
+"""Of the section's picture."""
+
 
 def size_blocks(result: SizeResult) -> tuple[Block, ...]:
     """The whole report."""
@@ -30,6 +33,7 @@ def size_blocks(result: SizeResult) -> tuple[Block, ...]:
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
         *_design(result.autobalancer),
+        *_section(result),
         *_need(result),
         *_vibration(result),
         *_ensemble(result),
@@ -53,6 +57,23 @@ def _design(one: Autobalancer) -> list[Block]:
     )
     rows = ((f"{one.ball_material} {one.corrector}s", "n × 2r", balls(one)), *facts(one, *names).rows)
     return [Heading("Design"), Facts(rows), Paragraph(f"Housing {one.housing}.")]
+
+
+def _section(result: SizeResult) -> list[Block]:
+    """The picture, and what the drawing shows."""
+    one = result.section
+    names = (
+        *("bore_diameter_mm", "bore_class", "bore_limits_um", "hub_diameter_mm", "race_diameter_mm"),
+        *("race_tolerance_mm", "ring_diameter_mm", "wall_mm", "web_mm", "inner_width_mm"),
+    )
+    rows = tuple((part.name, part.material, value_of(part, "mass_g")) for part in one.parts)
+    return [
+        Heading("Section"),
+        *section_picture(result, ROWS),
+        facts(one, *names),
+        Grid(("part", "material", "mass"), rows, frozenset({2})),
+        Paragraph("To scale with dimensions: --output section.dxf or section.svg."),
+    ]
 
 
 def _ensemble(result: SizeResult) -> list[Block]:

@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from abu_calc.escapes import escaped
-from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 
 STYLES = {
     "pass": "bold green",
@@ -85,6 +85,10 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
                 yield _facts(rows, width)
             case Grid():
                 yield _grid(block)
+            case Picture(lines, caption, indent):
+                if indent + max(map(len, lines)) <= width:
+                    yield "\n".join(" " * indent + line for line in lines), ""
+                    yield fill(caption, width, MARGIN), ""
 
 
 def height(blocks: Sequence[Block], width: int = 80) -> int:

@@ -166,7 +166,8 @@ def _ball_mass(case: Case, diameter: float) -> float:
 
 def _housing(case: Case, diameter: float, radius: float) -> Housing:
     abu = case.autobalancer
-    return housing(abu.design, radius, diameter, to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm"))
+    bore, wall = to_si(abu.bore_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm")
+    return housing(abu.design, radius, diameter, bore, wall, grooved=abu.corrector == "ball")
 
 
 def _mass(case: Case, count: int, diameter: float, radius: float) -> float:

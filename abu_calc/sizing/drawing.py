@@ -9,12 +9,21 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import oval_rest
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.track import Track
-from abu_calc.standards.limits import part_limits
+from abu_calc.standards.limits import Limits, part_limits
 from abu_calc.units import from_si, to_si
 
 SOFT_ARM = to_si(10, "um")
 """Lever arm of rolling friction on a soft race (assumed; 10–50 µm)."""
 OVALITY = to_si(3, "um")
+"""Circularity asked of the race."""
+RACE_TOLERANCE = to_si(0.05, "mm")
+GROOVE_TOLERANCE = to_si(0.2, "mm")
+ROUGHNESS = to_si(0.16, "um")
+"""Ra of the race, at most."""
+HARDNESS = "60–63 HRC"
+CASE_DEPTH = to_si(0.5, "mm")
+"""Of the hard case after grinding, at least."""
+BORE, SPINDLE = "H6", "js6"
 WAVINESS = to_si(2.5, "um")
 DENT = to_si(1, "um")
 
@@ -58,21 +67,27 @@ def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
     others = math.hypot(budget.rolling_friction, budget.race_ovality, budget.plane_offset)
     smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM
-    groove = f"R {from_si(track.groove_radius, 'mm'):.2f} ± 0.2 mm across" if track.groove_radius else "straight ± 2 µm"
+    race = f"R {from_si(one.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
     return (
-        Advice("race", f"R {from_si(one.race_radius, 'mm'):.2f} ± 0.05 mm at the bottom (capacity only)", 0.0),
-        Advice("groove", f"{groove} (shakes out friction, no level of its own)", 0.0),
+        Advice("race", f"{race} at the bottom (capacity only)", 0.0),
+        Advice("groove", f"{_across(track.groove_radius)} (shakes out friction, no level of its own)", 0.0),
         Advice("race to bore, all in", f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm) with bore "
                "clearance and spindle; grind bore and race in one set-up", _cost(others, case.race_eccentricity)),
-        Advice("race circularity", "3 µm; two lobes of 1.5 µm leave 3 µm", _cost(budget.residual, OVALITY)),
+        Advice("race circularity", f"{_um(OVALITY)} µm; two lobes of {_um(OVALITY / 2)} µm leave {_um(OVALITY)} µm",
+               _cost(budget.residual, OVALITY)),
         Advice("race waviness", "k lobes of amplitude a leave k·a: 5 × 0.5 µm", _cost(budget.residual, WAVINESS)),
-        Advice("race surface", "Ra ≤ 0.16 µm, no dents: one of 1 µm depth holds a ball",
+        Advice("race surface", f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: one of {_um(DENT)} µm depth holds a ball",
                _cost(budget.residual, DENT * one.pitch_radius / _dent_half_width(one))),
-        Advice("race hardness", f"60–63 HRC, case ≥ 0.5 mm after grinding (given: {abu.race_hardness_HRC:g}); a soft "
-               "race has a lever arm of 10 µm", _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction)),
+        Advice("race hardness", f"{HARDNESS}, case ≥ {_mm(CASE_DEPTH)} mm after grinding (given: "
+               f"{abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
+               _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction)),
         Advice("rolling friction", f"lever arm ≤ {1e3 * abu.rolling_friction_mm:g} µm: hard, ground, clean, oiled",
                _cost(smooth, budget.rolling_friction)),
     )  # fmt: skip
+
+
+def _across(groove: float | None) -> str:
+    return "straight ± 2 µm" if groove is None else f"R {from_si(groove, 'mm'):.2f} ± {_mm(GROOVE_TOLERANCE)} mm across"
 
 
 def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
@@ -81,7 +96,7 @@ def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
     play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at worst"
     cost = None if clearance is None else _cost(rest, clearance / 2)
     return (
-        Advice("bore and spindle", f"bore H6, spindle js6{play}", cost),
+        Advice("bore and spindle", f"bore {BORE}, spindle {SPINDLE}{play}", cost),
         Advice("balls", "of one lot, grade 20 (ISO 3290): 0.5 µm of diameter, which they balance", 0.0),
         Advice("housing without balls", "balanced to G6.3 (ISO 21940-11), the rest is balanced by the balls", 0.0),
     )  # fmt: skip
@@ -104,12 +119,22 @@ def _um(length: float) -> str:
     return f"{from_si(length, 'um'):.3g}"
 
 
-def _bore_clearance(bore: float) -> float | None:
-    """Largest clearance of a bore H6 on a spindle js6 [m] (ISO 286-2), where both are tabulated."""
+def _mm(length: float) -> str:
+    return f"{from_si(length, 'mm'):.3g}"
+
+
+def bore_limits(bore: float) -> Limits | None:
+    """Limits of the bore [m], where they are tabulated."""
     try:
-        return part_limits("housing", "H6", bore).upper - part_limits("shaft", "js6", bore).lower
+        return part_limits("housing", BORE, bore)
     except RangeError:
         return None
+
+
+def _bore_clearance(bore: float) -> float | None:
+    """Largest clearance of a bore H6 on a spindle js6 [m] (ISO 286-2), where both are tabulated."""
+    hole = bore_limits(bore)
+    return None if hole is None else hole.upper - part_limits("shaft", SPINDLE, bore).lower
 
 
 def _cost(rest: float, part: float) -> float | None:

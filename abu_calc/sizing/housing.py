@@ -101,28 +101,47 @@ def width(design: Design, ball_diameter: float) -> float:
     return ball_diameter + 2 * (GROOVE_CLEARANCE + RULES[design].web)
 
 
+def groove_depth(groove: float, inner_width: float) -> float:
+    """Depth of the groove at the edges of the race [m], s = ρ − √(ρ² − (b/2)²), b width between the webs.
+
+    >>> round(1e3 * groove_depth(24.43e-3, 16.6e-3), 2)
+    1.45
+    """
+    return groove - math.sqrt(groove**2 - inner_width**2 / 4)
+
+
 @formula(
     "Dimensions and mass of the housing, from rings and discs",
     where=(
-        "Ring R…R+wall of steel, its groove filled toward the edges (parabola, a third of the depth on average); body "
-        "wall, webs and hub of the body's material, thick as the rules of the design say."
+        "Ring R…R+wall of steel, its groove filled toward the edges (exactly, a circle's arc going round); body "
+        "wall, webs and hub of the body's material, thick as the rules of the design say. The body's own web reaches "
+        "its wall, the cover's fits inside the ring. Rollers run on a straight race without groove."
     ),
     assumed="a drawing decides",
     source="own rules",
 )
-def housing(design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float) -> Housing:
+def housing(
+    design: Design, race_radius: float, ball_diameter: float, bore_diameter: float, wall: float, grooved: bool = True
+) -> Housing:
     rules = RULES[design]
     inner_width, whole_width = ball_diameter + 2 * GROOVE_CLEARANCE, width(design, ball_diameter)
-    outer = race_radius + wall
-    hub = bore_diameter / 2 + rules.hub_wall
-    depth = inner_width**2 / (8 * groove_radius(race_radius, ball_diameter / 2))
-    ring = _ring(race_radius, outer, whole_width) + _ring(race_radius - depth / 3, race_radius, inner_width)
+    outer, hub = race_radius + wall, bore_diameter / 2 + rules.hub_wall
+    fill = _fill(race_radius, groove_radius(race_radius, ball_diameter / 2), inner_width) if grooved else 0.0
+    ring = _ring(race_radius, outer, whole_width - rules.web) + fill
     body = (
         _ring(outer, outer + rules.body_wall, whole_width)
-        + 2 * _ring(hub, race_radius, rules.web)
+        + _ring(hub, outer, rules.web)
+        + _ring(hub, race_radius, rules.web)
         + _ring(bore_diameter / 2, hub, whole_width)
     )
     return Housing(2 * (outer + rules.body_wall), whole_width, STEEL * ring + rules.body_density * body)
+
+
+def _fill(race_radius: float, groove: float, inner_width: float) -> float:
+    """Volume [m³] between the cylinder of the race and its groove: π∫(R² − (c + √(ρ² − x²))²)dx, c = R − ρ."""
+    centre, half = race_radius - groove, inner_width / 2
+    arc = half * math.sqrt(groove**2 - half**2) + groove**2 * math.asin(half / groove)
+    return math.pi * (2 * half * (race_radius**2 - centre**2 - groove**2 + half**2 / 3) - 2 * centre * arc)
 
 
 def _ring(inner: float, outer: float, length: float) -> float:

@@ -27,6 +27,7 @@ LEAST_SINE = 1e-6
 class SwingArmBounds:
     """What stiffness and damping the arm must have [SI]."""
 
+    arm: Arm
     stiffness_limit: float
     stiffness_limit_exact: float
     worst_angle: float
@@ -49,7 +50,7 @@ def swing_arm_bounds(case: Case, table: SwingArm, imbalance: float, added_mass: 
     damping = damping_limit(arm, imbalance, natural)
     angle = pressed_angle(arm)
     return SwingArmBounds(
-        limit, stiffness_limit(arm, lowest, exact), worst, natural, damping,
+        arm, limit, stiffness_limit(arm, lowest, exact), worst, natural, damping,
         growth_rate(arm, imbalance, natural), angle,
         _doubted(_checks(arm, min(limit, stiffness_limit(arm, lowest, exact)), damping, angle), table.borrowed()),
     )  # fmt: skip

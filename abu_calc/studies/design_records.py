@@ -255,18 +255,27 @@ class SwingArm(Record):
     damping_limit_N_s_per_m: Annotated[float, Quantity("damping needed", "h_sh", 3)]
     parametric_growth_rate_per_s: Annotated[float, Quantity("growth rate at Ω = 2ω₀*", "κω₀/2 − h", 3)]
     pressed_angle_deg: Annotated[float | None, Quantity("resting angle while cutting", "", 3)]
+    arm_length_mm: Annotated[float, Quantity("length of the arm", "l")]
+    wheel_diameter_mm: Annotated[float, Quantity("wheel")]
+    contact_angle_deg: Annotated[float, Quantity("contact angle", "Z")]
+    touch_angle_deg: Annotated[float, Quantity("touching angle", "φ₀")]
 
     @classmethod
-    def of(cls, arm: "SwingArmBounds") -> Self:
+    def of(cls, bounds: "SwingArmBounds") -> Self:
         """In user units."""
+        arm = bounds.arm
         return cls(
-            contact_stiffness_limit_N_per_m=arm.stiffness_limit,
-            contact_stiffness_limit_exact_N_per_m=arm.stiffness_limit_exact,
-            worst_contact_angle_deg=from_si(arm.worst_angle, "deg"),
-            resonance_rpm=from_si(arm.resonance, "rpm"),
-            damping_limit_N_s_per_m=arm.damping_limit,
-            parametric_growth_rate_per_s=arm.growth_rate,
-            pressed_angle_deg=None if arm.pressed_angle is None else from_si(arm.pressed_angle, "deg"),
+            contact_stiffness_limit_N_per_m=bounds.stiffness_limit,
+            contact_stiffness_limit_exact_N_per_m=bounds.stiffness_limit_exact,
+            worst_contact_angle_deg=from_si(bounds.worst_angle, "deg"),
+            resonance_rpm=from_si(bounds.resonance, "rpm"),
+            damping_limit_N_s_per_m=bounds.damping_limit,
+            parametric_growth_rate_per_s=bounds.growth_rate,
+            pressed_angle_deg=None if bounds.pressed_angle is None else from_si(bounds.pressed_angle, "deg"),
+            arm_length_mm=from_si(arm.length, "mm"),
+            wheel_diameter_mm=from_si(2 * arm.disk_radius, "mm"),
+            contact_angle_deg=from_si(arm.contact_angle, "deg"),
+            touch_angle_deg=from_si(arm.touch_angle, "deg"),
         )
 
 

@@ -71,6 +71,9 @@ class SeatResult(Record):
     notes: Annotated[tuple[str, ...], Quantity("notes")]
     internal_clearance: Clearance | None
     bearing_verdict: Annotated[Grade, Quantity("verdict", "", 4, "the worst check of the bearing")]
+    diameter_mm: Annotated[float, Quantity("diameter of the seat", "d")]
+    ring_width_mm: Annotated[float, Quantity("width of the ring", "B")]
+    chamfer_mm: Annotated[float | None, Quantity("chamfer of the ring", "r")]
 
     @property
     def tightest_um(self) -> float:
@@ -96,6 +99,7 @@ class SeatResult(Record):
     def of(cls, seat: "SeatFit", bearing: "BearingSeats", clearance: Clearance | None) -> Self:
         """In user units, of a seat of a bearing; `clearance`: what is left in it."""
         intensity, sorted_out, maker = seat.load_intensity, seat.selection, seat.joint.maker
+        ring = seat.joint.ring
         return cls(
             name=seat.name,
             seat=seat.seat,
@@ -132,6 +136,9 @@ class SeatResult(Record):
             notes=seat.notes,
             internal_clearance=clearance,
             bearing_verdict=worst(bearing.checks),
+            diameter_mm=from_si(ring.diameter, "mm"),
+            ring_width_mm=from_si(ring.width, "mm"),
+            chamfer_mm=None if ring.chamfer is None else from_si(ring.chamfer, "mm"),
         )
 
 

@@ -28,6 +28,7 @@ from abu_calc.studies.ensemble_records import EnsembleResult
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.seat_records import SeatResult, seat_results
+from abu_calc.studies.section_records import Section
 from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
@@ -51,6 +52,7 @@ class SizeResult(Result):
     required_capacity_limit_g_mm: Annotated[float, Quantity("as printed in the source", "m₀e + Mε")]
     required_capacity_compliant_g_mm: Annotated[float | None, Quantity("for the compliant contact")]
     autobalancer: Autobalancer
+    section: Section
     alternatives: tuple[Autobalancer, ...]
     accuracy_budget: AccuracyBudget
     vibration: Vibration
@@ -108,6 +110,7 @@ def size(
         required_capacity_limit_g_mm=from_si(need.printed_limit, "g_mm"),
         required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
         autobalancer=Autobalancer.of(design.case.autobalancer, design.autobalancer, design.track),
+        section=Section.of(design),
         alternatives=tuple(
             Autobalancer.of(design.case.autobalancer, one, race, why)
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)

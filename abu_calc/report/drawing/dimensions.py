@@ -1,0 +1,173 @@
+"""Dimensions, leaders and signs as lines, arrows and texts, alike in every format (ISO 129, ISO 1101, ISO 1302)."""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+from abu_calc.report.drawing.shapes import (
+    HEIGHT,
+    Align,
+    Arc,
+    Length,
+    Line,
+    Point,
+    Primitive,
+    Radius,
+    Shape,
+    Solid,
+    Text,
+    text_width,
+)
+
+ARROW = 3.0
+HALF_ARROW = 0.5
+BEYOND = 1.5
+"""Of an extension line past its arrow."""
+ABOVE = 1.0
+"""Between a line and the text on it. All on paper [mm]."""
+
+
+def primitives(shapes: Iterable[Shape], scale: float) -> Iterator[Primitive]:
+    """Shapes with every dimension as its picture."""
+    for shape in shapes:
+        if isinstance(shape, Length | Radius):
+            yield from picture(shape, scale)
+        else:
+            yield shape
+
+
+def picture(dimension: Length | Radius, scale: float) -> tuple[Primitive, ...]:
+    """What a dimension looks like."""
+    return _length(dimension, scale) if isinstance(dimension, Length) else _radius(dimension, scale)
+
+
+def fits(value: float, text: str, scale: float) -> bool:
+    """Whether a text has room on the line of a dimension, between its arrows' lines."""
+    return value * scale >= max(text_width(text, HEIGHT) + 1, 3 * ARROW)
+
+
+def _length(one: Length, scale: float) -> tuple[Primitive, ...]:
+    """Described along x, turned where it stands upright."""
+    axis, unit = (1 if one.upright else 0), 1 / scale
+    first, last = sorted((one.start, one.end), key=lambda point: point[axis])
+    low, high = first[axis], last[axis]
+
+    def at(along: float, across: float) -> Point:
+        return (across, along) if one.upright else (along, across)
+
+    found = list[Primitive]()
+    for point in (first, last):
+        side = math.copysign(unit, one.at - point[1 - axis])
+        ends = point[1 - axis] + side, one.at + BEYOND * side
+        found.append(Line("dimension", *(at(point[axis], end) for end in ends)))
+    if one.value * scale >= 3 * ARROW:
+        found += _arrow(at(low, one.at), at(1, 0), unit), _arrow(at(high, one.at), at(-1, 0), unit)
+    else:
+        found += (_stroke(at(end, one.at), unit) for end in (low, high))
+    (start, align), reach = _place(one, (low, high), unit)
+    found.append(Line("dimension", at(reach[0], one.at), at(reach[1], one.at)))
+    # Upright texts are read from the right: above is left of their line.
+    above, turn = (-unit, 90.0) if one.upright else (unit, 0.0)
+    found.append(Text(at(start, one.at + ABOVE * above), one.text, HEIGHT, align, turn))
+    if one.below:
+        found.append(Text(at(start, one.at - (ABOVE + HEIGHT) * above), one.below, HEIGHT, align, turn))
+    return tuple(found)
+
+
+def _stroke(middle: Point, unit: float) -> Line:
+    """In place of an arrow for which there is no room."""
+    (x, y), half = middle, ARROW / 2 * unit
+    return Line("dimension", (x - half, y - half), (x + half, y + half))
+
+
+def _place(one: Length, ends: Point, unit: float) -> tuple[tuple[float, Align], Point]:
+    """Where the text stands, and how far the line reaches."""
+    (low, high), long = ends, text_width(max(one.text, one.below, key=len), HEIGHT) * unit
+    if fits(one.value, max(one.text, one.below, key=len), 1 / unit):
+        return ((low + high) / 2, "centre"), ends
+    gap = ARROW * unit + one.clear
+    if one.beyond == "start":
+        return (low - gap - long, "left"), (low - gap - long, high)
+    return (high + gap, "left"), (low, high + gap + long)
+
+
+def _arrow(tip: Point, away: Point, unit: float) -> Solid:
+    """An arrow head that points against `away`, a direction."""
+    size = math.hypot(*away)
+    x, y = away[0] / size * unit, away[1] / size * unit
+    back = tip[0] + ARROW * x, tip[1] + ARROW * y
+    return Solid((tip, (back[0] - HALF_ARROW * y, back[1] + HALF_ARROW * x),
+                  (back[0] + HALF_ARROW * y, back[1] - HALF_ARROW * x)))  # fmt: skip
+
+
+def _radius(one: Radius, scale: float) -> tuple[Primitive, ...]:
+    return leader(one.touch, one.shelf, one.text, scale)
+
+
+def leader(
+    tip: Point, shelf: Point, text: str, scale: float, *, pointed: bool = True, more: float = 0.0
+) -> tuple[Primitive, ...]:
+    """A line from a text on a shelf to what it tells about, with an arrow, or a dot inside a part.
+
+    The shelf begins at `shelf` and runs away from the tip, `more` beyond the text [mm on paper].
+    """
+    unit = 1 / scale
+    long, right = (text_width(text, HEIGHT) + more) * unit, shelf[0] >= tip[0]
+    end = shelf[0] + (long if right else -long), shelf[1]
+    away = shelf[0] - tip[0], shelf[1] - tip[1]
+    head: Primitive = _arrow(tip, away, unit) if pointed else Arc("dimension", tip, 0.5 * unit)
+    left = min(shelf[0], end[0])
+    return (Line("dimension", tip, shelf), Line("dimension", shelf, end), head,
+            Text((left, shelf[1] + ABOVE * unit), text))  # fmt: skip
+
+
+def arrow(tip: Point, tail: Point, scale: float) -> tuple[Primitive, ...]:
+    """A line with a head."""
+    return Line("dimension", tail, tip), _arrow(tip, (tail[0] - tip[0], tail[1] - tip[1]), 1 / scale)
+
+
+def tolerance_frame(corner: Point, cells: Sequence[str], scale: float) -> tuple[Primitive, ...]:
+    """A frame after ISO 1101; `corner` its upper left one; the first cell is "circularity" or "runout"."""
+    unit, (x, top) = 1 / scale, corner
+    low, found, left = top - 2 * HEIGHT * unit, list[Primitive](), x
+    for index, cell in enumerate(cells):
+        wide = (2 * HEIGHT if index == 0 else max(2 * HEIGHT, text_width(cell, HEIGHT) + 2)) * unit
+        middle = left + wide / 2
+        if index == 0:
+            found += _sign(cell, (middle, (low + top) / 2), unit)
+        else:
+            found.append(Text((middle, low + HEIGHT / 2 * unit), cell, align="centre"))
+        left += wide
+        found.append(Line("dimension", (left, low), (left, top)))
+    return (*found, Line("dimension", (x, low), (x, top)), Line("dimension", (x, top), (left, top)),
+            Line("dimension", (x, low), (left, low)))  # fmt: skip
+
+
+def _sign(name: str, middle: Point, unit: float) -> tuple[Primitive, ...]:
+    x, y = middle
+    if name == "circularity":
+        return (Arc("dimension", middle, HEIGHT / 2 * unit),)
+    reach = HEIGHT / 2 * unit
+    return arrow((x + reach, y + reach), (x - reach, y - reach), 1 / unit)
+
+
+def datum(point: Point, letter: str, scale: float, *, upwards: bool = False) -> tuple[Primitive, ...]:
+    """The triangle of a datum below a point, or above it, and its letter in a box."""
+    unit, (x, y) = 1 / scale, point
+    half, away = HEIGHT * unit, unit if upwards else -unit
+    base, near = y + 3 * away, y + 6 * away
+    low = near if upwards else near - 2 * half
+    box = ((x - half, low), (x + half, low), (x + half, low + 2 * half), (x - half, low + 2 * half))
+    edges = (Line("dimension", a, b) for a, b in zip(box, (*box[1:], box[0]), strict=True))
+    triangle = Solid(((x - 1.8 * unit, y), (x + 1.8 * unit, y), (x, base)))
+    return (triangle, Line("dimension", (x, base), (x, near)), *edges,
+            Text((x, low + 0.5 * half), letter, align="centre"))  # fmt: skip
+
+
+def roughness(point: Point, value: str, scale: float) -> tuple[Primitive, ...]:
+    """The sign for a machined surface above a point, its value right of it (ISO 1302)."""
+    unit, (x, y) = HEIGHT / scale, point
+    left, right = (x - 0.8 * unit, y + 1.4 * unit), (x + 1.6 * unit, y + 2.8 * unit)
+    return (Line("dimension", point, left), Line("dimension", left, (x + 0.8 * unit, y + 1.4 * unit)),
+            Line("dimension", point, right),
+            Line("dimension", right, (right[0] + text_width(value, HEIGHT) / scale, right[1])),
+            Text((right[0], right[1] - 1.35 * unit), value))  # fmt: skip

@@ -1,0 +1,147 @@
+"""The section through the axis: the outlines of the parts that make the housing, by the rules of its design.
+
+Outlines lie in the half plane above the axis: x along it [m], from the closed web's face, r from it [m]. A vertex
+carries the bulge of the edge that leaves it, the tangent of a quarter of its arc, positive counter-clockwise.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import NamedTuple
+
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL, groove_depth, groove_radius
+from abu_calc.units import to_si
+
+MATERIALS = {STEEL: "steel", ALUMINIUM: "aluminium"}
+
+
+class Vertex(NamedTuple):
+    """A corner of an outline."""
+
+    x: float
+    r: float
+    bulge: float = 0.0
+
+
+Outline = tuple[Vertex, ...]
+"""Closed, counter-clockwise."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A turned part: its name, density [kg/m³], and half section."""
+
+    name: str
+    density: float
+    outline: Outline
+
+    @property
+    def area(self) -> float:
+        """Of the half section [m²]."""
+        return _moments(self.outline)[0]
+
+    @property
+    def mass(self) -> float:
+        """Of the part [kg]."""
+        return self.density * volume_of_revolution(self.outline)
+
+    @property
+    def material(self) -> str:
+        """In a word."""
+        return MATERIALS[self.density]
+
+
+@dataclass(frozen=True)
+class Section:
+    """Lengths [m] of a housing and its parts; `groove_radius` None: a straight race, for rollers.
+
+    `shoulder_radius`: where the groove meets its webs; `ring_radius`: outside of the wall of the race.
+    """
+
+    bore_radius: float
+    hub_radius: float
+    race_radius: float
+    shoulder_radius: float
+    groove_radius: float | None
+    ring_radius: float
+    outer_radius: float
+    web: float
+    inner_width: float
+    width: float
+    parts: tuple[Part, ...]
+
+
+def section(case: Case, one: Candidate) -> Section:
+    """The section of a candidate: body, cover, and the race ring of those designs that have one."""
+    abu = case.autobalancer
+    rules, bore, wall = RULES[abu.design], to_si(abu.bore_diameter_mm, "mm") / 2, to_si(abu.min_wall_mm, "mm")
+    inner, race = one.ball_diameter + 2 * GROOVE_CLEARANCE, one.race_radius
+    groove = groove_radius(race, one.ball_diameter / 2) if abu.corrector == "ball" else None
+    depth = 0.0 if groove is None else groove_depth(groove, inner)
+    found = Section(
+        bore, bore + rules.hub_wall, race, race - depth, groove, race + wall, race + wall + rules.body_wall, rules.web,
+        inner, inner + 2 * rules.web, (),
+    )  # fmt: skip
+    return replace(found, parts=_parts(found, rules.body_density))
+
+
+def _parts(one: Section, density: float) -> tuple[Part, ...]:
+    """One piece has the race in its body; else a ring is pressed in as far as the closed web."""
+    cover = Part("cover", density, _box(one.width - one.web, one.width, one.hub_radius, one.race_radius))
+    hub = Vertex(0, one.bore_radius), Vertex(one.width, one.bore_radius), Vertex(one.width, one.hub_radius)
+    web, rim = Vertex(one.web, one.hub_radius), (Vertex(one.width, one.outer_radius), Vertex(0, one.outer_radius))
+    # The body goes round counter-clockwise: along the bore, up the hub, back to the web, up it, out along the wall.
+    race = _race(one)
+    if one.outer_radius == one.ring_radius:
+        return Part("body", density, (*hub, web, *race, *rim)), cover
+    seat = Vertex(one.web, one.ring_radius), Vertex(one.width, one.ring_radius)
+    ring = *race, Vertex(one.width, one.ring_radius), Vertex(one.web, one.ring_radius)
+    return Part("body", density, (*hub, web, *seat, *rim)), Part("race ring", STEEL, ring), cover
+
+
+def _race(one: Section) -> Outline:
+    """From the closed web along the groove, and out to the open face along the seat of the cover."""
+    left, right = one.web, one.width - one.web
+    sagitta = one.race_radius - one.shoulder_radius
+    start = Vertex(left, one.shoulder_radius, -2 * sagitta / one.inner_width)
+    step = (Vertex(right, one.race_radius),) if sagitta else ()
+    return start, Vertex(right, one.shoulder_radius), *step, Vertex(one.width, one.race_radius)
+
+
+def _box(left: float, right: float, inner: float, outer: float) -> Outline:
+    return Vertex(left, inner), Vertex(right, inner), Vertex(right, outer), Vertex(left, outer)
+
+
+def volume_of_revolution(outline: Outline) -> float:
+    """Volume of an outline turned round the axis [m³], 2π·∫r dA (Pappus–Guldin).
+
+    The polygon by Green's theorem; each arc adds its segment at its centroid.
+    """
+    return 2 * math.pi * _moments(outline)[1]
+
+
+def _moments(outline: Outline) -> tuple[float, float]:
+    """Area and ∫r dA."""
+    area = moment = 0.0
+    for here, there in pairwise((*outline, outline[0])):
+        cross = here.x * there.r - there.x * here.r
+        segment, centroid = _segment(here, there)
+        area += cross / 2 + segment
+        moment += cross * (here.r + there.r) / 6 + segment * centroid
+    return area, moment
+
+
+def _segment(here: Vertex, there: Vertex) -> tuple[float, float]:
+    """Area between chord and arc, positive where it adds to what lies on the left, and r of its centroid."""
+    if not here.bulge:
+        return 0.0, 0.0
+    angle, chord = 4 * math.atan(here.bulge), math.hypot(there.x - here.x, there.r - here.r)
+    radius = chord / (2 * math.sin(abs(angle) / 2))
+    area = radius**2 / 2 * (abs(angle) - math.sin(abs(angle)))
+    # Seen along the chord a counter-clockwise arc bulges to the right.
+    from_chord = (4 * radius * math.sin(abs(angle) / 2) ** 3 / (3 * (abs(angle) - math.sin(abs(angle))))
+                  - radius * math.cos(angle / 2))  # fmt: skip
+    side = math.copysign(1.0, angle)
+    return side * area, (here.r + there.r) / 2 - side * from_chord * (there.x - here.x) / chord

@@ -1,0 +1,1 @@
+"""Drawings: geometry, DXF, SVG, characters."""
