@@ -7,12 +7,11 @@ from typing import Final
 
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.dynamics.balanced.arrangements import Arrangement
-from abu_calc.dynamics.balanced.stability import critical_damping, stability
+from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.swing_arm import SwingArm as ArmSupport
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.scenes.from_design import contact_half_angle, scene_of_design
-from abu_calc.sizing.arm_repairs import Change, Way, changes, up
+from abu_calc.sizing.arm_repairs import Change, Way, changes
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import SwingArmBounds, doubted, swing_arm_bounds
 from abu_calc.spec.machine import SwingArm
@@ -68,36 +67,6 @@ def judge_arm(design: Design) -> ArmJudgement | None:
     told = "; or ".join(", ".join(change.text for change in one) for one in found)
     text = f"change {told}. {'Each tried' if len(found) > 1 else 'Tried'}: all checks of the arm pass.{doubt}"
     return ArmJudgement(bounds, tuple(_remedied(check, found[0]) for check in checks), text, found[0])
-
-
-def advise_scene(scene: Scene) -> str:
-    """The same of a scene file, whose arm has a stiffness and no bounds over contact angles; of its speed alone."""
-    arm = scene.support
-    if not isinstance(arm, ArmSupport):
-        raise TypeError(arm)
-    if _holds(scene):
-        limit = critical_damping(scene) or 0.0
-        share = f"more than {100 * limit / arm.damping:.2g} % of the joint damping" if limit else "no joint damping"
-        return f"nothing to change. The bound asks for {share}."
-    keys = "joint_damping_N_s_per_m", "moment_of_inertia_kg_m2"
-    for inertia in (1.0, *MARGINS[1:]):
-        heavier = replace(arm, inertia=up(inertia * arm.inertia) if inertia > 1 else arm.inertia)
-        limit = critical_damping(replace(scene, support=heavier)) or 0.0
-        for times in (1.0, *STRONGER):
-            damping = up(max(MARGINS[0] * limit, times * arm.damping))
-            other = replace(heavier, damping=arm.damping if arm.damping > limit and times == 1 else damping)
-            if other != arm and _holds(replace(scene, support=other)):
-                values = zip(keys, (arm.damping, arm.inertia), (other.damping, other.inertia), strict=True)
-                told = ", ".join(Change(*one).text for one in values if one[1] != one[2])
-                return f"change {told}. Tried: the balanced state is stable and the bound on damping holds."
-    return f"no change found. Tried: up to {MARGINS[-1]:g} times the inertia, {STRONGER[-1]:g} times the joint damping."
-
-
-def _holds(scene: Scene) -> bool:
-    """Stable, and damped above the bound where there is one."""
-    limit = critical_damping(scene)
-    damped = limit is None or not isinstance(scene.support, ArmSupport) or scene.support.damping > limit
-    return damped and bool(stability(scene).stable)
 
 
 def balanced_check(design: Design) -> Check:

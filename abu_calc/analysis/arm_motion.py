@@ -11,10 +11,9 @@ from abu_calc.dynamics.balanced.tongue import floquet_edge
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.arm_motion import ORDERS, averaged_edge, forced_harmonics, free_rates
-from abu_calc.formulas.swing_arm import MODULATION
+from abu_calc.formulas.swing_arm import MODULATION, Arm, resonance
 
 Array = NDArray[np.float64]
 Harmonics = tuple[complex, ...]
@@ -67,19 +66,18 @@ class ArmMotion:
     tongue: tuple[Edge, ...]
 
 
-def arm_motion(scene: Scene) -> ArmMotion | str:
-    """Of a scene on a swing arm; in words why there is nothing to tell: it does not stand, or κ is too large."""
-    arm = scene.support
-    if not isinstance(arm, SwingArm):
-        return "no swing arm"
-    held = arm.holding(scene.balls)
-    if held.stiffness <= 0:
+def arm_motion(scene: Scene) -> ArmMotion | str | None:
+    """Of a scene, None without a swing arm; in words why there is nothing to tell: nothing holds it, κ is too large."""
+    held = scene.support.standing_arm(scene.balls)
+    if held is None:
+        return None
+    if held.joint_stiffness <= 0:
         return "nothing holds the arm, so that it has no natural frequency"
     kappa = held.length * scene.imbalance / held.inertia
     if not 0 < kappa <= MODULATION.high:
         return f"κ = {kappa:.3g} is outside the range of the theory, above 0 … {MODULATION.high:g}"
-    natural = held.length * math.sqrt(held.stiffness / held.inertia)
-    decay = held.damping * held.length**2 / (2 * held.inertia)
+    natural = resonance(held, 0.0)
+    decay = held.joint_damping * held.length**2 / (2 * held.inertia)
     expected = forced_harmonics(kappa, scene.speed, natural, decay)
     return ArmMotion(
         length=held.length,
@@ -87,7 +85,7 @@ def arm_motion(scene: Scene) -> ArmMotion | str:
         kappa=kappa,
         natural=natural,
         decay=decay,
-        damping=held.damping,
+        damping=held.joint_damping,
         free=free_rates(kappa, natural, decay),
         perturbation=expected,
         simulated=_simulated(scene, held, expected),
@@ -106,11 +104,12 @@ def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) ->
     ]
 
 
-def _simulated(scene: Scene, held: SwingArm, expected: Harmonics) -> Simulated | None:
+def _simulated(scene: Scene, held: Arm, expected: Harmonics) -> Simulated | None:
     """The periodic motion of the equations themselves, by shooting from that of the perturbation."""
     races = tuple(replace(race, ball_masses=(), start_angles=(), start_speeds=()) for race in scene.races)
+    support = scene.support.holding(scene.balls).without_steady_force()
     bare = replace(
-        scene, support=held.without_steady_force(), races=races, effects=(), imbalance_angle=0.0,
+        scene, support=support, races=races, effects=(), imbalance_angle=0.0,
         start_position=(0.0,), start_velocity=(0.0,),
     )  # fmt: skip
     equations, period, speed = assemble(bare), scene.revolution, scene.speed

@@ -153,5 +153,5 @@ def _legend(motion: ArmMotion) -> str:
     if _column(motion) is not None and _row(motion.joint_damping_N_s_per_m, top) is not None:
         return LEGEND
     share = motion.speed_rpm / motion.parametric_speed_rpm
-    here = f"This arm is off the drawing: {number(motion.speed_rpm, 6)} rpm, {number(share, 3)} of 2ω₀"
+    here = f"This arm is off the drawing: {number(motion.speed_rpm, 6)} rpm, {number(share, 5)} of 2ω₀"
     return f"{LEGEND.split(';')[0]}. {here}; damping {motion.joint_damping_N_s_per_m:g} N·s/m."

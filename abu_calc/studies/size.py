@@ -138,6 +138,7 @@ def _arm(design: Design) -> "tuple[ArmJudgement | None, ArmMotion | None]":
     if design.swing_arm is None:
         return None, None
     from abu_calc.analysis.arm import judge_arm
+    from abu_calc.analysis.arm_motion import ArmMotion as Moved
     from abu_calc.analysis.arm_motion import arm_motion
     from abu_calc.scenes.from_design import scene_of_design
 
@@ -145,7 +146,7 @@ def _arm(design: Design) -> "tuple[ArmJudgement | None, ArmMotion | None]":
         moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
     except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
         return judge_arm(design), None
-    return judge_arm(design), None if isinstance(moved, str) else ArmMotion.of(moved)
+    return judge_arm(design), ArmMotion.of(moved) if isinstance(moved, Moved) else None
 
 
 def _side_by_side(count: int | None) -> Workers:

@@ -102,7 +102,7 @@ def stability(
     found = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
     limits = _limits(subject, speeds_rpm, way) if speeds_rpm and found.reason is None else None
-    arm = _on_arm(subject) if subject.scene.support.turns else ArmAnswer()
+    arm = _on_arm(subject)
     return StabilityResult(
         title=subject.title,
         checks=(_check(found, way, pressed=pressed),),
@@ -131,7 +131,7 @@ def stability(
 
 
 class ArmAnswer(NamedTuple):
-    """What is said of a swing arm."""
+    """What is said of a swing arm; nothing of other supports."""
 
     advice: str | None = None
     bounds: SwingArm | None = None
@@ -141,18 +141,19 @@ class ArmAnswer(NamedTuple):
 
 def _on_arm(subject: Subject) -> ArmAnswer:
     """Of a machine the bounds and what to change; of every arm its motion with its imbalance."""
-    from abu_calc.analysis.arm import advise_scene, judge_arm
+    if subject.scene.support.standing_arm(subject.scene.balls) is None:
+        return ArmAnswer()
+    from abu_calc.analysis.arm import judge_arm
     from abu_calc.analysis.arm_motion import arm_motion
+    from abu_calc.analysis.scene_arm import advise_scene
 
     judged = None if subject.design is None else judge_arm(subject.design)
-    moved = arm_motion(subject.scene)
-    if isinstance(moved, str):
-        warnings: tuple[str, ...] = (f"No forced motion and no tongue: {moved}.",)
-    else:
-        warnings = ()
     advice = advise_scene(subject.scene) if judged is None else judged.advice
     bounds = None if judged is None else SwingArm.of(judged)
-    return ArmAnswer(advice, bounds, None if isinstance(moved, str) else ArmMotion.of(moved), warnings)
+    moved = arm_motion(subject.scene)
+    if isinstance(moved, str):
+        return ArmAnswer(advice, bounds, None, (f"No forced motion and no tongue: {moved}.",))
+    return ArmAnswer(advice, bounds, None if moved is None else ArmMotion.of(moved))
 
 
 def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
