@@ -20,8 +20,8 @@ from abu_calc.units import from_si
 MARGINS: Final = (1.05, 1.2, 1.5, 2.0, 3.0)
 """Over each bound, one after another, until the balanced state is stable, too."""
 
-STRONGER: Final = (2.0, 5.0, 20.0)
-"""Times the joint damping, where the bounds hold and the balanced state is not stable; then the inertia by MARGINS."""
+STRONGER: Final = (2.0, 5.0, 20.0, 100.0)
+"""Times the joint damping, where the bounds do not suffice."""
 
 FAR: Final = math.log(10)
 """Another way that asks for more than so much of a key is not worth telling."""
@@ -45,6 +45,11 @@ class ArmJudgement:
     advice: str
     changes: tuple[Change, ...] = ()
 
+    @property
+    def may_pass(self) -> bool:
+        """Whether all checks pass, as it is or with the changes."""
+        return bool(self.changes) or not any(_bad(check) for check in self.checks)
+
 
 def judge_arm(design: Design) -> ArmJudgement | None:
     """Of a sized machine; None where it hangs on no arm. What is advised was tried: every check of the arm passes."""
@@ -59,8 +64,7 @@ def judge_arm(design: Design) -> ArmJudgement | None:
         return ArmJudgement(bounds, checks, f"nothing to change. {_room(bounds)}{doubt}")
     if not _carries(design):
         return ArmJudgement(bounds, checks, "the balls cannot carry the imbalance: no change of the arm helps.")
-    tried = sorted((one for one in (_first(design, ways) for ways in _ways(bad)) if one), key=_reach)
-    found = [one for one in tried if one is tried[0] or all(change.reach < FAR for change in one)]
+    found = _tried(design, bad)
     if not found:
         text = f"no change found. Tried: inertia, damping and contact angle, to {MARGINS[-1]:g} times their bounds"
         return ArmJudgement(bounds, checks, f"{text}.{doubt}")
@@ -136,17 +140,33 @@ def _growth(design: Design, scene: Scene, arrangement: Arrangement) -> tuple[flo
 
 
 def _ways(bad: set[str]) -> Iterator[tuple[Way, ...]]:
-    """Kinds of change, each from small to large: stiffness first, damping second."""
-    if bad == {"ABU505"}:
-        yield (*(Way(damping=one) for one in STRONGER), *(Way(inertia=one) for one in MARGINS[1:]))
-        return
-    yield tuple(Way(margin) for margin in MARGINS)
+    """Kinds of change for the bounds that fail, each from small to large."""
+    if bad != {"ABU505"}:
+        yield tuple(Way(margin) for margin in MARGINS)
     if "ABU501" in bad:
         yield tuple(Way(margin, softer_contact=True) for margin in MARGINS)
     if "ABU504" in bad:
         yield tuple(Way(margin, joint="stiffer") for margin in MARGINS)
     if "ABU503" in bad and "ABU504" not in bad:
         yield tuple(Way(margin, joint="softer") for margin in MARGINS)
+
+
+def _stronger() -> Iterator[tuple[Way, ...]]:
+    """Where no margin over the bounds makes the balanced state stable: more damping, more inertia, both."""
+    yield tuple(Way(damping=one) for one in STRONGER)
+    yield tuple(Way(inertia=one) for one in MARGINS[1:])
+    yield tuple(Way(inertia=one, damping=two) for one in MARGINS[1:] for two in STRONGER)
+
+
+def _tried(design: Design, bad: set[str]) -> list[tuple[Change, ...]]:
+    """A change of each kind that passes, the nearest first; more damping and more inertia where one is too little."""
+    found = [one for one in (_first(design, ways) for ways in _ways(bad)) if one]
+    if not found:
+        damping, inertia, both = _stronger()
+        found = [one for one in (_first(design, damping), _first(design, inertia)) if one]
+        found = found or [one for one in (_first(design, both),) if one]
+    found.sort(key=_reach)
+    return [one for one in found if one is found[0] or all(change.reach < FAR for change in one)]
 
 
 def _reach(found: tuple[Change, ...]) -> float:
@@ -156,31 +176,47 @@ def _reach(found: tuple[Change, ...]) -> float:
 
 def _first(design: Design, ways: tuple[Way, ...]) -> tuple[Change, ...]:
     """The smallest change of a kind with which every check of the arm passes; none where there is none."""
-    arm, own, lowest = _bounds(design).arm, _table(design).moment_of_inertia_kg_m2, design.case.speed_range[0]
-    for way in ways:
-        found = changes(arm, own, design.imbalance.value, lowest, way)
-        if found and _passes(design, found):
-            return found
+    tried = ((way, found) for way in ways if (found := _changes(design, way)))
+    before: Way | None = None
+    for way, found in tried:
+        if changed(design, found):
+            nearer = before and _changes(design, _between(before, way))
+            return nearer if nearer and changed(design, nearer) else found
+        before = way
     return ()
 
 
-def _passes(design: Design, found: tuple[Change, ...]) -> bool:
-    """The machine with another arm, through all checks of it."""
+def _changes(design: Design, way: Way) -> tuple[Change, ...]:
+    arm, own, lowest = _bounds(design).arm, _table(design).moment_of_inertia_kg_m2, design.case.speed_range[0]
+    return changes(arm, own, design.imbalance.value, lowest, way) or ()
+
+
+def _between(one: Way, other: Way) -> Way:
+    """Half way from one that did not pass to one that did, by multiples."""
+    return replace(
+        other, margin=math.sqrt(one.margin * other.margin), inertia=math.sqrt(one.inertia * other.inertia),
+        damping=math.sqrt(one.damping * other.damping),
+    )  # fmt: skip
+
+
+def changed(design: Design, found: tuple[Change, ...]) -> Design | None:
+    """The machine with another arm; None where some check of it does not pass."""
     values = _table(design).model_dump() | {change.key: change.new for change in found}
     try:
         table = SwingArm.model_validate(values)
     except ValueError:  # beyond what a file may say
-        return False
+        return None
     case, one = design.case, design.autobalancer
     bounds = swing_arm_bounds(case, table, design.imbalance.value, one.mass, one.capacity)
     if any(_bad(check) for check in bounds.checks):
-        return False
+        return None
     other = replace(_with(design, table), swing_arm=bounds)
     try:  # the quick part first
         cutting = replace(scene_of_design(other, CUTTING), speed=case.speed_range[0])
-        return _growth(other, cutting, "fan")[1] and not _bad(balanced_check(other))
+        held = _growth(other, cutting, "fan")[1] and not _bad(balanced_check(other))
     except NotTrustworthyError:
-        return False
+        return None
+    return other if held else None
 
 
 def _with(design: Design, table: SwingArm) -> Design:
@@ -192,8 +228,10 @@ def _remedied(check: Check, found: tuple[Change, ...]) -> Check:
     """A check that failed, with its part of the change."""
     if not _bad(check):
         return check
-    own = [change.text for change in found if change.key in BOUNDS.get(check.code, ())] or [one.text for one in found]
-    return replace(check, remedy=f"Tried, with all that the line on the arm says: {', '.join(own)}.")
+    own = [change.text for change in found if change.key in BOUNDS.get(check.code, ())] or [
+        "what the line on the arm says"
+    ]
+    return replace(check, remedy=f"Tried: {', '.join(own)}.")
 
 
 def _room(bounds: SwingArmBounds) -> str:

@@ -8,7 +8,7 @@ from abu_calc.report.parts import facts
 from abu_calc.studies.arm_records import ArmMotion, SwingArm
 from abu_calc.validity import bounded
 
-BOUNDS: Final = "Swing arm, at any contact angle"
+BOUNDS: Final = "Swing arm"
 ROWS: Final = 7
 LEAST: Final = 1e-4
 """Of a motion [µm] that is told."""
@@ -31,7 +31,7 @@ def arm_line(advice: str | None) -> list[Block]:
     return [Paragraph(f"Arm: {advice}", None if advice.startswith("nothing") else "fail", hang=2)]
 
 
-def arm_bounds(arm: SwingArm) -> list[Block]:
+def arm_bounds(arm: SwingArm) -> Grid:
     """Each number given beside its bound over all contact angles: stiffness first, damping second."""
     stiffness = min(arm.contact_stiffness_limit_N_per_m, arm.contact_stiffness_limit_exact_N_per_m)
     bunched = arm.damping_limit_bunched_N_s_per_m
@@ -48,7 +48,7 @@ def arm_bounds(arm: SwingArm) -> list[Block]:
         ("natural frequency, rpm", number(arm.idle_frequency_rpm),
          f"off the work; {at_work}, {number(arm.resonance_rpm)} at most"),
     )  # fmt: skip
-    return [Heading(BOUNDS), Grid(("", "given", "bound"), rows, frozenset({1}))]
+    return Grid(("swing arm", "given", "bound at any contact angle"), rows, frozenset({1}))
 
 
 def _angles(arm: SwingArm) -> str:
@@ -67,7 +67,7 @@ def _force(arm: SwingArm) -> str:
 def arm_facts(arm: SwingArm) -> list[Block]:
     """All its numbers."""
     rows = facts(arm).rows[1:]
-    return [Heading("Swing arm"), Paragraph(f"Arm: {arm.advice}"), Facts(rows)]
+    return [Heading(BOUNDS), Paragraph(f"Arm: {arm.advice}"), arm_bounds(arm), Paragraph(""), Facts(rows)]
 
 
 def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:

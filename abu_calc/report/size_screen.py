@@ -25,7 +25,7 @@ class Spread(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The one screen."""
-    arm = arm_bounds(result.swing_arm) if result.swing_arm else []
+    arm = [BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else []
     more = (*MORE, ON_ARM) if arm else MORE
     return one_screen(result, about(result), [*numbers_that_matter(result)[1:], *arm], more)
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from abu_calc.report.arm import arm_bounds, arm_line, motion_blocks, printed_otherwise
+from abu_calc.report.arm import BOUNDS, arm_bounds, arm_line, motion_blocks, printed_otherwise
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
@@ -38,7 +38,7 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
         Paragraph(f"{word} at {value_of(result, 'speed_rpm')}: {check.message}.", check.status),
         *arm_line(result.arm_advice),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
-        *(arm_bounds(result.swing_arm) if result.swing_arm else []),
+        *((Heading(BOUNDS), arm_bounds(result.swing_arm)) if result.swing_arm else ()),
         *(motion_blocks(result.arm_motion) if result.arm_motion else []),
         *_hanging(result.hanging),
         *_values("Eigenvalues, 1/s", result.eigenvalues),

@@ -1,10 +1,12 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels
-from abu_calc.analysis.machine import Run, simulated
+from abu_calc.analysis.machine import Failure, Run, simulated
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
@@ -87,7 +89,7 @@ def size(
         design = tried.design
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
-    arm, moved = _arm(design)
+    arm, moved = _arm(design, failures, accuracy, progress)
     held = {one.code: one for one in arm.checks} if arm else {}
     checks = tuple(
         level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else held.pop(one.code, one)
@@ -133,8 +135,13 @@ def size(
     )
 
 
-def _arm(design: Design) -> "tuple[ArmJudgement | None, ArmMotion | None]":
-    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one."""
+def _arm(
+    design: Design, failures: Sequence[Failure], accuracy: float, progress: Progress
+) -> "tuple[ArmJudgement | None, ArmMotion | None]":
+    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
+
+    Where a scene of the arm gave no answer, also how much more joint damping would give one.
+    """
     if design.swing_arm is None:
         return None, None
     from abu_calc.analysis.arm import judge_arm
@@ -142,11 +149,19 @@ def _arm(design: Design) -> "tuple[ArmJudgement | None, ArmMotion | None]":
     from abu_calc.analysis.arm_motion import arm_motion
     from abu_calc.scenes.from_design import scene_of_design
 
+    judged = judge_arm(design)
+    if judged is not None and judged.may_pass and any(one.scene.startswith("swing-arm") for one in failures):
+        from abu_calc.analysis.arm_scenes import damping_to_simulate
+
+        more = damping_to_simulate(design, judged, accuracy, progress)
+        if more is not None:
+            text = f"{judged.advice} ABU703: its scenes can be simulated with {more.text} (tried)."
+            judged = replace(judged, advice=text)
     try:
         moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
     except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
-        return judge_arm(design), None
-    return judge_arm(design), ArmMotion.of(moved) if isinstance(moved, Moved) else None
+        return judged, None
+    return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
 
 
 def _side_by_side(count: int | None) -> Workers:

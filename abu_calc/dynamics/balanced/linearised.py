@@ -220,7 +220,8 @@ class BalancedMotion:
     @cached_property
     def _own(self) -> Complex:
         """[harmonic, row, column] of A times the speed at the scene's own."""
-        return self._resolved((1.0,))[0]
+        (found,) = self._resolved((1.0,))
+        return np.asarray(found, dtype=complex)
 
     @cached_property
     def _parts(self) -> Complex:
@@ -246,9 +247,9 @@ class BalancedMotion:
     def _terms(self, x: float, count: int) -> Complex:
         """Harmonics of A at one speed from so many phases, found once."""
         if (x, count) not in self._known:
-            terms: Complex = np.fft.rfft(self._sampled(x, count), axis=0) / count
+            terms = np.fft.rfft(self._sampled(x, count), axis=0) / count
             terms[1:] *= 2
-            self._known[x, count] = terms
+            self._known[x, count] = np.asarray(terms, dtype=complex)
         return self._known[x, count]
 
     @cached_property
