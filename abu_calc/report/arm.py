@@ -127,9 +127,9 @@ def tongue_lines(motion: ArmMotion) -> list[str]:
         cells[here[1]][here[0]] = HERE
     labels = {0: f"{number(top, 3)} N·s/m", ROWS - 1: "0"}
     lines = [f"{labels.get(k, ''):>{MARGIN}} |{''.join(row)}".rstrip() for k, row in enumerate(cells)]
-    low, middle, high = (number(edges[k].speed_rpm, 6) for k in (0, len(edges) // 2, -1))
-    width = 2 * len(edges) - 1
-    scale = f"{low}{middle:^{width - len(low) - len(high)}}{high}"
+    middle, width = edges[len(edges) // 2].speed_rpm, 2 * len(edges) - 1
+    low, high = (f"{one.speed_rpm - middle:+.3g}" for one in (edges[0], edges[-1]))
+    scale = f"{low}{number(middle, 6):^{max(0, width - len(low) - len(high))}}{high}"
     return [*lines, f"{'':>{MARGIN}} +{'-' * width}", f"{'rpm':>{MARGIN}}  {scale}"]
 
 
