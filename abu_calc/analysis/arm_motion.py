@@ -24,6 +24,12 @@ NEWTON: Final = 6
 CLOSED: Final = 1e-8
 """Of the motion's size: a revolution that ends where it began but for this is periodic."""
 
+MOST_EVALUATIONS: Final = 20_000
+"""Of one revolution: a joint that damps all at once asks for more, and has no motion worth telling."""
+
+NARROWEST: Final = 1e-7
+"""Least κ whose tongue is wider than rounding."""
+
 COLUMNS: Final = 29
 BESIDE: Final = 1.4
 """Half the width that is drawn, in half widths κ/4 of the undamped tongue."""
@@ -51,7 +57,7 @@ class ArmMotion:
     """An arm with its imbalance, its balls standing in the race and balancing nothing [SI].
 
     `decay` h [1/s]; `free`: at ω = 2ω₀ by averaging; `simulated` None: no periodic motion was found. `tongue`: from
-    low to high speed. `damping` of the joint [N·s/m].
+    low to high speed, none where it is too narrow. `damping` of the joint [N·s/m].
     """
 
     length: float
@@ -89,7 +95,7 @@ def arm_motion(scene: Scene) -> ArmMotion | str | None:
         free=free_rates(kappa, natural, decay),
         perturbation=expected,
         simulated=_simulated(scene, held, expected),
-        tongue=tuple(tongue(kappa, natural, 2 * held.inertia / held.length**2)),
+        tongue=tuple(tongue(kappa, natural, 2 * held.inertia / held.length**2)) if kappa > NARROWEST else (),
     )
 
 
@@ -140,5 +146,6 @@ def _simulated(scene: Scene, held: Arm, expected: Harmonics) -> Simulated | None
 
 
 def _run(equations: Equations, start: Array, times: "list[float] | Array") -> Array:
-    run = scipy_.integrate(replace(equations, initial=(float(start[0]), float(start[1]))), TOLERANCE, times)
+    begun = replace(equations, initial=(float(start[0]), float(start[1])))
+    run = scipy_.integrate(begun, TOLERANCE, times, MOST_EVALUATIONS)
     return np.asarray(run.y, dtype=float)

@@ -17,6 +17,7 @@ BOTH, FLOQUET, AVERAGED, HERE = "#", "o", ".", "X"
 LEGEND: Final = (
     f"Below {BOTH} the arm grows ({FLOQUET} by Floquet multipliers alone, {AVERAGED} averaged alone); {HERE} this arm."
 )
+TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is next to nothing against the arm's inertia."
 NO_TONGUE: Final = (
     "At ω₀/i the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
     "unstable. It grows about 2ω₀ alone."
@@ -82,8 +83,8 @@ def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
         Grid(header, rows, frozenset({1, 2, 3})),
         Paragraph(_rates(motion)),
         Heading(f"Where it grows: joint damping against speed about 2ω₀{where}"),
-        *map(Paragraph, tongue_lines(motion)),
-        Paragraph(_legend(motion)),
+        *map(Paragraph, tongue_lines(motion) if motion.tongue else (TOO_NARROW,)),
+        *((Paragraph(_legend(motion)),) if motion.tongue else ()),
     ]
 
 
