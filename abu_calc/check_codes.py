@@ -186,8 +186,9 @@ _ALL: Final = (
         "ABU505", "balanced state on the arm",
         "Whether the balls stay where they balance on a swing arm, off the work and on it, over the speed range; by "
         "Floquet multipliers.",
-        "Some small disturbance does not die out. It warns where that is so at the worst contact angle alone. Not done "
-        "where the balls cannot carry the imbalance, or the arm does not stand or press.",
+        "Some small disturbance does not die out. It warns where that is so at the worst contact angle alone, or where "
+        "the arm does not stand or press, so that it is judged off the work alone. Not done where the balls cannot "
+        "carry the imbalance.",
         "More joint damping or more inertia; what was tried on this arm stands in the report.",
         "swing-arm", ("formulas.arm_motion:free_rates",),
     ),

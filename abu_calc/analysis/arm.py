@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
-from abu_calc.checks import Check, coded, verdict
+from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.dynamics.balanced.arrangements import Arrangement
 from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
@@ -91,7 +91,8 @@ def balanced_check(design: Design) -> Check:
     place = max(rates, key=lambda one: rates[one][0], default="")
     rate, stable = rates.get(place, (None, True))
     if stable and missing:
-        return coded(code, "not-done", missing, unit=unit, remedy="See ABU503 and ABU504.")
+        grade: Grade = "warn" if rates else "not-done"
+        return coded(code, grade, f"{missing}, and is not judged there", rate, 0.0, unit, "See ABU503 and ABU504.")
     message = f"every small disturbance dies out, off the work and on it; the slowest {place}"
     remedy = None
     if not stable:
