@@ -26,6 +26,8 @@ def advise_scene(scene: Scene) -> str | None:
     if arm.joint_stiffness <= 0:
         return "nothing holds it, so that it has no place of rest: it needs some joint stiffness."
     try:
+        if scene.ball_masses and stability(scene, arrangement="fan").angles is None:
+            return "the balls cannot carry the imbalance: no change of the arm makes them."
         if _holds(scene, arm.joint_damping):
             limit = critical_damping(scene)
             share = f"more than {100 * limit / arm.joint_damping:.2g} %" if limit else "none"

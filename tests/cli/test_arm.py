@@ -89,6 +89,8 @@ def test_of_a_scene_file(tmp_path: Path) -> None:
     assert "Arm: nothing to change." in words(seen.out) and len(seen.out.splitlines()) <= LINES
     light = abu("stability", str(file), "--set", "scene.swing_arm.joint_damping_N_s_per_m=0.1")
     assert "change joint_damping_N_s_per_m = " in words(light.out)
+    heavy = abu("stability", str(file), "--set", "scene.imbalance_g_mm=3e5")
+    assert "Arm: the balls cannot carry the imbalance" in words(heavy.out) and "o o" in heavy.out
     free = abu("stability", str(file), "--set", "scene.swing_arm.joint_stiffness_N_per_m=0.0", "--json")
     assert any("nothing holds the arm" in told for told in free.document["warnings"])
     assert "arm_motion" not in free.document["result"]
