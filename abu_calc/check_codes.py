@@ -233,13 +233,13 @@ _ALL: Final = (
         "ABU501", "arm contact stiffness",
         "Whether a swing arm is supercritical at the lowest speed and the worst contact angle.",
         "The contact is stiffer than the safer of two limits, by the series and exact. Necessary, not sufficient.",
-        "A longer arm, more inertia, a higher speed, or a softer wheel.",
+        "More inertia about the arm's axis, a higher speed, or a softer wheel.",
         "swing-arm", ("formulas.swing_arm:stiffness_limit", "formulas.swing_arm:series_gain"),
     ),
     CheckCode(
         "ABU502", "arm joint damping",
         "Whether the joint damps what parametric resonance at twice the natural frequency feeds in.",
-        "The damping is not above the limit.",
+        "The damping is not above the limit. It warns where balls that stand on the heavy side at a start need more.",
         "More damping in the joint, or less imbalance.",
         "swing-arm", ("formulas.swing_arm:damping_limit", "formulas.swing_arm:resonance"),
     ),
@@ -256,6 +256,16 @@ _ALL: Final = (
         "The static stiffness is not above zero: friction lifts the wheel by itself (static divergence).",
         "Turn the contact angle nearer to 90°, or a much stiffer joint.",
         "swing-arm", ("formulas.swing_arm:arm_stiffness",),
+    ),
+    CheckCode(
+        "ABU505", "balanced state on the arm",
+        "Whether the balls stay where they balance on a swing arm, off the work and on it, over the speed range; by "
+        "Floquet multipliers.",
+        "Some small disturbance does not die out. It warns where that is so at the worst contact angle alone, or where "
+        "the arm does not stand or press, so that it is judged off the work alone. Not done where the balls cannot "
+        "carry the imbalance.",
+        "More joint damping or more inertia; what was tried on this arm stands in the report.",
+        "swing-arm", ("formulas.arm_motion:free_rates",),
     ),
     CheckCode("ABU601", "seat on the shaft", *_GRIPS, "seats", _GRIP_FORMULAS),
     CheckCode("ABU602", "largest interference, seat on the shaft", *_BEARS, "seats", _STRESS_FORMULAS),

@@ -1,5 +1,6 @@
 """The scenes a machine file calls for, simulated with the effects they call for."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from abu_calc.analysis.idle import WORK
@@ -35,11 +36,11 @@ def scenes_of(design: Design) -> tuple[str, ...]:
 
 
 def simulated(
-    design: Design, accuracy: float, progress: Progress = silent
+    design: Design, accuracy: float, progress: Progress = silent, names: Sequence[str] | None = None
 ) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:
-    """All of them, each within the work that `abu size` may take."""
+    """All of them, or those of some names, each within the work that `abu size` may take."""
     runs, failures = [], []
-    for name in scenes_of(design):
+    for name in scenes_of(design) if names is None else names:
         try:
             ledger = chosen(scene_of_design(design, name), accuracy)
             run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.parameters import Frame, Geometry
 from abu_calc.dynamics.race import Balls, Race
 from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.formulas.swing_arm import Arm
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]
@@ -166,6 +167,10 @@ class Support(ABC):
     def without_steady_force(self) -> Self:
         """The same without a constant force of its own, which only moves the place where it stands."""
         return self
+
+    def standing_arm(self, balls: Balls) -> Arm | None:
+        """A swing arm with balls that stand in the race, no contact of its own told apart; None: it is none."""
+        return None
 
     def critical_damping(self, imbalance: float, balls: Balls) -> float | None:
         """Damping [N·s/m] that parametric resonance by an imbalance [kg m] cannot overcome, if there is any."""

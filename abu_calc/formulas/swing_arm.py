@@ -3,6 +3,7 @@
 Source: Kovalenko 2010, corrected.
 """
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -64,6 +65,82 @@ def worst_contact_angle(friction: float, ratio: float) -> float:
         return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
 
     return float(brentq(slope, math.pi / 2, 3 * math.pi / 4, xtol=1e-12))
+
+
+@formula(
+    "Contact angle Z that makes g smallest: friction lifts the wheel by itself",
+    "sin 2Z + f·(R/l)·cos Z − f·cos 2Z = 0, Z < π/2",
+    "rad",
+    where="There g < 0 as long as f > 0 and R < l: the contact's stiffness is negative.",
+    checked=(FRICTION, RADIUS_RATIO),
+    source="derived from Kovalenko 2010, (3)",
+)
+def lifting_angle(friction: float, ratio: float) -> float:
+    """
+    >>> round(lifting_angle(0.45, 0.33), 3), round(contact_gain(lifting_angle(0.45, 0.33), 0.45, 0.33), 4)
+    (0.144, -0.022)
+    """
+    f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
+    from scipy.optimize import brentq  # here, so that only files with a swing arm pay for it
+
+    def slope(angle: float) -> float:
+        return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
+
+    return float(brentq(slope, 0.0, math.pi / 2, xtol=1e-12)) if f > 0 and r < 1 else 0.0
+
+
+@formula(
+    "Joint stiffness with which the arm stands at every contact angle",
+    "c_sh > −c_n·min g",
+    "N/m",
+    source="derived from Kovalenko 2010, (3)",
+)
+def standing_stiffness(arm: Arm) -> float:
+    ratio = arm.disk_radius / arm.length
+    return max(0.0, -arm.contact_stiffness * contact_gain(lifting_angle(arm.friction, ratio), arm.friction, ratio))
+
+
+@formula(
+    "Contact angles between which the arm does not stand",
+    "c_sh + c_n·g(Z) = 0",
+    "rad",
+    where="None where the joint is stiff enough for every angle: c_sh > −c_n·min g.",
+    source="derived from Kovalenko 2010, (3)",
+)
+def lifted_angles(arm: Arm) -> tuple[float, float] | None:
+    ratio = arm.disk_radius / arm.length
+    lowest = lifting_angle(arm.friction, ratio)
+
+    def stiffness(angle: float) -> float:
+        return arm.joint_stiffness + arm.contact_stiffness * contact_gain(angle, arm.friction, ratio)
+
+    if stiffness(lowest) > 0:
+        return None
+    from scipy.optimize import brentq
+
+    first = float(brentq(stiffness, 0.0, lowest)) if stiffness(0.0) > 0 else 0.0
+    return first, float(brentq(stiffness, lowest, math.pi / 2)) if stiffness(math.pi / 2) > 0 else math.pi / 2
+
+
+@formula(
+    "Contact angles at which the speed is that of parametric resonance",
+    "c_sh + c_n·g(Z) = J_O·Ω²/(4l²)",
+    "rad",
+    where="None, one or two: before and behind the angle at which g is largest.",
+    source="Kovalenko 2010, (3) and (22)",
+)
+def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
+    ratio = arm.disk_radius / arm.length
+    places = lifting_angle(arm.friction, ratio), worst_contact_angle(arm.friction, ratio), math.pi
+    wanted = arm.inertia * speed**2 / (4 * arm.length**2)
+
+    def excess(angle: float) -> float:
+        return arm.joint_stiffness + arm.contact_stiffness * contact_gain(angle, arm.friction, ratio) - wanted
+
+    from scipy.optimize import brentq
+
+    crossed = (pair for pair in itertools.pairwise(places) if excess(pair[0]) * excess(pair[1]) < 0)
+    return tuple(float(brentq(excess, *pair, xtol=1e-12)) for pair in crossed)
 
 
 @formula(
@@ -164,3 +241,25 @@ def pressed_angle(arm: Arm) -> float | None:
         return None
     contact = stiffness - arm.joint_stiffness
     return (arm.pressing_moment / arm.length**2 + contact * arm.touch_angle) / stiffness
+
+
+@formula(
+    "Pressing torque beyond which the wheel presses",
+    "T > c_sh·l²·φ₀",
+    "N·m",
+    where="As long as the arm stands; none is needed where it touches at rest or before, φ₀ ≤ 0.",
+    source="Kovalenko 2010, below (5')",
+)
+def least_pressing_moment(arm: Arm) -> float:
+    return max(0.0, arm.joint_stiffness * arm.length**2 * arm.touch_angle)
+
+
+@formula(
+    "Normal force between wheel and work at rest",
+    "N = c_n·l·(φ − φ₀)·sin Z",
+    "N",
+    where="φ the resting angle while cutting.",
+    source="Kovalenko 2010, (3)",
+)
+def press_force(arm: Arm, angle: float) -> float:
+    return arm.contact_stiffness * arm.length * (angle - arm.touch_angle) * math.sin(arm.contact_angle)

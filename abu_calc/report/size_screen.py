@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from abu_calc.report.arm import arm_bounds, arm_line
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph, Picture
 from abu_calc.report.drawing.characters import legend, section_lines
 from abu_calc.report.numbers import number
@@ -13,6 +14,7 @@ from abu_calc.studies.design_records import Autobalancer, Vibration
 from abu_calc.studies.ensemble_records import EnsembleResult
 from abu_calc.studies.size import SizeResult
 
+ON_ARM = "`abu stability --scene swing-arm-cutting`, the arm's motion and tongue"
 MORE = ("--explain, every formula with its numbers",)
 
 MOST_ROWS = 9
@@ -28,8 +30,9 @@ class Spread(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The one screen; the section stands in the room that is left."""
+    arm = [BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else []
     return one_screen(
-        result, about(result), numbers_that_matter(result)[1:], MORE,
+        result, about(result), [*numbers_that_matter(result)[1:], *arm], (*MORE, ON_ARM) if arm else MORE,
         lambda room: section_picture(result, min(room - 1, MOST_ROWS)),
     )  # fmt: skip
 
@@ -50,7 +53,8 @@ def about(result: SizeResult) -> list[Block]:
     housing = f"{one.housing.split(':')[0]} housing Ø{number(one.outer_diameter_mm, 3)} × {number(one.width_mm, 3)} mm"
     best = "" if result.status == "pass" else "Best that was found: "
     line = f"{best}{balls(one)} {one.ball_material} {one.corrector}s, race R {one.race_radius_mm:g} mm, {housing}."
-    return [Heading(result.title), verdict_line(result), Paragraph(line)]
+    arm = arm_line(result.swing_arm.advice) if result.swing_arm else []
+    return [Heading(result.title), verdict_line(result), *arm, Paragraph(line)]
 
 
 def balls(one: Autobalancer) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from abu_calc.report.arm import arm_facts, motion_blocks, printed_otherwise
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
@@ -225,7 +226,11 @@ def _bare(one: Autobalancer, name: str) -> str:
 
 
 def _swing_arm(result: SizeResult) -> list[Block]:
-    return [Heading("Swing arm"), facts(result.swing_arm)] if result.swing_arm else []
+    arm, motion = result.swing_arm, result.arm_motion
+    if arm is None:
+        return []
+    moved = [*motion_blocks(motion, " while cutting"), *printed_otherwise()] if motion else []
+    return [*arm_facts(arm), *moved]
 
 
 def _seats(result: SizeResult) -> tuple[Block, ...]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from abu_calc.report.arm import BOUNDS, arm_bounds, arm_line, motion_blocks, printed_otherwise
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
@@ -9,6 +10,7 @@ from abu_calc.studies.design_records import StabilityBoundary
 from abu_calc.studies.hanging import Hanging
 from abu_calc.studies.stability import Crossing, StabilityResult
 
+CHANGES = "Speeds where stability changes"
 FORBIDDEN = (
     "A speed above the natural frequencies is necessary, not sufficient: balls of finite mass lose the balanced state "
     "well above them, and light damping opens further gaps."
@@ -34,18 +36,30 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
     return (
         Heading(f"{result.title}: stability of the balanced state"),
         Paragraph(f"{word} at {value_of(result, 'speed_rpm')}: {check.message}.", check.status),
+        *arm_line(result.arm_advice),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
+        *((Heading(BOUNDS), arm_bounds(result.swing_arm)) if result.swing_arm else ()),
+        *(motion_blocks(result.arm_motion) if result.arm_motion else []),
         *_hanging(result.hanging),
         *_values("Eigenvalues, 1/s", result.eigenvalues),
         *_values("Floquet multipliers of one revolution", result.floquet_multipliers),
-        Heading("Speeds where stability changes"),
+        Heading(CHANGES),
         *_boundaries(result),
         *_crossings(result.crossings_rpm),
         *check_blocks(result.checks),
         *notices(result),
         Heading("Model"),
         Paragraph(FORBIDDEN),
+        *(printed_otherwise() if result.arm_motion else []),
         *provenance_blocks(result.provenance),
+    )
+
+
+def hanging_word(found: Hanging) -> str:
+    """Whether balls may hang."""
+    drag = f"the drag, {number(found.drag_per_s, 3)} 1/s, is"
+    return (
+        f"Balls may hang: {drag} not above every bound." if found.doubt else f"No balls hang: {drag} above every bound."
     )
 
 
@@ -58,10 +72,7 @@ def _hanging(found: Hanging | None) -> list[Block]:
          "none" if one.margin is None else number(one.margin, 3))
         for one in found.bounds
     )  # fmt: skip
-    if not found.doubt:
-        word = f"No balls hang: the drag, {number(found.drag_per_s, 3)} 1/s, is above every bound."
-    else:
-        word = f"Balls may hang: the drag, {number(found.drag_per_s, 3)} 1/s, is not above every bound. {WHAT_TELLS}"
+    word = hanging_word(found) + (f" {WHAT_TELLS}" if found.doubt else "")
     header = ("balls hang", "below, 1/s", "the drag over it")
     table: list[Block] = [Grid(header, rows, frozenset({1, 2}))] if rows else []
     return [Heading("Beside the balanced state"), Paragraph(ONE_STATE), Paragraph(word), *table]

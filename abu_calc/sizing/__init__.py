@@ -53,7 +53,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
     worst = worst_residuals(case, imbalance.value, best)
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
-    seats, arm = _seats(machine), _arm(case, imbalance.value, best.mass)
+    seats, arm = _seats(machine), _arm(case, imbalance.value, best)
     advice = drawing(case, best, race)
     checks = (
         frequency.check,
@@ -79,9 +79,9 @@ def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":
     return seat_bearings(machine.bearing)
 
 
-def _arm(case: Case, imbalance: float, added_mass: float) -> "SwingArmBounds | None":
+def _arm(case: Case, imbalance: float, one: Candidate) -> "SwingArmBounds | None":
     if case.table.swing_arm is None:
         return None
     from abu_calc.sizing.swing_arm import swing_arm_bounds
 
-    return swing_arm_bounds(case, case.table.swing_arm, imbalance, added_mass)
+    return swing_arm_bounds(case, case.table.swing_arm, imbalance, one.mass, one.capacity)

@@ -1,18 +1,25 @@
-"""Step 9: bounds for a machine on a swing arm (Kovalenko 2010, corrected)."""
+"""Step 9: bounds for a machine on a swing arm, over all contact angles (Kovalenko 2010, corrected)."""
 
 import math
 from dataclasses import dataclass, replace
 
+from abu_calc.check_codes import CHECK_CODES
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.formulas.swing_arm import (
+    MODULATION,
     Arm,
     arm_stiffness,
     contact_gain,
     damping_limit,
     growth_rate,
+    least_pressing_moment,
+    lifted_angles,
+    parametric_angles,
+    press_force,
     pressed_angle,
     resonance,
     series_gain,
+    standing_stiffness,
     stiffness_limit,
     worst_contact_angle,
 )
@@ -25,7 +32,13 @@ LEAST_SINE = 1e-6
 
 @dataclass(frozen=True)
 class SwingArmBounds:
-    """What stiffness and damping the arm must have [SI]."""
+    """What stiffness and damping the arm must have [SI]; `arm` itself with the autobalancer on it.
+
+    `bunched_limit`: the damping needed while the balls stand side by side on the heavy side, None beyond κ = 0.3.
+    `lifted`: contact angles between which the arm does not stand; `standing_stiffness`: of the joint, with which it
+    stands at every one. `parametric_angles`: at which the rated speed is twice the natural frequency.
+    `cutting_frequency`: at the contact angle given; None, as the resting angle, where the arm does not stand.
+    """
 
     arm: Arm
     stiffness_limit: float
@@ -33,30 +46,59 @@ class SwingArmBounds:
     worst_angle: float
     resonance: float
     damping_limit: float
+    bunched_limit: float | None
     growth_rate: float
+    idle_frequency: float
+    cutting_frequency: float | None
+    parametric_angles: tuple[float, ...]
+    lifted: tuple[float, float] | None
+    standing_stiffness: float
+    least_moment: float
     pressed_angle: float | None
+    press_force: float | None
     checks: tuple[Check, ...]
 
 
-def swing_arm_bounds(case: Case, table: SwingArm, imbalance: float, added_mass: float) -> SwingArmBounds:
-    """All bounds at the rated speed, stiffness ones at the lowest; the autobalancer adds its mass times l² to J_O."""
+def swing_arm_bounds(
+    case: Case, table: SwingArm, imbalance: float, added_mass: float, capacity: float = 0.0
+) -> SwingArmBounds:
+    """All bounds at the rated speed, stiffness ones at the lowest; the autobalancer adds its mass times l² to J_O.
+
+    `capacity` of the balls [kg m]: it adds to the imbalance while they stand on the heavy side.
+    """
     arm = read_arm(case, table, added_mass)
     ratio = arm.disk_radius / arm.length
     worst, series = worst_contact_angle(arm.friction, ratio), series_gain(arm.friction, ratio)
-    exact = contact_gain(worst, arm.friction, ratio)
     natural = resonance(arm, series)
     lowest = case.speed_range[0]
-    limit = stiffness_limit(arm, lowest, series)
-    damping = damping_limit(arm, imbalance, natural)
-    angle = pressed_angle(arm)
-    return SwingArmBounds(
-        arm, limit, stiffness_limit(arm, lowest, exact), worst, natural, damping,
-        growth_rate(arm, imbalance, natural), angle,
-        _doubted(_checks(arm, min(limit, stiffness_limit(arm, lowest, exact)), damping, angle), table.borrowed()),
-    )  # fmt: skip
+    limits = [stiffness_limit(arm, lowest, gain) for gain in (series, contact_gain(worst, arm.friction, ratio))]
+    damping, angle = damping_limit(arm, imbalance, natural), pressed_angle(arm)
+    own = contact_gain(arm.contact_angle, arm.friction, ratio)
+    heavy = imbalance + capacity
+    known = arm.length * heavy / arm.inertia <= MODULATION.high
+    found = SwingArmBounds(
+        arm=arm,
+        stiffness_limit=limits[0],
+        stiffness_limit_exact=limits[1],
+        worst_angle=worst,
+        resonance=natural,
+        damping_limit=damping,
+        bunched_limit=damping_limit(arm, heavy, natural) if known else None,
+        growth_rate=growth_rate(arm, imbalance, natural),
+        idle_frequency=resonance(arm, 0.0),
+        cutting_frequency=resonance(arm, own) if arm_stiffness(arm) > 0 else None,
+        parametric_angles=parametric_angles(arm, case.speed),
+        lifted=lifted_angles(arm),
+        standing_stiffness=standing_stiffness(arm),
+        least_moment=least_pressing_moment(arm),
+        pressed_angle=angle,
+        press_force=None if angle is None else press_force(arm, angle),
+        checks=(),
+    )
+    return replace(found, checks=doubted(_checks(found), table.borrowed()))
 
 
-def _doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check, ...]:
+def doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check, ...]:
     """What passes by another machine's data alone warns."""
     if not borrowed:
         return checks
@@ -86,20 +128,38 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
     )
 
 
-def _checks(arm: Arm, limit: float, damping: float, angle: float | None) -> tuple[Check, ...]:
-    stiff, damped, stiffness = arm.contact_stiffness < limit, arm.joint_damping > damping, arm_stiffness(arm)
+def _checks(found: SwingArmBounds) -> tuple[Check, ...]:
+    arm, limit = found.arm, min(found.stiffness_limit, found.stiffness_limit_exact)
+    stiff, stiffness = arm.contact_stiffness < limit, arm_stiffness(arm)
     return (
         coded("ABU501", verdict(stiff), "supercritical at the lowest speed and the worst "
               "contact angle (the safer of series and exact); necessary, not sufficient", arm.contact_stiffness, limit,
-              "N/m", None if stiff else "A longer arm, more inertia, a higher speed, or a softer wheel."),
-        coded("ABU502", verdict(damped), "above what parametric resonance at twice the natural "
-              "frequency can overcome", arm.joint_damping, damping, "N·s/m",
-              None if damped else "More damping in the joint, or less imbalance.", "least"),
-        coded("ABU504", verdict(stiffness > 0), "static stiffness with the contact,"
-              " negative where friction lifts the wheel by itself (static divergence)", stiffness, 0.0, "N/m",
-              None if stiffness > 0 else "Turn the contact angle nearer to 90°, or a much stiffer joint.", "least"),
-        _pressing(arm, angle),
+              "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
+        _damped(arm, found.damping_limit, found.bunched_limit),
+        coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{_lifted(found.lifted)}",
+              stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].remedy, "least"),
+        _pressing(arm, found.pressed_angle),
     )  # fmt: skip
+
+
+def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
+    """By the imbalance; warns where balls that stand on the heavy side at a start need more."""
+    damped = arm.joint_damping > limit
+    safe = bunched is not None and arm.joint_damping > bunched
+    message = "above what parametric resonance at twice the natural frequency can overcome"
+    if damped and not safe:
+        message += "; not while the balls stand on the heavy side, as in a start"
+    more = None if bunched is None else f"Above {bunched:.3g} N·s/m it damps that, too."
+    return coded("ABU502", verdict(damped, safe), message, arm.joint_damping, limit, "N·s/m",
+                 CHECK_CODES["ABU502"].remedy if not damped else None if safe else more, "least")  # fmt: skip
+
+
+def _lifted(angles: tuple[float, float] | None) -> str:
+    """Where it would not stand, in words."""
+    if angles is None:
+        return "; it stands at every contact angle"
+    low, high = (from_si(one, "deg") for one in angles)
+    return f"; from {low:.3g}° to {high:.3g}° friction lifts the wheel by itself (static divergence)"
 
 
 def _pressing(arm: Arm, angle: float | None) -> Check:
@@ -110,4 +170,4 @@ def _pressing(arm: Arm, angle: float | None) -> Check:
                      "presses", None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
     pressed = angle > arm.touch_angle
     return coded("ABU503", verdict(pressed), "resting angle beyond the touching angle", from_si(angle, "deg"), touch,
-                 "°", None if pressed else "A larger pressing torque or a softer joint.", "least")  # fmt: skip
+                 "°", None if pressed else CHECK_CODES["ABU503"].remedy, "least")  # fmt: skip

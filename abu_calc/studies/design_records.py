@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from abu_calc.analysis.region import TrueRegion
 from abu_calc.dynamics.balanced.boundaries import Boundary as SpeedLimit
@@ -18,9 +18,6 @@ from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.shown import HandleLevels
 from abu_calc.studies.simulated_scene import finite
 from abu_calc.units import from_si
-
-if TYPE_CHECKING:
-    from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
 @record
@@ -242,41 +239,6 @@ class Vibration(Record):
         found = cls.of(loaded.levels, speed=speed)
         steady = loaded.steady.after if loaded.parts_after else None
         return replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
-
-
-@record
-class SwingArm(Record):
-    """What stiffness and damping the arm must have."""
-
-    contact_stiffness_limit_N_per_m: Annotated[float, Quantity("contact stiffness limit (series)", "c_n", 5)]
-    contact_stiffness_limit_exact_N_per_m: Annotated[float, Quantity("contact stiffness limit (exact)", "c_n", 5)]
-    worst_contact_angle_deg: Annotated[float, Quantity("worst contact angle", "Z*")]
-    resonance_rpm: Annotated[float, Quantity("highest resonance of the arm", "ω₀*")]
-    damping_limit_N_s_per_m: Annotated[float, Quantity("damping needed", "h_sh", 3)]
-    parametric_growth_rate_per_s: Annotated[float, Quantity("growth rate at Ω = 2ω₀*", "κω₀/2 − h", 3)]
-    pressed_angle_deg: Annotated[float | None, Quantity("resting angle while cutting", "", 3)]
-    arm_length_mm: Annotated[float, Quantity("length of the arm", "l")]
-    wheel_diameter_mm: Annotated[float, Quantity("wheel")]
-    contact_angle_deg: Annotated[float, Quantity("contact angle", "Z")]
-    touch_angle_deg: Annotated[float, Quantity("touching angle", "φ₀")]
-
-    @classmethod
-    def of(cls, bounds: "SwingArmBounds") -> Self:
-        """In user units."""
-        arm = bounds.arm
-        return cls(
-            contact_stiffness_limit_N_per_m=bounds.stiffness_limit,
-            contact_stiffness_limit_exact_N_per_m=bounds.stiffness_limit_exact,
-            worst_contact_angle_deg=from_si(bounds.worst_angle, "deg"),
-            resonance_rpm=from_si(bounds.resonance, "rpm"),
-            damping_limit_N_s_per_m=bounds.damping_limit,
-            parametric_growth_rate_per_s=bounds.growth_rate,
-            pressed_angle_deg=None if bounds.pressed_angle is None else from_si(bounds.pressed_angle, "deg"),
-            arm_length_mm=from_si(arm.length, "mm"),
-            wheel_diameter_mm=from_si(2 * arm.disk_radius, "mm"),
-            contact_angle_deg=from_si(arm.contact_angle, "deg"),
-            touch_angle_deg=from_si(arm.touch_angle, "deg"),
-        )
 
 
 @record

@@ -1,14 +1,17 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
-from typing import Annotated, ClassVar, Final
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels
-from abu_calc.analysis.machine import Run, simulated
+from abu_calc.analysis.machine import Failure, Run, simulated
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.dynamics.integrators.compiled.code import installed
+from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, threads
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
@@ -16,12 +19,12 @@ from abu_calc.sizing.compared import compared_design
 from abu_calc.sizing.design import Design
 from abu_calc.spec.read import Machine
 from abu_calc.studies.arguments import checked
+from abu_calc.studies.arm_records import ArmMotion, SwingArm
 from abu_calc.studies.design_records import (
     AccuracyBudget,
     Autobalancer,
     DrawingLine,
     Frequency,
-    SwingArm,
     Vibration,
 )
 from abu_calc.studies.ensemble_records import EnsembleResult
@@ -35,13 +38,16 @@ from abu_calc.studies.size_model import SizeModel
 from abu_calc.units import from_si
 from abu_calc.validity import Range
 
+if TYPE_CHECKING:
+    from abu_calc.analysis.arm import ArmJudgement
+
 
 @record
 class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 
     command: ClassVar[str] = "size"
-    optional: ClassVar[frozenset[str]] = frozenset({"measured_after"})
+    optional: ClassVar[frozenset[str]] = frozenset({"measured_after", "arm_motion"})
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -62,6 +68,7 @@ class SizeResult(Result):
     simulation: tuple[SimulatedScene, ...]
     fits: tuple[SeatResult, ...]
     swing_arm: SwingArm | None
+    arm_motion: ArmMotion | None
     drawing: tuple[DrawingLine, ...]
 
 
@@ -87,9 +94,13 @@ def size(
         design = tried.design
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
+    arm, moved = _arm(design, failures, accuracy, progress)
+    held = {one.code: one for one in arm.checks} if arm else {}
     checks = tuple(
-        level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else one for one in design.checks
+        level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else held.pop(one.code, one)
+        for one in design.checks
     )
+    checks += tuple(held.values())
     checks += region.check, *ensemble_checks(design, tried.ensemble, tried.remedy)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     checks += tuple(not_simulated(failure.scene, failure.reason, answered=answered) for failure in failures)
@@ -122,12 +133,42 @@ def size(
         ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
-        swing_arm=None if design.swing_arm is None else SwingArm.of(design.swing_arm),
+        swing_arm=None if arm is None else SwingArm.of(arm),
+        arm_motion=moved,
         drawing=tuple(
             DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
             for line in design.drawing
         ),
     )
+
+
+def _arm(
+    design: Design, failures: Sequence[Failure], accuracy: float, progress: Progress
+) -> "tuple[ArmJudgement | None, ArmMotion | None]":
+    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
+
+    Where a scene of the arm gave no answer, also how much more joint damping would give one.
+    """
+    if design.swing_arm is None:
+        return None, None
+    from abu_calc.analysis.arm import judge_arm
+    from abu_calc.analysis.arm_motion import ArmMotion as Moved
+    from abu_calc.analysis.arm_motion import arm_motion
+    from abu_calc.scenes.from_design import scene_of_design
+
+    judged = judge_arm(design)
+    if judged is not None and judged.may_pass and any(one.scene.startswith("swing-arm") for one in failures):
+        from abu_calc.analysis.arm_scenes import damping_to_simulate
+
+        more = damping_to_simulate(design, judged, accuracy, progress)
+        if more is not None:
+            text = f"{judged.advice} ABU703: its scenes can be simulated with {more.text} (tried)."
+            judged = replace(judged, advice=text)
+    try:
+        moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
+    except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
+        return judged, None
+    return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
 
 
 def _side_by_side(count: int | None) -> Workers:

@@ -1,6 +1,6 @@
 """Whether the balanced state of a scene is stable, and at which speeds that changes."""
 
-from typing import Annotated, ClassVar, Final
+from typing import Annotated, ClassVar, Final, NamedTuple
 
 from abu_calc.checks import Check, verdict
 from abu_calc.dynamics.balanced.arrangements import ARRANGEMENTS, Arrangement
@@ -12,6 +12,7 @@ from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
 from abu_calc.studies.arguments import checked, one_of
+from abu_calc.studies.arm_records import ArmMotion, SwingArm
 from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
 from abu_calc.studies.hanging import Hanging
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -50,6 +51,7 @@ class StabilityResult(Result):
 
     command: ClassVar[str] = "stability"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
+    optional: ClassVar[frozenset[str]] = frozenset({"arm_advice", "swing_arm", "arm_motion"})
 
     model: SceneModel
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
@@ -66,6 +68,9 @@ class StabilityResult(Result):
     effects_left_out: Annotated[tuple[str, ...], Quantity("effects left out of the linear motion")]
     boundaries_rpm: tuple[StabilityBoundary, ...] | None
     crossings_rpm: tuple[Crossing, ...] | None
+    arm_advice: Annotated[str | None, Quantity("what to change on the arm")] = None
+    swing_arm: SwingArm | None = None
+    arm_motion: ArmMotion | None = None
     searched_rpm: tuple[float, float] | None
     """The range of speeds that boundaries were looked for in."""
 
@@ -97,10 +102,11 @@ def stability(
     found = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
     limits = _limits(subject, speeds_rpm, way) if speeds_rpm and found.reason is None else None
+    arm = _on_arm(subject)
     return StabilityResult(
         title=subject.title,
         checks=(_check(found, way, pressed=pressed),),
-        warnings=(*subject.warnings, *stability_warnings(found, subject.scene, way)),
+        warnings=(*subject.warnings, *stability_warnings(found, subject.scene, way), *arm.warnings),
         model=SceneModel.of(subject.scene),
         provenance=subject.provenance,
         speed_rpm=from_si(found.speed, "rpm"),
@@ -117,8 +123,37 @@ def stability(
         effects_left_out=found.left_out,
         boundaries_rpm=None if limits is None else stability_boundaries(limits),
         crossings_rpm=_crossings(subject, speeds_rpm, way) if crossings and speeds_rpm and limits is not None else None,
+        arm_advice=arm.advice,
+        swing_arm=arm.bounds,
+        arm_motion=arm.motion,
         searched_rpm=speeds_rpm,
     )
+
+
+class ArmAnswer(NamedTuple):
+    """What is said of a swing arm; nothing of other supports."""
+
+    advice: str | None = None
+    bounds: SwingArm | None = None
+    motion: ArmMotion | None = None
+    warnings: tuple[str, ...] = ()
+
+
+def _on_arm(subject: Subject) -> ArmAnswer:
+    """Of a machine the bounds and what to change; of every arm its motion with its imbalance."""
+    if subject.scene.support.standing_arm(subject.scene.balls) is None:
+        return ArmAnswer()
+    from abu_calc.analysis.arm import judge_arm
+    from abu_calc.analysis.arm_motion import arm_motion
+    from abu_calc.analysis.scene_arm import advise_scene
+
+    judged = None if subject.design is None else judge_arm(subject.design)
+    advice = advise_scene(subject.scene) if judged is None else judged.advice
+    bounds = None if judged is None else SwingArm.of(judged)
+    moved = arm_motion(subject.scene)
+    if isinstance(moved, str):
+        return ArmAnswer(advice, bounds, None, (f"No forced motion and no tongue: {moved}.",))
+    return ArmAnswer(advice, bounds, None if moved is None else ArmMotion.of(moved))
 
 
 def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:

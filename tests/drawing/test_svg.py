@@ -19,8 +19,8 @@ from abu_calc.report.drawing.sheet import section_sheet
 from abu_calc.report.drawing.sheets import size_sheets
 from abu_calc.report.drawing.svg import svg_figure, svg_file
 from abu_calc.spec.read import read_machine
+from abu_calc.studies.arm_records import SwingArm
 from abu_calc.studies.check_fit import check_fit
-from abu_calc.studies.design_records import SwingArm
 from tests.cli.runner import abu
 from tests.drawing.samples import HOSTILE, MACHINES, result
 

@@ -126,7 +126,7 @@ class BalancedMotion:
     @property
     def isotropic(self) -> bool:
         """Whether A is constant, seen from the rotor."""
-        return len(self._parts[0]) == 1
+        return len(self._own) == 1
 
     def polynomial(self) -> Array:
         """L₀, L₁, L₂ of A = (L₀ + L₁x + L₂x²)/x on an isotropic support, x the speed over that of the scene."""
@@ -134,8 +134,8 @@ class BalancedMotion:
 
     def harmonics(self, speed: float) -> Complex:
         """c_k of A(φ) = Re Σ c_k e^{ikφ}, φ = Ωt: c_0 alone on an isotropic support."""
-        if self.motion:
-            return np.asarray(self._parts[0], dtype=complex)
+        if self.motion or speed == self.scene.speed:
+            return self._own
         x = speed / self.scene.speed
         return np.asarray(np.tensordot((1 / x, 1.0, x), self._parts, axes=1), dtype=complex)
 
@@ -218,22 +218,43 @@ class BalancedMotion:
         return replace(self.scene, effects=(), support=self.scene.support.without_steady_force())
 
     @cached_property
+    def _own(self) -> Complex:
+        """[harmonic, row, column] of A times the speed at the scene's own."""
+        (found,) = self._resolved((1.0,))
+        return np.asarray(found, dtype=complex)
+
+    @cached_property
     def _parts(self) -> Complex:
         """[degree, harmonic, row, column] of A times the speed; where the axis moves, of A at its one speed."""
-        count, speeds = FIRST_PHASES, (1.0,) if self.motion else SPEEDS
+        if self.motion:
+            return self._own[None]
+        return np.asarray(np.tensordot(_inverse_powers(), self._resolved(SPEEDS), axes=1), dtype=complex)
+
+    def _resolved(self, speeds: tuple[float, ...]) -> Complex:
+        """[speed, harmonic, row, column], of as many phases as its harmonics need."""
+        count = FIRST_PHASES
         while True:
-            sampled = np.array([self._sampled(x, count) for x in speeds])
-            terms = np.fft.rfft(sampled, axis=1) / count
-            terms[:, 1:] *= 2
+            terms = np.array([self._terms(x, count) for x in speeds])
             sizes = np.abs(terms).max(axis=(0, 2, 3), initial=0.0)
             present = np.flatnonzero(sizes > NOTHING * sizes[0])
             last = int(present[-1]) if len(present) else 0
             if last < count // 2 - 1:
-                found = terms[:, : last + 1]
-                return found if self.motion else np.tensordot(_inverse_powers(), found, axes=1)
+                return np.asarray(terms[:, : last + 1], dtype=complex)
             if count == MOST_PHASES:
                 raise NotTrustworthyError("the linear motion about the balanced state turns too sharply to be judged")
             count *= 2
+
+    def _terms(self, x: float, count: int) -> Complex:
+        """Harmonics of A at one speed from so many phases, found once."""
+        if (x, count) not in self._known:
+            terms = np.fft.rfft(self._sampled(x, count), axis=0) / count
+            terms[1:] *= 2
+            self._known[x, count] = np.asarray(terms, dtype=complex)
+        return self._known[x, count]
+
+    @cached_property
+    def _known(self) -> dict[tuple[float, int], Complex]:
+        return {}
 
     def _sampled(self, x: float, count: int) -> Array:
         """A at equally spaced phases of a turn, at x times the working speed; times x where A is a polynomial."""

@@ -13,7 +13,7 @@ from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
 from abu_calc.dynamics.race import LARGEST, NON_NEGATIVE, Balls, Race, finite
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit
+from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit, resonance
 from abu_calc.validity import Range
 
 CONTACT_STIFFNESS = Range("contact stiffness", 0, LARGEST, "N/m")
@@ -168,13 +168,16 @@ class SwingArm(Support):
         """
         if self.stiffness <= 0:
             return None
-        arm = self.holding(balls)
-        natural = arm.length * math.sqrt(arm.stiffness / arm.inertia)
-        joint = Arm(arm.length, arm.inertia, arm.stiffness, arm.damping, *(0.0,) * 6)
+        arm = self.standing_arm(balls)
         try:
-            return damping_limit(joint, imbalance, natural)
+            return damping_limit(arm, imbalance, resonance(arm, 0.0))
         except InputError:
             return None
+
+    def standing_arm(self, balls: Balls) -> Arm:
+        """Its stiffness, that of the work included, as the joint's."""
+        arm = self.holding(balls)
+        return Arm(arm.length, arm.inertia, arm.stiffness, arm.damping, *(0.0,) * 6)
 
     def not_averaged(self, position: Sequence[float], velocity: Sequence[float]) -> str | None:
         """About any other place its motion is not the small one."""

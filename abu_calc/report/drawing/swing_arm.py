@@ -19,7 +19,7 @@ from abu_calc.report.drawing.shapes import (
 )
 from abu_calc.report.drawing.sketch import scale_for, sketch
 from abu_calc.report.numbers import number
-from abu_calc.studies.design_records import SwingArm
+from abu_calc.studies.arm_records import SwingArm
 from abu_calc.studies.size import SizeResult
 
 

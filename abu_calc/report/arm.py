@@ -1,0 +1,158 @@
+"""What reports say of a swing arm: what to change first, bounds, forced motion, and the tongue, drawn."""
+
+from typing import Final
+
+from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
+from abu_calc.report.numbers import number
+from abu_calc.report.parts import facts
+from abu_calc.studies.arm_records import ArmMotion, SwingArm
+from abu_calc.validity import bounded
+
+BOUNDS: Final = "Swing arm"
+ROWS: Final = 7
+LEAST: Final = 1e-4
+"""Of a motion [µm] that is told."""
+MARGIN: Final = 12
+BOTH, FLOQUET, AVERAGED, HERE = "#", "o", ".", "X"
+LEGEND: Final = (
+    f"Below {BOTH} the arm grows ({FLOQUET} by Floquet multipliers alone, {AVERAGED} averaged alone); {HERE} this arm."
+)
+TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is next to nothing against the arm's inertia."
+NO_TONGUE: Final = (
+    "At ω₀/i the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
+    "unstable. It grows about 2ω₀ alone."
+)
+"""Printed otherwise in Kovalenko 2010."""
+
+
+def arm_line(advice: str | None) -> list[Block]:
+    """The line that says what to change on the arm, and by how much."""
+    if advice is None:
+        return []
+    return [Paragraph(f"Arm: {advice}", None if advice.startswith("nothing") else "fail", hang=2)]
+
+
+def arm_bounds(arm: SwingArm) -> Grid:
+    """Each number given beside its bound over all contact angles: stiffness first, damping second."""
+    stiffness = min(arm.contact_stiffness_limit_N_per_m, arm.contact_stiffness_limit_exact_N_per_m)
+    bunched = arm.damping_limit_bunched_N_s_per_m
+    heavy = "" if bunched is None else f", {number(bunched, 3)} while balls are bunched"
+    at_work = "none at work" if arm.cutting_frequency_rpm is None else f"{number(arm.cutting_frequency_rpm)} at work"
+    rows = (
+        ("contact stiffness, N/m", bounded(arm.contact_stiffness_N_per_m),
+         f"below {number(stiffness)}, worst at {number(arm.worst_contact_angle_deg)}°"),
+        ("joint damping, N·s/m", f"{arm.joint_damping_N_s_per_m:g}",
+         f"above {number(arm.damping_limit_N_s_per_m)}{heavy}"),
+        ("contact angle, °", f"{arm.contact_angle_deg:g}", _angles(arm)),
+        ("pressing torque, N·m", f"{arm.pressing_moment_N_m:g}",
+         f"above {number(arm.least_pressing_moment_N_m)}{_force(arm)}"),
+        ("natural frequency, rpm", number(arm.idle_frequency_rpm),
+         f"off the work; {at_work}, {number(arm.resonance_rpm)} at most"),
+    )  # fmt: skip
+    return Grid(("swing arm", "given", "bound at any contact angle"), rows, frozenset({1}))
+
+
+def _angles(arm: SwingArm) -> str:
+    if arm.lifted_contact_angles_deg is None:
+        return "stands at every one"
+    low, high = arm.lifted_contact_angles_deg
+    return f"not {number(low, 3)} to {number(high, 3)}: friction lifts there"
+
+
+def _force(arm: SwingArm) -> str:
+    if arm.press_force_N is None or arm.press_force_N <= 0:
+        return ""
+    return f"; presses with {number(arm.press_force_N, 3)} N"
+
+
+def arm_facts(arm: SwingArm) -> list[Block]:
+    """All its numbers."""
+    rows = facts(arm).rows[1:]
+    return [Heading(BOUNDS), Paragraph(f"Arm: {arm.advice}"), arm_bounds(arm), Paragraph(""), Facts(rows)]
+
+
+def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
+    """The forced motion by perturbation beside that by simulation, the rates, and the tongue."""
+    rows = tuple(
+        (f"{one.order}", number(one.resonance_rpm, 5), _or_none(one.perturbation_um), _or_none(one.simulation_um))
+        for one in motion.harmonics
+    )
+    header = ("order i", "resonance ω₀/i, rpm", "perturbation, µm", "simulation, µm")
+    return [
+        Heading(f"Arm with its imbalance, nothing balanced{where}: motion of the wheel"),
+        Grid(header, rows, frozenset({1, 2, 3})),
+        Paragraph(_rates(motion)),
+        Heading(f"Where it grows: joint damping against speed about 2ω₀{where}"),
+        *map(Paragraph, tongue_lines(motion) if motion.tongue else (TOO_NARROW,)),
+        *((Paragraph(_legend(motion)),) if motion.tongue else ()),
+    ]
+
+
+def printed_otherwise() -> list[Block]:
+    """Where the source is wrong."""
+    return [Paragraph(NO_TONGUE)]
+
+
+def _or_none(value: float | None) -> str:
+    if value is None:
+        return "none"
+    return number(value) if value >= LEAST else f"below {LEAST:g}"
+
+
+def _rates(motion: ArmMotion) -> str:
+    """Averaged and simulated."""
+    high, low = (number(one) for one in motion.parametric_rates_per_s)
+    simulated = motion.simulated_rates_per_s
+    told = "no periodic motion was found" if simulated is None else f"simulated {number(simulated[0])}"
+    if simulated is not None and simulated[0] != simulated[1]:
+        told += f" and {number(simulated[1])}"
+    return (
+        f"A free motion goes with e^(λt): λ = {number(motion.rate_per_s)} 1/s by averaging, {told} at "
+        f"{number(motion.speed_rpm, 6)} rpm; {high} and {low} at 2ω₀."
+    )
+
+
+def tongue_lines(motion: ArmMotion) -> list[str]:
+    """The tongue in characters: damping upward, speed to the right, two columns a speed."""
+    edges = motion.tongue
+    top = 1.1 * max(max(one.averaged_N_s_per_m, one.floquet_N_s_per_m) for one in edges)
+    cells = [[" "] * (2 * len(edges)) for _ in range(ROWS)]
+    for column, one in enumerate(edges):
+        for damping, mark in ((one.averaged_N_s_per_m, AVERAGED), (one.floquet_N_s_per_m, FLOQUET)):
+            row = _row(damping, top)
+            if damping > 0 and row is not None:
+                other = cells[row][2 * column]
+                cells[row][2 * column] = BOTH if other == AVERAGED and mark == FLOQUET else mark
+    here = _column(motion), _row(motion.joint_damping_N_s_per_m, top)
+    if here[0] is not None and here[1] is not None:
+        cells[here[1]][here[0]] = HERE
+    labels = {0: f"{number(top, 3)} N·s/m", ROWS - 1: "0"}
+    lines = [f"{labels.get(k, ''):>{MARGIN}} |{''.join(row)}".rstrip() for k, row in enumerate(cells)]
+    middle, width = edges[len(edges) // 2].speed_rpm, 2 * len(edges) - 1
+    low, high = (f"{one.speed_rpm - middle:+.3g}" for one in (edges[0], edges[-1]))
+    scale = f"{low}{number(middle, 6):^{max(0, width - len(low) - len(high))}}{high}"
+    return [*lines, f"{'':>{MARGIN}} +{'-' * width}", f"{'rpm':>{MARGIN}}  {scale}"]
+
+
+def _row(damping: float, top: float) -> int | None:
+    """None above the drawing."""
+    row = ROWS - 1 - int(damping / top * ROWS)
+    return row if row >= 0 else None
+
+
+def _column(motion: ArmMotion) -> int | None:
+    """That of the speed, None beside the drawing."""
+    speeds = [one.speed_rpm for one in motion.tongue]
+    if not speeds[0] <= motion.speed_rpm <= speeds[-1]:
+        return None
+    return 2 * min(range(len(speeds)), key=lambda k: abs(speeds[k] - motion.speed_rpm))
+
+
+def _legend(motion: ArmMotion) -> str:
+    """What the characters mean, and where the arm is where it is not in the drawing."""
+    top = 1.1 * max(one.averaged_N_s_per_m for one in motion.tongue)
+    if _column(motion) is not None and _row(motion.joint_damping_N_s_per_m, top) is not None:
+        return LEGEND
+    share = motion.speed_rpm / motion.parametric_speed_rpm
+    here = f"This arm is off the drawing: {number(motion.speed_rpm, 6)} rpm, {number(share, 5)} of 2ω₀"
+    return f"{LEGEND.split(';')[0]}. {here}; damping {motion.joint_damping_N_s_per_m:g} N·s/m."
