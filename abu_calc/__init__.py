@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
     from abu_calc.studies.stability import StabilityResult, stability
+    from abu_calc.studies.sweep import SweepResult, sweep
     from abu_calc.studies.verify import VerifyResult, verify
 
 _ROOMS: Final = {
@@ -43,6 +44,7 @@ _ROOMS: Final = {
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
+    "studies.sweep": ("SweepResult", "sweep"),
     "studies.verify": ("VerifyResult", "verify"),
 }
 """Where each public name lives."""
@@ -64,6 +66,7 @@ __all__ = [
     "SimulateResult",
     "SizeResult",
     "StabilityResult",
+    "SweepResult",
     "VerifyResult",
     "__version__",
     "accuracy",
@@ -75,6 +78,7 @@ __all__ = [
     "simulate",
     "size",
     "stability",
+    "sweep",
     "verify",
 ]
 

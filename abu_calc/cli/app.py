@@ -20,6 +20,7 @@ COMMANDS = (
     "stability",
     "effects",
     "accuracy",
+    "sweep",
     "verify",
     "validate",
     "init",
@@ -82,14 +83,14 @@ def _warn(message: Warning | str, *_: object, **__: object) -> None:
 def run(arguments: list[str]) -> int:
     """Run `abu` with these arguments and return its exit status; every error is printed in a line or two."""
     command = next((word for word in arguments if not word.startswith("-")), "")
-    as_json = "--json" in arguments
+    as_json, told = "--json" in arguments, "nothing was written."
     try:
         names = (command,) if command in COMMANDS else COMMANDS
         status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
     except AbuError as error:
         return fail(command, error, as_json)
-    except (KeyboardInterrupt, typer.Abort):
-        status = INTERRUPTED
+    except (KeyboardInterrupt, typer.Abort) as stopped:
+        status, told = INTERRUPTED, str(stopped.__cause__ or stopped) or told
     except BrokenPipeError:
         return 0
     except OSError as error:
@@ -103,13 +104,14 @@ def run(arguments: list[str]) -> int:
             raise
         return fail(command, error, as_json)
     if status == INTERRUPTED:
-        print("Interrupted; nothing was written.", file=sys.stderr)
+        print(f"Interrupted; {told}", file=sys.stderr)
     return status if isinstance(status, int) else 0
 
 
 PLAIN = str.maketrans(
     {"µ": "u", "×": "x", "·": "*", "Ø": "dia ", "√": "sqrt", "…": "...", "→": "->", "−": "-", "–": "-", "±": "+-",
      "≤": "<=", "≥": ">=", "°": " deg", "²": "^2", "³": "^3", "Ω": "Omega", "ω": "omega", "Δ": "Delta", "ε": "eps",
+     "█": "#", "▓": "+", "▒": "=", "░": "-",
      "β": "beta", "ρ": "rho", "σ": "sigma", "κ": "kappa", "θ": "theta", "γ": "gamma", "π": "pi", "₀": "0"}
 )  # fmt: skip
 

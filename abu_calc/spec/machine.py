@@ -19,6 +19,7 @@ from abu_calc.spec.bearing_file import (
 from abu_calc.spec.body import MachineTable, Suspension
 from abu_calc.spec.duty import Grinding, Motor, RunUp, SwingArm
 from abu_calc.spec.proportions import larger_than_its_wheel, rim_too_fast
+from abu_calc.spec.sweep import Sweep
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import shown_short
 from abu_calc.spec.wheel import Wheel
@@ -59,6 +60,7 @@ class MachineFile(Table):
         default=(), description="Bearings and their seats: [[bearing]], any number."
     )
     limits: Limits = Field(default_factory=Limits)
+    sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 
     def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:
