@@ -29,8 +29,8 @@ LIMITS = {
 }
 ADVICE = {"tighten": "tighten", "may be loosened": "loosen", "": "leave"}
 TELLS = (
-    "By how much the level that 95 % of the members keep falls among those whose value lies in its better half; told "
-    "by the members there are."
+    "By how much the level that 95 % of the members keep changes among those whose value lies in its better half, and "
+    "in the other; told by the members there are. Loosen: what chance may do is more."
 )
 
 
@@ -144,19 +144,15 @@ def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
     if not told:
         return []
     order = sorted(told, key=lambda one: (one.advice != "tighten", -one.gain_db))
-    grid = Grid(("", "value", "better half", "worth"), tuple(map(_price, order)), frozenset({3}))
+    grid = Grid(("", "value", "better half", "it", "other"), tuple(map(_price, order)), frozenset({3, 4}))
     return [Heading("What to tighten, what may be loosened"), *(() if short else (Paragraph(TELLS),)), grid]
 
 
-def _price(one: Price) -> tuple[str, str, str, str]:
-    """What a value would gain within its better half; nothing where chance may do as much."""
+def _price(one: Price) -> tuple[str, ...]:
+    """What the level gains within the better half of a value, and what it loses in the other."""
     side = f"{'to' if one.better == 'lower' else 'from'} {number(one.median)} {unit_of(one.key)}".rstrip()
-    return (
-        ADVICE[one.advice],
-        one.key,
-        "" if one.within_chance else side,
-        ("no dB seen" if one.within_chance else f"{one.gain_db:.2f} dB"),
-    )
+    other = "" if one.cost_db is None else f"{one.cost_db:+.1f} dB"
+    return ADVICE[one.advice], one.key, side, f"{-one.gain_db:+.1f} dB", other
 
 
 def _failed(result: SweepResult) -> list[Block]:

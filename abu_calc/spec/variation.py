@@ -71,6 +71,8 @@ def variation(value: object, place: Place) -> Variation:
     text = value.strip()
     if call := _CALL.fullmatch(text):
         return _distribution(call[1].lower(), call[2], text, place)
+    if re.match(r"[A-Za-z_]+\s*\(", text):
+        raise _refused(text, place, "a bracket is not closed")
     if text.count(":") == 2:
         return Variation("values", (), _spaced(text, place), text)
     if "," in text or _NUMBER.fullmatch(text):

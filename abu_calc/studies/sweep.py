@@ -122,8 +122,8 @@ def sweep(
     """Many machines like this one, or many runs of a scene.
 
     `vary`: how each value varies, by key: "normal(265, 40)", "100:300:5", a list of values; as on the command line.
-    What is None is that of [sweep] in the file. `what`: build (the design is fixed; each member is one machine built and
-    switched on once) or design (sized anew). `executor`: any of concurrent.futures, or `workers` processes; the
+    What is None is that of [sweep] in the file. `what`: build (the design is fixed; each member is one machine built
+    and switched on once) or design (sized anew). `executor`: any of concurrent.futures, or `workers` processes; the
     members do not depend on it. `store`: where they go as they come; `resume` goes on with one that is there.
     `result.members` has them as arrays. Raises InputError for what is wrong in file or arguments, NotTrustworthyError
     where no member gave a number.
@@ -170,7 +170,7 @@ def _as_stored(
 ) -> Asked:
     """The study that a store was begun with."""
     return asked(
-        machine, [f"{key}={how}" for key, how in known["vary"]], runs=known["base"] or known["runs"],
+        machine, [f"{key}={known['vary'][key]}" for key in known["order"]], runs=known["base"] or known["runs"],
         what=None if known["what"] == "scene" else known["what"], sensitivity=known["scheme"] == "saltelli",
         sampling="sobol" if known["scheme"] == "sobol" else "latin-hypercube", seed=known["seed"],
         tolerances=False, grid=grid, time_limit_s=time_limit_s,
@@ -195,7 +195,8 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
         "seed": sample.seed,
         "scheme": sample.scheme,
         "accuracy": accuracy,
-        "vary": [[one.key, one.variation.text] for one in sample.factors],
+        "vary": {one.key: one.variation.text for one in sample.factors},
+        "order": [one.key for one in sample.factors],
         "file": plan.content,
         "versions": versions(*(("heyoka",) if "heyoka" in ways else ())),
     }

@@ -164,13 +164,17 @@ def _price(store: Store, name: str, row: Sensitivity, whole: float) -> Price | N
             halves.append((level, side, many, where))
     if not halves:
         return None
-    level, better, many, where = min(halves)
+    (level, better, many, where), worse = min(halves), max(halves)[0] if len(halves) > 1 else None
     # By the binomial law of how many of a half lie below its own 95 % level.
     off = 1.96 * math.sqrt(0.05 * 0.95 / many)
     upper = percentile(store, name, min(0.95 + off, 1.0), many, where)
     chance = upper is None or whole <= upper
     advice = "may be loosened" if row.total < FIRST and chance else "" if chance else "tighten"
-    return Price(key=row.key, better=better, median=middle, gain_db=whole - level, within_chance=chance, advice=advice)
+    cost = None if worse is None else worse - whole
+    return Price(
+        key=row.key, better=better, median=middle, gain_db=whole - level, cost_db=cost, within_chance=chance,
+        advice=advice,
+    )  # fmt: skip
 
 
 def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Chart:

@@ -66,7 +66,7 @@ class Sensitivity(Record):
 
 @record
 class Price(Record):
-    """What keeping one value within its better half is worth: the level that 95 % of members keep then.
+    """What one value is worth: the level that 95 % of members keep if it stays in its better half, or its worse one.
 
     Told by the members that lie there.
     """
@@ -74,7 +74,8 @@ class Price(Record):
     key: Annotated[str, Quantity("value")]
     better: Annotated[str, Quantity("better half", "", 4, "lower or upper")]
     median: Annotated[float, Quantity("where the halves meet")]
-    gain_db: Annotated[float, Quantity("lowers the 95 % level by", "", 2)]
+    gain_db: Annotated[float, Quantity("the better half lowers it by", "", 2)]
+    cost_db: Annotated[float | None, Quantity("the worse half raises it by", "", 2)]
     within_chance: Annotated[bool, Quantity("no more than chance may do")]
     advice: Annotated[str, Quantity("advice")]
 
