@@ -67,8 +67,9 @@ def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
 def _about(result: SweepResult) -> list[Block]:
     met = result.meets_limits
     low, high = met.confidence_interval
+    does = "balance" if result.what == "scene" else "meet the limits"
     confidence = f"95 % confidence: {_percent(low)} to {_percent(high)}"
-    text = f"{_percent(met.share)} of {met.of} {MEMBERS[result.what]} meet the limits ({confidence})."
+    text = f"{_percent(met.share)} of {met.of} {MEMBERS[result.what]} {does} ({confidence})."
     kept = f" Members: {result.store}." if result.store else ""
     return [
         Heading(f"{result.title}: sweep"),

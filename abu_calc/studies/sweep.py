@@ -1,6 +1,9 @@
 """Many machines like one: how many meet the limits, and which value decides."""
 
+import shutil
+import sqlite3
 import tempfile
+import weakref
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import field
@@ -63,10 +66,16 @@ class Members:
         return f"Members({self._runs} of {', '.join(self.names)})"
 
 
-def connection(path: Path) -> Any:
-    """To a store that is there."""
-    import sqlite3
+class Kept:
+    """A folder that is there as long as somebody holds this."""
 
+    def __init__(self) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="abu-sweep-"))
+        weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+
+
+def connection(path: Path) -> sqlite3.Connection:
+    """To a store that is there."""
     return sqlite3.connect(path, timeout=30)
 
 
@@ -138,8 +147,8 @@ def sweep(
     if resume and path is not None and ask.nothing and (known := study_of(path)):
         ask = _as_stored(machine, known, grid, time_limit_s)
     plan = planned(machine, ask, accuracy)
-    kept = tempfile.TemporaryDirectory(prefix="abu-sweep-") if path is None else None
-    file = path or Path(kept.name if kept else "") / "members.sqlite"
+    kept = None if path else Kept()
+    file = kept.folder / "members.sqlite" if kept else path or Path()
     columns, texts = _columns(plan.study)
     database = Store.open(file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs)
     try:
