@@ -83,14 +83,14 @@ def _warn(message: Warning | str, *_: object, **__: object) -> None:
 def run(arguments: list[str]) -> int:
     """Run `abu` with these arguments and return its exit status; every error is printed in a line or two."""
     command = next((word for word in arguments if not word.startswith("-")), "")
-    as_json, told = "--json" in arguments, "nothing was written."
+    as_json = "--json" in arguments
     try:
         names = (command,) if command in COMMANDS else COMMANDS
         status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
     except AbuError as error:
         return fail(command, error, as_json)
-    except (KeyboardInterrupt, typer.Abort) as stopped:
-        status, told = INTERRUPTED, str(stopped.__cause__ or stopped) or told
+    except (KeyboardInterrupt, typer.Abort):
+        status = INTERRUPTED
     except BrokenPipeError:
         return 0
     except OSError as error:
@@ -104,7 +104,7 @@ def run(arguments: list[str]) -> int:
             raise
         return fail(command, error, as_json)
     if status == INTERRUPTED:
-        print(f"Interrupted; {told}", file=sys.stderr)
+        print("Interrupted; nothing was written.", file=sys.stderr)
     return status if isinstance(status, int) else 0
 
 

@@ -15,7 +15,7 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.cli.scene_options import File
-from abu_calc.errors import InputError, Place
+from abu_calc.errors import InputError, Place, StoppedError
 from abu_calc.report.outcome import Outcome
 
 Vary = Annotated[
@@ -117,9 +117,10 @@ def _wording(store: Path | None) -> Iterator[None]:
         raise error.at(Place(key=f"--{key}")) from None
     except KeyboardInterrupt as stopped:
         if store is None or not str(stopped):
-            raise KeyboardInterrupt("nothing was kept; with --store FILE.sqlite a sweep can be gone on with.") from None
+            text = "interrupted; no member is kept. A sweep with --store FILE.sqlite can be gone on with."
+            raise StoppedError(text) from None
         resume = "" if "--resume" in sys.argv else " --resume"
-        raise KeyboardInterrupt(f"{stopped} are in {store}. Go on with:\n  {_command()}{resume}") from None
+        raise StoppedError(f"interrupted; {stopped} are in {store}. Go on with:\n  {_command()}{resume}") from None
 
 
 @contextmanager

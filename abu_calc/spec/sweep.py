@@ -75,11 +75,10 @@ class Sweep(Table):
         default=False,
         description="true: also the drawing's own tolerances and the usual scatter of use. Default: {default}.",
     )
-    grid: tuple[str, str] | None = Field(
+    grid: Annotated[tuple[str, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
         default=None,
-        description="Two of the keys with listed values, for a chart over them.",
+        description="Two of the keys with listed values, for a chart over them: across and upward.",
         examples=[["wheel.imbalance_g_mm", "machine.speed_rpm"]],
-        strict=False,
     )
     sensitivity: bool = Field(
         default=False,

@@ -56,7 +56,7 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Ask
         runs=chosen["runs"],
         what=chosen["what"],
         tolerances=chosen["tolerances"],
-        grid=chosen["grid"],
+        grid=None if chosen["grid"] is None else (chosen["grid"][0], chosen["grid"][1]),
         sensitivity=chosen["sensitivity"],
         sampling=chosen["sampling"],
         seed=chosen["seed"],
