@@ -72,7 +72,7 @@ class Workers:
     def close(self) -> None:
         """No more is wanted."""
         if self._executor is not None and self.own:
-            self._executor.shutdown(wait=False, cancel_futures=True)
+            self._executor.shutdown(wait=True, cancel_futures=True)
         self._executor = None
 
 

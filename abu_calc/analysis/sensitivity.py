@@ -6,7 +6,6 @@ products are taken is decided by what a fit to four fifths of the members says o
 two values are left out; what no product explains is told beside. From Saltelli's design: scipy.stats.sobol_indices.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations, product
 from typing import Any, Final
@@ -63,7 +62,14 @@ class Fit:
 
     def take(self, probabilities: Array, values: Array, members: NDArray[np.int64]) -> None:
         """Some members: where their values lie (members × factors), their number, and which they are."""
-        rows = _products(self.levels, self.terms, probabilities)
+        self.add(self.products(probabilities), values, members)
+
+    def products(self, probabilities: Array) -> Array:
+        """The value of each product for each member, which serves all numbers of the same members."""
+        return _products(self.levels, self.terms, probabilities)
+
+    def add(self, rows: Array, values: Array, members: NDArray[np.int64]) -> None:
+        """Some members by their products."""
         # By a hash of their numbers: listed values come round and round.
         folds = (members * 2654435761 % 2**32 >> 16) % FOLDS
         for fold in range(FOLDS):
@@ -83,8 +89,9 @@ class Fit:
         variance = self.squares.sum() / count - mean**2
         if variance <= ROUNDING * max(mean**2, 1e-300):
             return Indices((Index(0.0, 0.0),) * len(self.levels), 0.0)
-        picked = min(_nested(self.terms), key=self._error)
-        G, b = self._sums(picked, range(FOLDS))
+        unseen = [(self.gram.sum(axis=0) - self.gram[k], self.right.sum(axis=0) - self.right[k]) for k in range(FOLDS)]
+        picked = min(_nested(self.terms), key=lambda some: self._error(some, unseen))
+        G, b = _part(self.gram.sum(axis=0), self.right.sum(axis=0), picked)
         solution = _solve(G, b)
         left = max(self.squares.sum() - 2 * solution @ b + solution @ G @ solution, 0.0)
         noise = left / max(count - len(picked), 1)
@@ -101,20 +108,22 @@ class Fit:
         total = sum(s for term, s in zip(terms, shares, strict=True) if factor in [one for one, _ in term])
         return Index(float(min(first, 1.0)), float(min(total, 1.0)))
 
-    def _error(self, picked: tuple[int, ...]) -> float:
-        """Of members that the fit has not seen."""
-        error = 0.0
+    def _error(self, picked: tuple[int, ...], unseen: list[tuple[Array, Array]]) -> float:
+        """Of members that the fit has not seen; `unseen`: the sums without each fold."""
         if len(picked) * EACH > self.count.sum():
             return np.inf
-        for fold in range(FOLDS):
-            solution = _solve(*self._sums(picked, [other for other in range(FOLDS) if other != fold]))
-            G, b = self._sums(picked, [fold])
+        error = 0.0
+        for fold, (gram, right) in enumerate(unseen):
+            solution = _solve(*_part(gram, right, picked))
+            G, b = _part(self.gram[fold], self.right[fold], picked)
             error += float(self.squares[fold] - 2 * solution @ b + solution @ G @ solution)
         return error
 
-    def _sums(self, picked: tuple[int, ...], folds: Iterable[int]) -> tuple[Array, Array]:
-        chosen, rows = list(picked), list(folds)
-        return self.gram[rows].sum(axis=0)[np.ix_(chosen, chosen)], self.right[rows].sum(axis=0)[chosen]
+
+def _part(gram: Array, right: Array, picked: tuple[int, ...]) -> tuple[Array, Array]:
+    """The sums of these products alone."""
+    chosen = list(picked)
+    return gram[np.ix_(chosen, chosen)], right[chosen]
 
 
 def _solve(gram: Array, right: Array) -> Array:

@@ -87,11 +87,11 @@ def sensitivities(
     store: Store, sample: Sample, what: What
 ) -> tuple[dict[str, tuple[Sensitivity, ...]], dict[str, float]]:
     """By number, the deciding one first; and what nothing explains of each. Those of too few members are left out."""
-    names = dict.fromkeys((DECIDING[what], *(one.name for one in QUANTITIES[what]), MEETS.name))
+    names = list(dict.fromkeys((DECIDING[what], *(one.name for one in QUANTITIES[what]), MEETS.name)))
+    every = (_of_saltelli if sample.scheme == "saltelli" else _of_fits)(store, sample, names)
     found: dict[str, tuple[Sensitivity, ...]] = {}
     unexplained: dict[str, float] = {}
-    for name in names:
-        indices = _indices(store, sample, name)
+    for name, indices in every.items():
         if indices is not None:
             pairs = zip(sample.factors, indices.each, strict=True)
             rows = [Sensitivity(key=one.key, first_order=each.first_order, total=each.total) for one, each in pairs]
@@ -100,41 +100,45 @@ def sensitivities(
     return found, unexplained
 
 
-def _indices(store: Store, sample: Sample, name: str) -> Indices | None:
-    if sample.scheme == "saltelli":
-        return _of_saltelli(store, sample, name)
-    fit = Fit(tuple(len(one.variation.values) for one in sample.factors), sample.runs)
-    for members, values in _parts(store, name):
-        first = members // BLOCK * BLOCK
-        rows = np.empty((len(members), len(sample.factors)))
-        for start in np.unique(first).tolist():
-            here = first == start
-            rows[here] = block(sample, start // BLOCK)[members[here] - start]
-        fit.take(rows, values, members)
-    return fit.indices()
+def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
+    """All numbers in one pass, since their products are the same."""
+    levels = tuple(len(one.variation.values) for one in sample.factors)
+    fits = {name: Fit(levels, sample.runs) for name in names}
+    for members, columns in _parts(store, names):
+        places = np.empty((len(members), len(sample.factors)))
+        for first in np.unique(members // BLOCK).tolist():
+            here = members // BLOCK == first
+            places[here] = block(sample, first)[members[here] - first * BLOCK]
+        rows = fits[names[0]].products(places)
+        for fit, values in zip(fits.values(), columns, strict=True):
+            there = np.isfinite(values)
+            fit.add(rows[there], values[there], members[there])
+    return {name: fit.indices() for name, fit in fits.items()}
 
 
-def _of_saltelli(store: Store, sample: Sample, name: str) -> Indices | None:
+def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
     """A row of the matrices in which a member gave no number is replaced by the next whole one."""
-    values = np.full(sample.runs, np.nan)
-    for members, found in _parts(store, name):
-        values[members] = found
-    parts = values.reshape(len(sample.factors) + 2, -1)
-    whole = np.flatnonzero(np.isfinite(parts).all(axis=0))
-    if not len(whole):
-        return None
-    rows = whole[np.searchsorted(whole, np.arange(parts.shape[1])) % len(whole)]
-    return saltelli(parts[:, rows].ravel(), len(sample.factors))
+    values = np.full((len(names), sample.runs), np.nan)
+    for members, columns in _parts(store, names):
+        values[:, members] = columns
+    found: dict[str, Indices | None] = {}
+    for name, column in zip(names, values, strict=True):
+        parts = column.reshape(len(sample.factors) + 2, -1)
+        whole = np.flatnonzero(np.isfinite(parts).all(axis=0))
+        rows = whole[np.searchsorted(whole, np.arange(parts.shape[1])) % len(whole)] if len(whole) else whole
+        found[name] = saltelli(parts[:, rows].ravel(), len(sample.factors)) if len(whole) else None
+    return found
 
 
-def _parts(store: Store, name: str) -> Iterator[tuple[Any, Any]]:
-    """Members and their numbers, some thousand at a time; those without left out."""
-    query = f"SELECT member, {quoted(name)} FROM members WHERE {ANSWERED} AND {quoted(name)} IS NOT NULL"
+def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
+    """Members with answers and their numbers (names × members), some thousand at a time; NaN where one is none."""
+    query = f"SELECT member, {', '.join(map(quoted, names))} FROM members WHERE {ANSWERED}"
     size = 8 * BLOCK
     for first in range(0, store.runs, size):
         rows = list(store.ask(f"{query} AND member >= ? AND member < ? ORDER BY member", (first, first + size)))
         if rows:
-            yield np.array([row[0] for row in rows], dtype=np.int64), np.array([row[1] for row in rows], dtype=float)
+            table = np.array([[np.nan if value is None else value for value in row] for row in rows], dtype=float).T
+            yield table[0].astype(np.int64), table[1:]
 
 
 def prices(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Price, ...]:
