@@ -51,6 +51,11 @@ class Sample:
         """Combinations of listed values."""
         return math.prod(len(one.variation.values) for one in self.factors if one.variation.listed)
 
+    @property
+    def drawn(self) -> int:
+        """How many are drawn each for itself: in Saltelli's design those of its first two matrices."""
+        return 2 * self.base if self.scheme == "saltelli" else self.runs
+
     def probabilities(self, member: int) -> tuple[float, ...]:
         """Where each value of a member lies in its distribution, 0 … 1."""
         first = member - member % BLOCK

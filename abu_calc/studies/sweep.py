@@ -31,6 +31,8 @@ from abu_calc.studies.sweeping.records import Chart, Failed, MeetsLimits, Percen
 from abu_calc.studies.sweeping.store import Store, study_of
 from abu_calc.studies.sweeping.who import compute, described, versions
 
+ROUGH: Final = 256
+"""Rows of Saltelli's design below which indices may be off by a tenth and more."""
 FEW: Final = 0.05
 """Share of members without numbers beyond which the others speak for too few."""
 
@@ -151,6 +153,7 @@ def sweep(
     file = kept.folder / "members.sqlite" if kept else path or Path()
     columns, texts = _columns(plan.study)
     database = Store.open(file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs)
+    database.drawn = plan.study.sample.drawn
     try:
         _computed(plan, database, machine, workers, executor, command, progress)
         members = Members(file, columns, database.runs, kept)
@@ -310,9 +313,17 @@ def _warnings(plan: Plan, store: Store) -> list[str]:
     failing = [check.code for check in plan.design.checks if check.status == "fail"] if plan.design else []
     if failing:
         found.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
+    rows = plan.study.sample.base
+    if 0 < rows < ROUGH:
+        found.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
     if plan.study.what != "design":
         settling = answers.spread(store, "settling_time_s")
-        never = next(store.ask("SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL"))[0]
+        never = next(
+            store.ask(
+                "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
+                (store.drawn,),
+            )
+        )[0]
         if never and settling.mean is None:
             found.append(
                 f"{never} members never settle: they count as later than all others, and settling has no mean."

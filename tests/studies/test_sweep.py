@@ -245,3 +245,17 @@ def test_wrong_arguments_are_refused_by_name(options: dict[str, Any], key: str) 
     with pytest.raises(abu_calc.InputError) as refused:
         abu_calc.sweep(abu_calc.read("msh-230"), **options)
     assert refused.value.place.key == key
+
+
+def test_saltellis_design_spends_its_runs_and_counts_each_machine_once(machine: abu_calc.Machine) -> None:
+    """Members of the mixed matrices repeat the values of others: shares and percentiles are those of the first two."""
+    vary = {ECCENTRICITY: "uniform(0.004, 0.016)", "wheel.imbalance_g_mm": "choice(200, 260)", **CALM}
+    found = abu_calc.sweep(machine, vary, 4, sensitivity=True)
+    width = len(found.varied)
+    assert found.runs == 4 * (width + 2) and found.meets_limits.of == 8
+    level = found.members["level_db"]
+    assert found.quantities["level_db"].p50 == pytest.approx(np.median(level[:8]))
+    parts = found.members[ECCENTRICITY].reshape(width + 2, 4)
+    place = [one.key for one in found.varied].index(ECCENTRICITY)
+    assert (parts[2 + place] == parts[1]).all() and (parts[3 + place] == parts[0]).all()
+    assert any("rough" in warning for warning in found.warnings)

@@ -31,6 +31,11 @@ LEAST: Final = 40
 ANSWERED: Final = "reason IS NULL"
 
 
+def _there(store: Store) -> str:
+    """Members with answers that were drawn each for itself."""
+    return f"{ANSWERED} AND member < {store.drawn}"
+
+
 def failed(store: Store) -> Failed:
     """How many gave no numbers, and why."""
     query = "SELECT reason, COUNT(*), MIN(member) FROM members WHERE reason IS NOT NULL GROUP BY reason ORDER BY 2 DESC"
@@ -46,18 +51,20 @@ def spreads(store: Store, what: What) -> dict[str, Percentiles]:
 
 def spread(store: Store, name: str) -> Percentiles:
     """Percentiles as NumPy has them; one that is null (never, or nothing) comes after all numbers."""
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {ANSWERED}"))[0]
-    numbers, mean = next(store.ask(f"SELECT COUNT({quoted(name)}), AVG({quoted(name)}) FROM members WHERE {ANSWERED}"))
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
+    column = quoted(name)
+    numbers, mean = next(store.ask(f"SELECT COUNT({column}), AVG({column}) FROM members WHERE {_there(store)}"))
     p05, p50, p95 = (percentile(store, name, share, count) for share in (0.05, 0.5, 0.95))
     return Percentiles(p05=p05, p50=p50, p95=p95, mean=mean if numbers == count and count else None)
 
 
-def percentile(store: Store, name: str, share: float, count: int, where: str = ANSWERED) -> float | None:
+def percentile(store: Store, name: str, share: float, count: int, where: str | None = None) -> float | None:
     """Between the two members about it; None where one of them is none."""
     if not count:
         return None
     place = share * (count - 1)
     first = math.floor(place)
+    where = where or _there(store)
     query = f"SELECT {quoted(name)} FROM members WHERE {where} ORDER BY {quoted(name)} IS NULL, {quoted(name)}"
     values = [row[0] for row in store.ask(f"{query} LIMIT 2 OFFSET {first}")]
     low, high = values[0], values[-1]
@@ -76,7 +83,9 @@ def meets(store: Store, what: What) -> MeetsLimits:
 def _share(store: Store, name: str) -> Share:
     from scipy.stats import binomtest
 
-    met, count = next(store.ask(f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members"))
+    met, count = next(
+        store.ask(f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE member < {store.drawn}")
+    )
     interval = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
     return Share(
         share=met / count, confidence_interval=(float(interval.low), float(interval.high)), met=int(met), of=int(count)
@@ -144,7 +153,7 @@ def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
 def prices(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Price, ...]:
     """For each value of the file that is a number: the level that 95 % keep if it stays within its better half."""
     name = DECIDING[what]
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {ANSWERED}"))[0]
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
     whole = percentile(store, name, 0.95, count)
     if whole is None:
         return ()
@@ -155,13 +164,13 @@ def prices(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivit
 
 def _price(store: Store, name: str, row: Sensitivity, whole: float) -> Price | None:
     key = quoted(row.key)
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {ANSWERED}"))[0]
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
     middle = percentile(store, row.key, 0.5, count)
     if middle is None or count < 2 * LEAST:
         return None
     halves = []
     for side, sign in (("lower", "<="), ("upper", ">")):
-        where = f"{ANSWERED} AND {key} {sign} {middle!r}"
+        where = f"{_there(store)} AND {key} {sign} {middle!r}"
         many = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
         level = percentile(store, name, 0.95, many, where)
         if level is not None and many >= LEAST:
@@ -188,7 +197,7 @@ def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Ch
     level = quoted(DECIDING[what])
     query = (
         f"SELECT {quoted(grid[0])}, {quoted(grid[1])}, AVG({quoted(flag)}), AVG({level}) FROM members "
-        f"WHERE {ANSWERED} GROUP BY 1, 2"
+        f"WHERE {_there(store)} GROUP BY 1, 2"
     )
     found: dict[tuple[object, object], tuple[float | None, ...]] = {
         (x, y): (*cell,) for x, y, *cell in store.ask(query)

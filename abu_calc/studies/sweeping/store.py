@@ -36,6 +36,8 @@ class Store:
 
     def __init__(self, path: Path, database: sqlite3.Connection, names: tuple[str, ...], runs: int) -> None:
         self.path, self.names, self.runs, self._database = path, names, runs, database
+        self.drawn = runs
+        """Members below were drawn each for itself; the others of Saltelli's design repeat their values."""
         marks = ", ".join("?" * len(names))
         self._insert = f"INSERT OR IGNORE INTO members VALUES ({marks})"
 
