@@ -12,7 +12,7 @@ GRACE: Final = 5.0
 """Seconds after which a process whose work does not give up is ended, where it may be."""
 
 
-class Overtime(BaseException):  # noqa: N818 - it is no error, and nobody else's to handle
+class Overtime(BaseException):
     """The time is over."""
 
 

@@ -17,7 +17,7 @@ MOST = 8
 """Values with a bar on one screen."""
 MEMBERS = {
     "build": "machines built to one design",
-    "design": "machines, each with a design of its own",
+    "design": "machines, each designed anew,",
     "scene": "runs",
 }
 LIMITS = {
@@ -74,7 +74,9 @@ def _about(result: SweepResult) -> list[Block]:
     return [
         Heading(f"{result.title}: sweep"),
         Paragraph(text, _mark(result)),
-        Paragraph(f"Drawn by {result.sampling}, seed {result.seed}; {many(len(result.varied), 'value')} vary.{kept}"),
+        Paragraph(
+            f"Drawn by {result.sampling}, seed {result.seed}; {many(len(result.varied), 'value varies', 'values vary')}.{kept}"
+        ),
     ]
 
 
