@@ -71,12 +71,11 @@ def _about(result: SweepResult) -> list[Block]:
     confidence = f"95 % confidence: {_percent(low)} to {_percent(high)}"
     text = f"{_percent(met.share)} of {met.of} {MEMBERS[result.what]} {does} ({confidence})."
     kept = f" Members: {result.store}." if result.store else ""
+    varied = many(len(result.varied), "value varies", "values vary")
     return [
         Heading(f"{result.title}: sweep"),
         Paragraph(text, _mark(result)),
-        Paragraph(
-            f"Drawn by {result.sampling}, seed {result.seed}; {many(len(result.varied), 'value varies', 'values vary')}.{kept}"
-        ),
+        Paragraph(f"Drawn by {result.sampling}, seed {result.seed}; {varied}.{kept}"),
     ]
 
 

@@ -80,3 +80,12 @@ def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
     seen = abu("sweep", "msh-230", "--tolerances", "--cluster", "tcp://127.0.0.1:1", "--json")
     assert seen.status == 2 and "abu-calc[cluster]" in seen.err
     assert json.loads(seen.out)["error"]["key"] == "--cluster"
+
+
+def test_a_wrong_table_is_named_with_its_file(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    assert abu("init", str(file)).status == 0
+    with file.open("a", encoding="utf-8") as text:
+        text.write('\n[sweep.vary]\n"wheel.mas_kg" = "1:2:2"\n')
+    seen = abu("sweep", str(file))
+    assert seen.status == 2 and "machine.toml" in seen.err and "sweep.vary wheel.mas_kg: unknown key" in seen.err

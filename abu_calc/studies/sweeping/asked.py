@@ -1,7 +1,7 @@
 """What a sweep is asked for: the table [sweep] of the file, and what arguments put in its place."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from abu_calc.errors import InputError, Place
@@ -35,6 +35,8 @@ class Asked:
     seed: int
     time_limit: float
     least_share: float | None
+    of_table: dict[str, Place]
+    """Keys that vary as the table of the file says, and where it does."""
     nothing: bool
     """Whether neither the file nor arguments say what to vary."""
 
@@ -48,8 +50,10 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Ask
     if chosen["runs"] is not None:
         RUNS.check(chosen["runs"])
     SEED.check(chosen["seed"])
-    ways = _ways(table.vary, Place(source.file or None, source.lines.get("sweep.vary"), "sweep.vary"))
-    ways |= _ways(vary, Place(key="vary"))
+    here = Place(source.file or None, source.lines.get("sweep.vary"), "sweep.vary")
+    ways, given = _ways(table.vary, here), _ways(vary, Place(key="vary"))
+    of_table = {f"vary {key}": replace(here, key=f"sweep.vary {key}") for key in ways if key not in given}
+    ways |= given
     nothing = not ways and all(options.get(name) is None for name in ("runs", "tolerances", "sensitivity", "seed"))
     return Asked(
         vary=tuple(ways.items()),
@@ -62,6 +66,7 @@ def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Ask
         seed=chosen["seed"],
         time_limit=TIME_LIMIT.check(chosen["time_limit_s"]),
         least_share=table.least_share,
+        of_table=of_table,
         nothing=nothing and _given(source) is None,
     )
 

@@ -52,6 +52,15 @@ class Plan:
 
 def planned(source: Machine | SceneDescription, ask: Asked, accuracy: float) -> Plan:
     """The study of a file. Raises InputError for keys and values that the file does not bear."""
+    try:
+        return _planned(source, ask, accuracy)
+    except InputError as error:
+        if place := ask.of_table.get(error.place.key or ""):
+            raise error.at(place) from None
+        raise
+
+
+def _planned(source: Machine | SceneDescription, ask: Asked, accuracy: float) -> Plan:
     if isinstance(source, SceneDescription):
         return _of_scene(source, ask, accuracy)
     tables = source.whole("sweep")
