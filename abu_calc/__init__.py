@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
     from abu_calc.studies.stability import StabilityResult, stability
-    from abu_calc.studies.sweep import SweepResult, sweep
+    from abu_calc.studies.sweep import sweep
+    from abu_calc.studies.sweeping.result import SweepResult
     from abu_calc.studies.verify import VerifyResult, verify
 
 _ROOMS: Final = {
@@ -44,7 +45,8 @@ _ROOMS: Final = {
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
-    "studies.sweep": ("SweepResult", "sweep"),
+    "studies.sweep": ("sweep",),
+    "studies.sweeping.result": ("SweepResult",),
     "studies.verify": ("VerifyResult", "verify"),
 }
 """Where each public name lives."""

@@ -13,7 +13,7 @@ from abu_calc.studies.result import Result
 from abu_calc.studies.simulate import SimulateResult
 from abu_calc.studies.size import SizeResult
 from abu_calc.studies.stability import StabilityResult
-from abu_calc.studies.sweep import SweepResult
+from abu_calc.studies.sweeping.result import SweepResult
 from abu_calc.studies.verify import VerifyResult
 from abu_calc.units import unit_of
 

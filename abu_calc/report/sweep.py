@@ -7,8 +7,8 @@ from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, notices, provenance_blocks
 from abu_calc.report.screen import many, one_screen
 from abu_calc.report.sweep_chart import bar, chart_blocks
-from abu_calc.studies.sweep import SweepResult
 from abu_calc.studies.sweeping.records import Price, Sensitivity
+from abu_calc.studies.sweeping.result import SweepResult
 from abu_calc.units import unit_of
 
 MATTER = 0.01
