@@ -34,6 +34,8 @@ if TYPE_CHECKING:
     from abu_calc.studies.simulate import SimulateResult, simulate
     from abu_calc.studies.size import SizeResult, size
     from abu_calc.studies.stability import StabilityResult, stability
+    from abu_calc.studies.sweep import sweep
+    from abu_calc.studies.sweeping.result import SweepResult
     from abu_calc.studies.verify import VerifyResult, verify
 
 _ROOMS: Final = {
@@ -57,6 +59,8 @@ _ROOMS: Final = {
     "studies.simulate": ("SimulateResult", "simulate"),
     "studies.size": ("SizeResult", "size"),
     "studies.stability": ("StabilityResult", "stability"),
+    "studies.sweep": ("sweep",),
+    "studies.sweeping.result": ("SweepResult",),
     "studies.verify": ("VerifyResult", "verify"),
 }
 """Where each public name lives."""
@@ -84,6 +88,7 @@ __all__ = [
     "SimulateResult",
     "SizeResult",
     "StabilityResult",
+    "SweepResult",
     "VerifyResult",
     "__version__",
     "accuracy",
@@ -101,6 +106,7 @@ __all__ = [
     "simulate",
     "size",
     "stability",
+    "sweep",
     "verify",
 ]
 

@@ -343,6 +343,20 @@ _ALL: Final = (
         "More time (--budget), or less accuracy.", "simulation",
     ),
     CheckCode(
+        "ABU821", "members with numbers",
+        "Whether the members of a sweep gave numbers that can be trusted; those that did not count as not meeting "
+        "the limits.",
+        "Not done where more than one in twenty gave none; it warns where any did.",
+        "The reasons stand in the report; distributions may reach values that no machine has.", "simulation",
+    ),
+    CheckCode(
+        "ABU822", "share that meets the limits",
+        "Whether as many machines of the series meet the limits as [sweep] least_share asks for.",
+        "The share of members is below it. It warns while the confidence interval reaches below it, and where nothing "
+        "is asked for and not all members meet the limits.",
+        "Tighten what the report names, or change the design.", "simulation",
+    ),
+    CheckCode(
         "ABU901", "expected values",
         "Whether the results of a file are those of its table [expected]; the check bears the name of the file.",
         "A value differs by more than its tolerance.",

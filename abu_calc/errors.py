@@ -4,7 +4,8 @@
     ├── InputError                   2   the file or the options are wrong, nothing was computed
     │   ├── RangeError               2   a value outside the range a formula or a table is valid in
     │   └── OutputError              2   a result cannot be written where it was asked for
-    └── NotTrustworthyError          3   integration failed, or did not converge to the accuracy asked for
+    ├── NotTrustworthyError          3   integration failed, or did not converge to the accuracy asked for
+    └── StoppedError               130   somebody interrupted long work; what there is of it is kept
 
 Statuses 0 and 1 are no errors: they tell whether every check of a result passed.
 """
@@ -91,3 +92,10 @@ class NotTrustworthyError(AbuError):
     """No number that can be trusted: names the quantity, the moment, and what to change."""
 
     kind: ClassVar[str] = "not-trustworthy"
+
+
+class StoppedError(AbuError):
+    """Somebody interrupted long work; says what is kept, and how to go on."""
+
+    kind: ClassVar[str] = "interrupted"
+    exit_status: ClassVar[int] = 130

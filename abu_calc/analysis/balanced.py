@@ -19,12 +19,13 @@ def slip(response: Response, speed: float) -> float:
 def allowed_imbalance(design: Design, moved: float) -> float:
     """What may be left [kg m]: a tenth of the imbalance, and what eccentricity and dry friction leave in any case.
 
-    Friction at its worst arrangement, but with that no more than half the imbalance: less would be no balancing.
+    Friction at its worst arrangement, but with that no more than half the imbalance: less would be no balancing. In a
+    design without worst arrangements it is that of balls fanned evenly: then what is allowed is the least that is.
     """
     one = design.autobalancer
     mass, budget = one.requirement.effective_mass, one.budget
     tenth = SETTLED * max(moved, HARDLY * one.static_moment) + mass * budget.race_eccentricity
-    worst = max(each.rolling_friction for each in design.worst)
+    worst = max((each.rolling_friction for each in design.worst), default=0.0)
     return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
 
 

@@ -35,6 +35,7 @@ COMMANDS = (
     "balance",
     "effects",
     "accuracy",
+    "sweep",
     "levels",
     "factory",
     "verify",

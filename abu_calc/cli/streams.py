@@ -14,7 +14,8 @@ from typing import Any, Final
 PLAIN: Final = str.maketrans(
     {"µ": "u", "×": "x", "·": "*", "Ø": "dia ", "√": "sqrt", "…": "...", "→": "->", "−": "-", "–": "-", "±": "+-",
      "≤": "<=", "≥": ">=", "°": " deg", "²": "^2", "³": "^3", "Ω": "Omega", "ω": "omega", "Δ": "Delta", "ε": "eps",
-     "β": "beta", "ρ": "rho", "σ": "sigma", "κ": "kappa", "θ": "theta", "γ": "gamma", "π": "pi", "₀": "0"}
+     "β": "beta", "ρ": "rho", "σ": "sigma", "κ": "kappa", "θ": "theta", "α": "alpha", "φ": "phi", "γ": "gamma",
+     "π": "pi", "₀": "0", "█": "#", "▓": "+", "▒": "=", "░": "-"}
 )  # fmt: skip
 
 BUSY_S: Final = 0.01

@@ -17,6 +17,7 @@ from abu_calc.studies.result import Result
 from abu_calc.studies.simulate import SimulateResult
 from abu_calc.studies.size import SizeResult
 from abu_calc.studies.stability import StabilityResult
+from abu_calc.studies.sweeping.result import SweepResult
 from abu_calc.studies.verify import VerifyResult
 from abu_calc.units import unit_of
 
@@ -24,7 +25,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
     SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
-    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, VerifyResult,
+    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, SweepResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}

@@ -102,6 +102,7 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.slow_motion:ball_stiffness",
             "formulas.slow_motion:decay_rate",
             "formulas.slow_motion:optimum_drag",
+            "formulas.oil:drag_ratio",
         ),
         step_numbers.track,
     ),

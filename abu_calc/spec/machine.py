@@ -20,6 +20,7 @@ from abu_calc.spec.body import MachineTable, Suspension
 from abu_calc.spec.duty import Grinding, Motor, RunUp, SwingArm
 from abu_calc.spec.measured import MeasuredAfter
 from abu_calc.spec.proportions import larger_than_its_wheel, rim_too_fast
+from abu_calc.spec.sweep import Sweep
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import shown_short
 from abu_calc.spec.wheel import Wheel
@@ -62,6 +63,7 @@ class MachineFile(Table):
         default=(), description="Bearings and their seats: [[bearing]], up to 100."
     )
     limits: Limits = Field(default_factory=Limits)
+    sweep: Sweep | None = None
     expected: Expected = Field(default_factory=dict, description=EXPECTED)
 
     def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:

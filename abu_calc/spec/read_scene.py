@@ -12,6 +12,7 @@ from abu_calc.spec.scene import SceneFile, SceneTable
 
 if TYPE_CHECKING:
     from abu_calc.spec.overrides import Override
+    from abu_calc.spec.sweep import Sweep
 
 
 @dataclass(frozen=True)
@@ -19,6 +20,7 @@ class SceneDescription(Reading):
     """A scene file; `scene` is what stands in it, in the units people wrote."""
 
     scene: SceneTable
+    sweep: "Sweep | None" = None
 
     def changed(self, values: Mapping[str, object]) -> "SceneDescription":
         """The scene with entries of its file replaced, by key path: `changed({"scene.speed_rpm": 5800.0})`.
@@ -50,4 +52,4 @@ def scene_from(document: Document, overrides: "Sequence[Override]" = ()) -> Scen
     """The scene of a document that is open already; raises as `read_scene` does."""
     refuse_others(document, "scene")
     file, reading = validate(document, overrides, SceneFile, lambda _: SceneFile)
-    return SceneDescription(**vars(reading), scene=file.scene)
+    return SceneDescription(**vars(reading), scene=file.scene, sweep=file.sweep)

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from abu_calc.spec.scene_effects import Effects
 from abu_calc.spec.scene_race import SceneRace, refuse_overlap
 from abu_calc.spec.scene_support import Body, DampingPair, SceneSwingArm, StiffnessPair, Tilting
+from abu_calc.spec.sweep import Sweep
 from abu_calc.spec.table import Table, problem
 from abu_calc.spec.text import Part
 
@@ -217,3 +218,4 @@ class SceneFile(Table):
     """A simulation given outright, without sizing."""
 
     scene: SceneTable
+    sweep: Sweep | None = None

@@ -1,7 +1,7 @@
 """Arguments of studies, refused before anything is computed; the key of such an error is the argument's name."""
 
 import sys
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cache, wraps
 from types import NoneType, UnionType
 from typing import Any, Final, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -24,6 +24,8 @@ WORDS: Final = {
     "SceneDescription": "a scene file that was read",
     "Scene": "an abu_calc.Scene",
     "Recording": "a recording that was read",
+    "Mapping": "a dictionary by key",
+    "Executor": "an executor of concurrent.futures",
     "Path": "a path",
 }
 """What an argument of each type takes."""
@@ -84,6 +86,8 @@ def _as(kind: Any, value: Any) -> Any:
         return kind(number) if isinstance(number, (int, kind)) and not _huge(number) else None
     if origin is Callable:
         return value if callable(value) else None
+    if origin is Mapping:
+        return value if isinstance(value, Mapping) else None
     if origin not in (tuple, Sequence):
         return value if isinstance(value, kind) else None
     if isinstance(value, str) or not isinstance(value, Sequence):

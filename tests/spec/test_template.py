@@ -11,7 +11,16 @@ from abu_calc.spec.table import all_tables
 from abu_calc.spec.template import WIDTH, template
 from tests.spec.samples import document, read
 
-OPTIONAL = ["[[machine.handle]]", "[grinding]", "[run_up]", "[motor]", "[swing_arm]", "[[bearing]]", "[expected]"]
+OPTIONAL = [
+    "[[machine.handle]]",
+    "[grinding]",
+    "[run_up]",
+    "[motor]",
+    "[swing_arm]",
+    "[[bearing]]",
+    "[sweep]",
+    "[expected]",
+]
 REPLACED = {"imbalance_g_mm": ("balance_grade", *QUANTITIES), "runout_mm": ("runout_tir_mm",)}
 
 

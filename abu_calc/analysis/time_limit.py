@@ -1,0 +1,61 @@
+"""Work that takes too long is given up, in any thread and on any system, and the next goes on."""
+
+import ctypes
+import faulthandler
+import os
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+GRACE: Final = 5.0
+"""Seconds after which a process whose work does not give up is ended, where it may be."""
+
+
+class Overtime(BaseException):
+    """The time is over."""
+
+
+@contextmanager
+def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
+    """Raises Overtime inside once the time is over, as soon as Python code runs there.
+
+    `may_end_process`: what never returns to Python takes the process with it; only for processes that were made to
+    compute, whose owner notices.
+    """
+    thread, lock, inside = threading.get_ident(), threading.Lock(), True
+
+    def stop() -> None:
+        with lock:
+            if inside:
+                _raise_in(thread, Overtime)
+
+    timer = threading.Timer(seconds, stop)
+    timer.daemon = True
+    timer.start()
+    if may_end_process:
+        faulthandler.dump_traceback_later(seconds + GRACE, exit=True, file=_nowhere())
+    try:
+        yield
+    finally:
+        timer.cancel()
+        with lock:
+            inside = False
+        _raise_in(thread, None)  # one that was raised, but did not arrive in time
+        if may_end_process:
+            faulthandler.cancel_dump_traceback_later()
+
+
+def _raise_in(thread: int, kind: type[BaseException] | None) -> None:
+    raised = ctypes.py_object(kind) if kind else None
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
+
+
+_open: list[int] = []
+
+
+def _nowhere() -> int:
+    """A file that swallows what is written."""
+    if not _open:
+        _open.append(os.open(os.devnull, os.O_WRONLY))
+    return _open[0]

@@ -1,0 +1,140 @@
+"""`abu sweep MACHINE|SCENE`: many machines like this one: how many meet the limits, which value decides."""
+
+import os
+import shlex
+import sys
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.cli.scene_options import File
+from abu_calc.errors import InputError, Place, StoppedError
+from abu_calc.report.outcome import Outcome
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="KEY=HOW",
+        help="LOW:HIGH:N, A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), "
+        "triangular(LOW,MODE,HIGH) or choice(A,B,…); repeatable. KEY: of the file, or start.kind, start.angle_deg, "
+        "start.eccentricity_deg, start.temperature_C.",
+    ),
+]
+
+
+def sweep(
+    how: Delivery,
+    machine: File,
+    set_: Overrides = None,
+    vary: Vary = None,
+    runs: Annotated[int | None, typer.Option("--runs", metavar="N", help="How many members; default 100.")] = None,
+    what: Annotated[
+        str | None,
+        typer.Option("--what", help="build: one design, each member built and switched on once; design: sized anew."),
+    ] = None,
+    tolerances: Annotated[
+        bool, typer.Option("--tolerances", help="The drawing's own tolerances and the usual scatter of use.")
+    ] = False,
+    grid: Annotated[
+        tuple[str, str] | None,
+        typer.Option("--grid", metavar="KEY KEY", help="Chart over two keys with listed values."),
+    ] = None,
+    sensitivity: Annotated[
+        bool, typer.Option("--sensitivity", help="Spend the runs of a Saltelli design: N times (values + 2).")
+    ] = False,
+    sampling: Annotated[str | None, typer.Option("--sampling", help="latin-hypercube (default) or sobol.")] = None,
+    seed: Annotated[int | None, typer.Option("--seed", help="Of all that is drawn; default 0.")] = None,
+    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of each run.")] = 0.01,
+    time_limit_s: Annotated[
+        float | None, typer.Option("--time-limit", metavar="S", help="Longest time for one member; default 60.")
+    ] = None,
+    store: Annotated[
+        Path | None, typer.Option("--store", metavar="FILE.sqlite", help="Keep every member, as they come.")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with the store.")] = False,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", help="Processes; default one for each processor.")
+    ] = None,
+    cluster: Annotated[
+        str | None, typer.Option("--cluster", metavar="ADDRESS", help="Of a Dask scheduler that computes instead.")
+    ] = None,
+) -> Outcome:
+    """Many machines like this one: share that meets the limits, percentiles, which value decides."""
+    from abu_calc.report.sweep import sweep_blocks, sweep_screen
+    from abu_calc.spec.read_scene import read_any
+    from abu_calc.studies.sweep import sweep as study
+
+    if resume and store is None:
+        raise InputError("--resume goes with --store", remedy="Add --store FILE.sqlite.")
+    if store is not None and how.output is not None and store.resolve() == how.output.resolve():
+        raise InputError("--output and --store name the same file", found=str(store))
+    with _wording(store), _executor(cluster) as executor, progress(how) as tell:
+        result = study(
+            read_any(machine, set_ or ()),
+            vary,
+            runs,
+            what=what,
+            tolerances=tolerances or None,
+            grid=grid,
+            sensitivity=sensitivity or None,
+            sampling=sampling,
+            seed=seed,
+            accuracy=accuracy,
+            time_limit_s=time_limit_s,
+            store=store,
+            resume=resume,
+            force=how.force,
+            executor=executor,
+            workers=None if executor else (workers or os.cpu_count() or 1),
+            command=_command(),
+            progress=tell,
+        )
+    return Outcome.of(result, lambda: sweep_blocks(result), lambda: sweep_screen(result))
+
+
+def _command() -> str:
+    """What was typed."""
+    return shlex.join(["abu", *sys.argv[1:]])
+
+
+@contextmanager
+def _wording(store: Path | None) -> Iterator[None]:
+    """Errors name the option; who interrupts is told how to go on."""
+    try:
+        yield
+    except InputError as error:
+        key = error.place.key or ""
+        if error.place.file is not None or not key.startswith("vary "):
+            raise
+        raise error.at(Place(key=f"--{key}")) from None
+    except KeyboardInterrupt as stopped:
+        if store is None or not str(stopped):
+            text = "interrupted; no member is kept. A sweep with --store FILE.sqlite can be gone on with."
+            raise StoppedError(text) from None
+        resume = "" if "--resume" in sys.argv else " --resume"
+        raise StoppedError(f"interrupted; {stopped} are in {store}. Go on with:\n  {_command()}{resume}") from None
+
+
+@contextmanager
+def _executor(cluster: str | None) -> Iterator[Executor | None]:
+    """That of a Dask cluster, if one is asked for."""
+    if cluster is None:
+        yield None
+        return
+    from abu_calc.cli.cluster import executor
+
+    with executor(cluster) as found:
+        yield found
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "sweep", sweep)

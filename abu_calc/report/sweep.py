@@ -1,0 +1,169 @@
+"""The report of `abu sweep`: how many meet the limits, the spread of the numbers, which value decides."""
+
+from collections.abc import Sequence
+
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.numbers import number
+from abu_calc.report.parts import check_blocks, notices, provenance_blocks
+from abu_calc.report.screen import many, one_screen
+from abu_calc.report.sweep_chart import bar, chart_blocks
+from abu_calc.studies.sweeping.records import Price, Sensitivity
+from abu_calc.studies.sweeping.result import SweepResult
+from abu_calc.units import unit_of
+
+MATTER = 0.01
+"""A value whose total index is below is only counted."""
+MOST = 8
+"""Values with a bar on one screen."""
+MEMBERS = {
+    "build": "machines built to one design",
+    "design": "machines, each designed anew,",
+    "scene": "runs",
+}
+LIMITS = {
+    "balances": "balances",
+    "none_hangs": "no ball hangs",
+    "meets_level": "level within limit",
+    "meets_settling": "settles in time",
+    "meets_limits": "all of them",
+}
+ADVICE = {"tighten": "tighten", "may be loosened": "loosen", "": "leave"}
+TELLS = (
+    "By how much the level that 95 % of the members keep changes among those whose value lies in its better half, and "
+    "in the other; told by the members there are. Loosen: what chance may do is more."
+)
+
+
+def sweep_blocks(result: SweepResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        *_about(result),
+        *_limits(result),
+        *_numbers(result),
+        *(chart_blocks(result.chart) if result.chart else ()),
+        *(block for name in result.sensitivity_by_quantity for block in _decides(result, name, None)),
+        *_prices(result),
+        *_failed(result),
+        *_varied(result),
+        *check_blocks(result.checks),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
+    """Verdict, shares, numbers, chart or what decides."""
+    first = result.sensitivity_of
+    body = [*_limits(result), *_numbers(result)]
+    if result.chart:
+        body += chart_blocks(result.chart)
+    elif first:
+        body += _decides(result, first, MOST)
+    body += [*_prices(result, short=True), *_failed(result)]
+    more = () if result.store else ("--store FILE.sqlite, every member",)
+    return one_screen(result, _about(result), body, more)
+
+
+def _about(result: SweepResult) -> list[Block]:
+    met = result.meets_limits
+    low, high = met.confidence_interval
+    does = "balance" if result.what == "scene" else "meet the limits"
+    confidence = f"95 % confidence: {_percent(low)} to {_percent(high)}"
+    text = f"{_percent(met.share)} of {met.of} {MEMBERS[result.what]} {does} ({confidence})."
+    kept = f" Members: {result.store}." if result.store else ""
+    varied = many(len(result.varied), "value varies", "values vary")
+    return [
+        Heading(f"{result.title}: sweep"),
+        Paragraph(text, _mark(result)),
+        Paragraph(f"Drawn by {result.sampling}, seed {result.seed}; {varied}.{kept}"),
+    ]
+
+
+def _mark(result: SweepResult) -> str:
+    share = result.checks[-1].status
+    return result.status if result.status != "pass" else share
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.3g} %" if share < 0.995 or share == 1 else f"{100 * share:.2f} %"
+
+
+def _limits(result: SweepResult) -> list[Block]:
+    rows = tuple(
+        (LIMITS[name], _percent(one.share), "{} to {}".format(*map(_percent, one.confidence_interval)))
+        for name, one in result.meets_limits.each.items()
+    )
+    if len(rows) < 2:
+        return []
+    return [Heading("Each limit"), Grid(("", "share", "95 % confidence"), rows, frozenset({1, 2}))]
+
+
+def _numbers(result: SweepResult) -> list[Block]:
+    rows = tuple(
+        (_words(name), *(_number(value) for value in (one.p05, one.p50, one.p95, one.mean)), unit_of(name))
+        for name, one in result.quantities.items()
+    )
+    return [Heading("Percentiles"), Grid(("", "5 %", "50 %", "95 %", "mean", ""), rows, frozenset({1, 2, 3, 4}))]
+
+
+def _words(name: str) -> str:
+    """A name without its unit, as words."""
+    for unit in ("_db", "_s", "_um", "_g_mm", "_mm", "_g"):
+        if name.endswith(unit):
+            name = name.removesuffix(unit)
+            break
+    return name.replace("_", " ")
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else number(value)
+
+
+def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
+    """The values that matter as bars, the others counted."""
+    found = result.sensitivity_by_quantity[name]
+    matter = [one for one in found if one.total >= MATTER][:most]
+    left, rest = len(found) - len(matter), result.unexplained.get(name, 0.0)
+    tail = [f"{many(left, 'other value')} decide less"] if left else []
+    tail += [f"{_percent(rest)} of the variance is explained by no value or pair of them"] if rest >= MATTER else []
+    head = Heading(f"What decides: {_words(name)}")
+    body: list[Block] = (
+        [Grid(("", "", "alone", "in all"), tuple(map(_row, matter)), frozenset({2, 3}))] if matter else []
+    )
+    if not matter:
+        body = [Paragraph("None of the values that vary.")]
+        tail = tail[1:]
+    return [head, *body, *([Paragraph(f"{'; '.join(tail)}.")] if tail else [])]
+
+
+def _row(one: Sensitivity) -> tuple[str, ...]:
+    return one.key, bar(one.total), f"{one.first_order:.2f}", f"{one.total:.2f}"
+
+
+def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
+    """What to tighten, and what may be loosened."""
+    told = [one for one in result.prices if one.advice] if short else list(result.prices)
+    if not told:
+        return []
+    order = sorted(told, key=lambda one: (one.advice != "tighten", -one.gain_db))
+    grid = Grid(("", "value", "better half", "it", "other"), tuple(map(_price, order)), frozenset({3, 4}))
+    return [Heading("What to tighten, what may be loosened"), *(() if short else (Paragraph(TELLS),)), grid]
+
+
+def _price(one: Price) -> tuple[str, ...]:
+    """What the level gains within the better half of a value, and what it loses in the other."""
+    side = f"{'to' if one.better == 'lower' else 'from'} {number(one.median)} {unit_of(one.key)}".rstrip()
+    other = "" if one.cost_db is None else f"{one.cost_db:+.1f} dB"
+    return ADVICE[one.advice], one.key, side, f"{-one.gain_db:+.1f} dB", other
+
+
+def _failed(result: SweepResult) -> list[Block]:
+    rows = tuple((str(one.members), str(one.first), one.reason) for one in result.failed.reasons)
+    if not rows:
+        return []
+    return [Heading("Members without numbers"), Grid(("members", "first", "reason"), rows, frozenset({0, 1}))]
+
+
+def _varied(result: SweepResult) -> list[Block]:
+    rows: Sequence[tuple[str, str]] = [(one.key, one.how) for one in result.varied]
+    return [Heading("What varies"), Grid(("value", "how"), tuple(rows))]

@@ -1,0 +1,253 @@
+"""Many machines like one: how many meet the limits, and which value decides."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any, Final
+
+from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.checks import Check, coded
+from abu_calc.errors import NotTrustworthyError, OutputError, Place
+from abu_calc.progress import Progress, silent
+from abu_calc.spec.read import Machine
+from abu_calc.spec.read_scene import SceneDescription
+from abu_calc.studies.arguments import checked
+from abu_calc.studies.result import Provenance
+from abu_calc.studies.size import WORKERS
+from abu_calc.studies.sweeping import answers
+from abu_calc.studies.sweeping.asked import Asked, asked
+from abu_calc.studies.sweeping.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, Column
+from abu_calc.studies.sweeping.members import Study
+from abu_calc.studies.sweeping.plan import Plan, planned
+from abu_calc.studies.sweeping.records import Failed, MeetsLimits
+from abu_calc.studies.sweeping.result import Kept, Members, SweepResult, Varied
+from abu_calc.studies.sweeping.store import Store, study_of
+from abu_calc.studies.sweeping.who import compute, described, versions
+
+ROUGH: Final = 256
+"""Rows of Saltelli's design below which indices may be off by a tenth and more."""
+FEW: Final = 0.05
+"""Share of members without numbers beyond which the others speak for too few."""
+
+
+@checked
+def sweep(
+    machine: Machine | SceneDescription,
+    vary: Mapping[str, Any] | Sequence[str] | None = None,
+    runs: int | None = None,
+    *,
+    what: str | None = None,
+    tolerances: bool | None = None,
+    grid: tuple[str, str] | None = None,
+    sensitivity: bool | None = None,
+    sampling: str | None = None,
+    seed: int | None = None,
+    accuracy: float = 0.01,
+    time_limit_s: float | None = None,
+    store: str | Path | None = None,
+    resume: bool = False,
+    force: bool = False,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    command: str | None = None,
+    progress: Progress = silent,
+) -> SweepResult:
+    """Many machines like this one, or many runs of a scene.
+
+    `vary`: how each value varies, by key: "normal(265, 40)", "100:300:5", a list of values; as on the command line.
+    What is None is that of [sweep] in the file. `what`: build (the design is fixed; each member is one machine built
+    and switched on once) or design (sized anew). `executor`: any of concurrent.futures, or `workers` processes; the
+    members do not depend on it. `store`: where they go as they come; `resume` goes on with one that is there.
+    `result.members` has them as arrays. Raises InputError for what is wrong in file or arguments, NotTrustworthyError
+    where no member gave a number.
+    """
+    ACCURACY.check(accuracy)
+    WORKERS.check(1 if workers is None else workers)
+    path = None if store is None else _path(Path(store), resume, force)
+    ask = asked(
+        machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
+        sampling=sampling, seed=seed, time_limit_s=time_limit_s,
+    )  # fmt: skip
+    if resume and path is not None and ask.nothing and (known := study_of(path)):
+        ask = _as_stored(machine, known, grid, time_limit_s)
+    plan = planned(machine, ask, accuracy)
+    kept = None if path else Kept()
+    file = kept.folder / "members.sqlite" if kept else path or Path()
+    columns, texts = _columns(plan.study)
+    database = Store.open(file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs)
+    database.drawn = plan.study.sample.drawn
+    try:
+        _computed(plan, database, machine, workers, executor, command, progress)
+        members = Members(file, columns, database.runs, kept)
+        progress("sweep: reading the answers")
+        return _answered(plan, ask, database, machine, members, path)
+    finally:
+        database.close()
+
+
+def _path(path: Path, resume: bool, force: bool) -> Path:
+    """Where the store is; refused where one is there that nobody wants to go on with, or no folder is."""
+    if not path.absolute().parent.is_dir():
+        raise OutputError(f"{path}: the folder does not exist", place=Place(key="store"), remedy="Make it first.")
+    if path.exists() and not resume:
+        if not force:
+            remedy = "Go on with it by --resume, name another, or overwrite it with --force."
+            raise OutputError(f"{path} exists already", place=Place(key="store"), remedy=remedy)
+        study_of(path)  # which refuses what is no store
+        for suffix in ("", "-wal", "-shm"):
+            Path(f"{path}{suffix}").unlink(missing_ok=True)
+    return path
+
+
+def _as_stored(
+    machine: Machine | SceneDescription, known: Mapping[str, Any], grid: Any, time_limit_s: float | None
+) -> Asked:
+    """The study that a store was begun with."""
+    return asked(
+        machine, [f"{key}={known['vary'][key]}" for key in known["order"]], runs=known["base"] or known["runs"],
+        what=None if known["what"] == "scene" else known["what"], sensitivity=known["scheme"] == "saltelli",
+        sampling="sobol" if known["scheme"] == "sobol" else "latin-hypercube", seed=known["seed"],
+        tolerances=False, grid=grid, time_limit_s=time_limit_s,
+    )  # fmt: skip
+
+
+def _columns(study: Study) -> tuple[tuple[Column, ...], frozenset[str]]:
+    """Of the store, and which of them hold text."""
+    varied = tuple(Column(one.key, "varies: " + one.variation.text) for one in study.sample.factors)
+    texts = {one.key for one in study.sample.factors if any(isinstance(v, str) for v in one.variation.values)}
+    return (MEMBER, SEED, *varied, *QUANTITIES[study.what], *FLAGS[study.what], REASON), frozenset(texts)
+
+
+def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
+    """What the members hang on, and nothing else: the machine, what varies, seeds, versions."""
+    study, sample = plan.study, plan.study.sample
+    ways = getattr(study, "ways", {}).values() or (getattr(study, "way", None),)
+    return {
+        "what": study.what,
+        "runs": sample.runs,
+        "base": sample.base,
+        "seed": sample.seed,
+        "scheme": sample.scheme,
+        "accuracy": accuracy,
+        "vary": {one.key: one.variation.text for one in sample.factors},
+        "order": [one.key for one in sample.factors],
+        "file": plan.content,
+        "versions": versions(*(("heyoka",) if "heyoka" in ways else ())),
+    }
+
+
+def _computed(
+    plan: Plan, store: Store, source: Machine | SceneDescription, workers: int | None, executor: Executor | None,
+    command: str | None, progress: Progress,
+) -> None:  # fmt: skip
+    import json
+
+    facts = {
+        "file": source.file,
+        "sha256": source.sha256,
+        "versions": json.dumps(versions("llvmlite", "heyoka", "distributed")),
+        "seed": plan.study.sample.seed,
+        "command": command,
+        "workers": described(workers, executor),
+    }
+    run = store.begun(facts)
+    try:
+        compute(plan.study, store, workers, executor, progress)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"{store.done} of {store.runs} members") from None
+    finally:
+        store.ended(run)
+
+
+def _answered(
+    plan: Plan, ask: Asked, store: Store, source: Machine | SceneDescription, members: Members, path: Path | None
+) -> SweepResult:
+    study, sample = plan.study, plan.study.sample
+    failed = answers.failed(store)
+    if failed.members >= store.runs:
+        reason = failed.reasons[0].reason
+        raise NotTrustworthyError(f"none of {store.runs} members gave a number that can be trusted: {reason}")
+    met = answers.meets(store, study.what)
+    by_name, unexplained = answers.sensitivities(store, sample, study.what)
+    first = next(iter(by_name), None)
+    ranked = by_name[first] if first else ()
+    drawn = sample.scheme if any(not one.variation.listed for one in sample.factors) else "listed values"
+    tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
+    return SweepResult(
+        title=getattr(tables, "name", Path(source.file).name),
+        checks=(_numbers(failed, store.runs), _share(met, ask.least_share)),
+        warnings=(*source.warnings, *plan.warnings, *_warnings(plan, store)),
+        provenance=Provenance.of(source),
+        what=study.what,
+        runs=store.runs,
+        seed=sample.seed,
+        sampling=drawn,
+        varied=tuple(Varied(key=one.key, how=one.variation.text) for one in sample.factors),
+        failed=failed,
+        quantities=answers.spreads(store, study.what),
+        meets_limits=met,
+        sensitivity_of=first,
+        sensitivity=ranked,
+        sensitivity_by_quantity=by_name,
+        unexplained=unexplained,
+        prices=answers.prices(store, sample, study.what, ranked),
+        chart=None if plan.grid is None else answers.chart(store, sample, study.what, plan.grid),
+        store=None if path is None else str(path),
+        members=members,
+    )
+
+
+def _numbers(failed: Failed, runs: int) -> Check:
+    share = failed.members / runs
+    message = "every member gave numbers"
+    if failed.members:
+        one = failed.reasons[0]
+        message = f"{failed.members} of {runs} members gave none, {one.members} of them: {one.reason}"
+    status = "pass" if not failed.members else "warn" if share <= FEW else "not-done"
+    remedy = "Look at the reasons; narrow distributions that reach values no machine has." if failed.members else None
+    return coded("ABU821", status, message, 100 * share, 100 * FEW, "%", remedy)  # type: ignore[arg-type]
+
+
+def _share(met: MeetsLimits, least: float | None) -> Check:
+    low, high = met.confidence_interval
+    message = f"{met.met} of {met.of} members meet all limits, by 95 % confidence {100 * low:.1f} to {100 * high:.1f} %"
+    if least is None:
+        message = (
+            "every member meets all limits"
+            if met.met == met.of
+            else (f"{met.of - met.met} of {met.of} members do not; [sweep] least_share says how many must")
+        )
+        return coded("ABU822", "pass" if met.met == met.of else "warn", message, 100 * met.share, None, "%")
+    status = "pass" if low >= least else "warn" if met.share >= least else "fail"
+    remedy = (
+        None
+        if status == "pass"
+        else "More members narrow the interval."
+        if status == "warn"
+        else ("Tighten what the report names, or change the design: `abu size` judges it.")
+    )
+    return coded("ABU822", status, message, 100 * met.share, 100 * least, "%", remedy, "least")  # type: ignore[arg-type]
+
+
+def _warnings(plan: Plan, store: Store) -> list[str]:
+    """What the answers rest on, where that is little."""
+    found = []
+    failing = [check.code for check in plan.design.checks if check.status == "fail"] if plan.design else []
+    if failing:
+        found.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
+    rows = plan.study.sample.base
+    if 0 < rows < ROUGH:
+        found.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
+    if plan.study.what != "design":
+        settling = answers.spread(store, "settling_time_s")
+        never = next(
+            store.ask(
+                "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
+                (store.drawn,),
+            )
+        )[0]
+        if never and settling.mean is None:
+            found.append(
+                f"{never} members never settle: they count as later than all others, and settling has no mean."
+            )
+    return found

@@ -1,0 +1,222 @@
+"""What the members of a store say together. Read from the store in parts: memory does not grow with their number."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from abu_calc.analysis.sampling import BLOCK, Sample, block
+from abu_calc.analysis.sensitivity import Fit, Indices, saltelli
+from abu_calc.studies.sweeping.columns import DECIDING, FLAGS, MEETS, QUANTITIES, What
+from abu_calc.studies.sweeping.records import (
+    Chart,
+    Failed,
+    Failure,
+    MeetsLimits,
+    Percentiles,
+    Price,
+    Sensitivity,
+    Share,
+)
+from abu_calc.studies.sweeping.store import Store, quoted
+
+REASONS: Final = 20
+"""That are listed."""
+CONFIDENCE: Final = 0.95
+FIRST: Final = 0.02
+"""A value whose total index is below decides nothing."""
+LEAST: Final = 40
+"""Members in each half for a price to be told."""
+ANSWERED: Final = "reason IS NULL"
+
+
+def _there(store: Store) -> str:
+    """Members with answers that were drawn each for itself."""
+    return f"{ANSWERED} AND member < {store.drawn}"
+
+
+def failed(store: Store) -> Failed:
+    """How many gave no numbers, and why."""
+    query = "SELECT reason, COUNT(*), MIN(member) FROM members WHERE reason IS NOT NULL GROUP BY reason ORDER BY 2 DESC"
+    rows = list(store.ask(f"{query}, 1 LIMIT {REASONS}"))
+    count = next(store.ask("SELECT COUNT(*) FROM members WHERE reason IS NOT NULL"))[0]
+    return Failed(members=count, reasons=tuple(Failure(reason=r, members=n, first=k) for r, n, k in rows))
+
+
+def spreads(store: Store, what: What) -> dict[str, Percentiles]:
+    """Of each quantity."""
+    return {column.name: spread(store, column.name) for column in QUANTITIES[what]}
+
+
+def spread(store: Store, name: str) -> Percentiles:
+    """Percentiles as NumPy has them; one that is null (never, or nothing) comes after all numbers."""
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
+    column = quoted(name)
+    numbers, mean = next(store.ask(f"SELECT COUNT({column}), AVG({column}) FROM members WHERE {_there(store)}"))
+    p05, p50, p95 = (percentile(store, name, share, count) for share in (0.05, 0.5, 0.95))
+    return Percentiles(p05=p05, p50=p50, p95=p95, mean=mean if numbers == count and count else None)
+
+
+def percentile(store: Store, name: str, share: float, count: int, where: str | None = None) -> float | None:
+    """Between the two members about it; None where one of them is none."""
+    if not count:
+        return None
+    place = share * (count - 1)
+    first = math.floor(place)
+    where = where or _there(store)
+    query = f"SELECT {quoted(name)} FROM members WHERE {where} ORDER BY {quoted(name)} IS NULL, {quoted(name)}"
+    values = [row[0] for row in store.ask(f"{query} LIMIT 2 OFFSET {first}")]
+    low, high = values[0], values[-1]
+    if low is None or (high is None and place > first):
+        return None
+    return float(low) if place == first else float(low + (place - first) * (high - low))
+
+
+def meets(store: Store, what: What) -> MeetsLimits:
+    """Shares with their confidence; members without an answer count as not meeting."""
+    each = {column.name: _share(store, column.name) for column in FLAGS[what]}
+    whole = each.pop(MEETS.name)
+    return MeetsLimits(**vars(whole), each=each)
+
+
+def _share(store: Store, name: str) -> Share:
+    from scipy.stats import binomtest
+
+    met, count = next(
+        store.ask(f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE member < {store.drawn}")
+    )
+    interval = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
+    return Share(
+        share=met / count, confidence_interval=(float(interval.low), float(interval.high)), met=int(met), of=int(count)
+    )
+
+
+def sensitivities(
+    store: Store, sample: Sample, what: What
+) -> tuple[dict[str, tuple[Sensitivity, ...]], dict[str, float]]:
+    """By number, the deciding one first; and what nothing explains of each. Those of too few members are left out."""
+    names = list(dict.fromkeys((DECIDING[what], *(one.name for one in QUANTITIES[what]), MEETS.name)))
+    every = (_of_saltelli if sample.scheme == "saltelli" else _of_fits)(store, sample, names)
+    found: dict[str, tuple[Sensitivity, ...]] = {}
+    unexplained: dict[str, float] = {}
+    for name, indices in every.items():
+        if indices is not None:
+            pairs = zip(sample.factors, indices.each, strict=True)
+            rows = [Sensitivity(key=one.key, first_order=each.first_order, total=each.total) for one, each in pairs]
+            found[name] = tuple(sorted(rows, key=lambda row: -row.total))
+            unexplained[name] = indices.unexplained
+    return found, unexplained
+
+
+def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
+    """All numbers in one pass, since their products are the same."""
+    levels = tuple(len(one.variation.values) for one in sample.factors)
+    fits = {name: Fit(levels, sample.runs) for name in names}
+    for members, columns in _parts(store, names):
+        places = np.empty((len(members), len(sample.factors)))
+        for first in np.unique(members // BLOCK).tolist():
+            here = members // BLOCK == first
+            places[here] = block(sample, first)[members[here] - first * BLOCK]
+        rows = fits[names[0]].products(places)
+        for fit, values in zip(fits.values(), columns, strict=True):
+            there = np.isfinite(values)
+            fit.add(rows[there], values[there], members[there])
+    return {name: fit.indices() for name, fit in fits.items()}
+
+
+def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
+    """A row of the matrices in which a member gave no number is replaced by the next whole one."""
+    values = np.full((len(names), sample.runs), np.nan)
+    for members, columns in _parts(store, names):
+        values[:, members] = columns
+    found: dict[str, Indices | None] = {}
+    for name, column in zip(names, values, strict=True):
+        parts = column.reshape(len(sample.factors) + 2, -1)
+        whole = np.flatnonzero(np.isfinite(parts).all(axis=0))
+        rows = whole[np.searchsorted(whole, np.arange(parts.shape[1])) % len(whole)] if len(whole) else whole
+        found[name] = saltelli(parts[:, rows].ravel(), len(sample.factors)) if len(whole) else None
+    return found
+
+
+def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
+    """Members with answers and their numbers (names × members), some thousand at a time; NaN where one is none."""
+    query = f"SELECT member, {', '.join(map(quoted, names))} FROM members WHERE {ANSWERED}"
+    size = 8 * BLOCK
+    for first in range(0, store.runs, size):
+        rows = list(store.ask(f"{query} AND member >= ? AND member < ? ORDER BY member", (first, first + size)))
+        if rows:
+            table = np.array([[np.nan if value is None else value for value in row] for row in rows], dtype=float).T
+            yield table[0].astype(np.int64), table[1:]
+
+
+def prices(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Price, ...]:
+    """For each value of the file that is a number: the level that 95 % keep if it stays within its better half."""
+    name = DECIDING[what]
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
+    whole = percentile(store, name, 0.95, count)
+    if whole is None:
+        return ()
+    drawn = {one.key for one in sample.factors if one.path and one.variation.numbers}
+    found = (_price(store, name, row, whole) for row in ranked if row.key in drawn)
+    return tuple(price for price in found if price is not None)
+
+
+def _price(store: Store, name: str, row: Sensitivity, whole: float) -> Price | None:
+    key = quoted(row.key)
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
+    middle = percentile(store, row.key, 0.5, count)
+    if middle is None or count < 2 * LEAST:
+        return None
+    halves = []
+    for side, sign in (("lower", "<="), ("upper", ">")):
+        where = f"{_there(store)} AND {key} {sign} {middle!r}"
+        many = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
+        level = percentile(store, name, 0.95, many, where)
+        if level is not None and many >= LEAST:
+            halves.append((level, side, many, where))
+    if not halves:
+        return None
+    (level, better, many, where), worse = min(halves), max(halves)[0] if len(halves) > 1 else None
+    # By the binomial law of how many of a half lie below its own 95 % level.
+    off = 1.96 * math.sqrt(0.05 * 0.95 / many)
+    upper = percentile(store, name, min(0.95 + off, 1.0), many, where)
+    chance = upper is None or whole <= upper
+    advice = "may be loosened" if row.total < FIRST and chance else "" if chance else "tighten"
+    cost = None if worse is None else worse - whole
+    return Price(
+        key=row.key, better=better, median=middle, gain_db=whole - level, cost_db=cost, within_chance=chance,
+        advice=advice,
+    )  # fmt: skip
+
+
+def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Chart:
+    """Shares over two keys, the first across."""
+    across, upward = (next(one for one in sample.factors if one.key == key).variation.values for key in grid)
+    flag = FLAGS[what][0].name
+    level = quoted(DECIDING[what])
+    query = (
+        f"SELECT {quoted(grid[0])}, {quoted(grid[1])}, AVG({quoted(flag)}), AVG({level}) FROM members "
+        f"WHERE {_there(store)} GROUP BY 1, 2"
+    )
+    found: dict[tuple[object, object], tuple[float | None, ...]] = {
+        (x, y): (*cell,) for x, y, *cell in store.ask(query)
+    }
+
+    def cell(x: object, y: object, part: int) -> float | None:
+        return found.get((x, y), (None, None))[part]
+
+    x, y = (tuple(_plain(value) for value in values) for values in (across, upward))
+    return Chart(
+        x_key=grid[0],
+        y_key=grid[1],
+        x=x,
+        y=y,
+        of=flag,
+        shares=tuple(tuple(cell(one, other, 0) for one in x) for other in y),
+        levels_db=tuple(tuple(cell(one, other, 1) for one in x) for other in y),
+    )
+
+
+def _plain(value: object) -> float | str:
+    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)

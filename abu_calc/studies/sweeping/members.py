@@ -1,0 +1,184 @@
+"""The members of a sweep, each from its number: what varies is put in, the machine is built or designed, and run."""
+
+import math
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Final
+
+import numpy as np
+
+from abu_calc.analysis.batches import Row
+from abu_calc.analysis.one_machine import machine_started, scene_once
+from abu_calc.analysis.sampling import Sample
+from abu_calc.analysis.time_limit import Overtime, limited
+from abu_calc.dynamics.integrators.many import Way
+from abu_calc.errors import AbuError
+from abu_calc.formulas.oil import drag_ratio
+from abu_calc.scenes.from_design import AHEAD
+from abu_calc.scenes.from_scene import scene_from
+from abu_calc.scenes.members import OPPOSITE
+from abu_calc.scenes.switched_on import SwitchedOn, turned
+from abu_calc.sizing.built import built
+from abu_calc.sizing.design import Design
+from abu_calc.spec.machine import MachineFile
+from abu_calc.spec.read import Machine
+from abu_calc.spec.scene import SceneFile
+from abu_calc.spec.variants import Variants
+from abu_calc.studies.size import size
+from abu_calc.studies.sweeping.columns import FLAGS, QUANTITIES, What
+from abu_calc.units import from_si, to_si
+
+LOT: Final = 0.5e-6
+"""Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""
+
+TOLERANCE: Final = 0.02
+"""Of the one run of a member, per accuracy asked for."""
+
+Values = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Study(ABC):
+    """Who varies how, and what is computed of each. Sent to workers: small, and made of plain data."""
+
+    what: ClassVar[What]
+
+    sample: Sample
+    accuracy: float
+    time_limit: float
+
+    @abstractmethod
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """The quantities of a member, then what it meets. Raises AbuError where there are none."""
+
+    def rows(self, members: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
+        """What each came to, and how long all took [s]."""
+        begun = time.perf_counter()
+        found = [self._row(member, may_end_process) for member in members]
+        return found, time.perf_counter() - begun
+
+    def lost(self, member: int, reason: str) -> Row:
+        """The row of one that gave no numbers."""
+        given = self.sample.values(member)
+        width = len(QUANTITIES[self.what]) + len(FLAGS[self.what])
+        return (member, self.sample.member_seed(member), *map(_plain, given), *(None,) * width, reason)
+
+    def _row(self, member: int, may_end_process: bool) -> Row:
+        values, seed = self.sample.values(member), self.sample.member_seed(member)
+        named = {one.key: value for one, value in zip(self.sample.factors, values, strict=True)}
+        try:
+            with limited(self.time_limit, may_end_process=may_end_process):
+                numbers = self.numbers(named, seed)
+        except Overtime:
+            return self.lost(member, f"not done within {self.time_limit:g} s")
+        except AbuError as error:
+            return self.lost(member, str(error).splitlines()[0])
+        except Exception as error:  # one member must not end the others
+            return self.lost(member, f"{type(error).__name__}: {error}".splitlines()[0])
+        return (member, seed, *map(_plain, values), *map(_finite, numbers), None)
+
+    def _in_file(self, values: Values) -> dict[Any, object]:
+        """Those that are entries of the file, by path."""
+        return {one.path: values[one.key] for one in self.sample.factors if one.path}
+
+
+@dataclass(frozen=True)
+class Builds(Study):
+    """The design is fixed: each member is one machine built and switched on once."""
+
+    what: ClassVar[What] = "build"
+
+    variants: Variants[MachineFile]
+    design: Design
+    ways: Mapping[bool, Way] = field(default_factory=dict)
+    """The integrator, of run-ups and of other starts."""
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """One start of one machine."""
+        table = self.variants.table(self._in_file(values))
+        if (warm := values.get("start.temperature_C")) is not None and table.autobalancer is not None:
+            drag = table.autobalancer.rolling_drag_per_s * drag_ratio(warm)
+            own = table.autobalancer.model_copy(update={"rolling_drag_per_s": drag})
+            table = table.model_copy(update={"autobalancer": own})
+        made, start = built(self.design, table), start_of(values)
+        lot = np.random.default_rng(seed).uniform(-LOT, LOT, made.autobalancer.ball_count)
+        lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
+        way = self.ways.get(start.kind == "run-up")
+        found = machine_started(made, start, lighter, TOLERANCE * self.accuracy, way)
+        limits = table.limits
+        soon, quiet = found.time <= limits.settling_time_s, found.level <= limits.vibration_level_db
+        flags = found.balanced, not found.hanging, quiet, soon
+        return (
+            found.level, found.settling, from_si(found.residual, "um"), from_si(found.imbalance, "g_mm"),
+            made.autobalancer.capacity_ratio, *flags, all(flags),
+        )  # fmt: skip
+
+
+def start_of(values: Values) -> SwitchedOn:
+    """How a member is switched on; what does not vary is usual."""
+    angle, off = values.get("start.angle_deg"), values.get("start.eccentricity_deg")
+    return SwitchedOn(
+        values.get("start.kind", "bunched"),
+        AHEAD if angle is None else to_si(angle, "deg"),
+        OPPOSITE if off is None else to_si(off, "deg"),
+    )
+
+
+@dataclass(frozen=True)
+class Designs(Study):
+    """Each member is a machine for which an autobalancer is designed anew."""
+
+    what: ClassVar[What] = "design"
+
+    machine: Machine
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """What `abu size` says."""
+        found = size(self.machine.changed({one.key: values[one.key] for one in self.sample.factors}), self.accuracy)
+        one, many = found.autobalancer, found.ensemble
+        loudest, latest = (many.level_db.worst, many.settling_time_s.worst) if many else (None, None)
+        return (
+            found.vibration.level_after_db, loudest, latest,
+            one.ball_count, one.ball_diameter_mm, one.race_radius_mm, one.mass_g, one.capacity_ratio,
+            found.status == "pass",
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Scenes(Study):
+    """Each member is a scene given outright."""
+
+    what: ClassVar[What] = "scene"
+
+    variants: Variants[SceneFile]
+    way: Way | None = None
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """One run."""
+        scene = scene_from(self.variants.table(self._in_file(values)).scene)
+        warm = values.get("start.temperature_C")
+        scene = turned(
+            scene, to_si(values.get("start.angle_deg", 0.0), "deg"), 1.0 if warm is None else drag_ratio(warm)
+        )
+        found = scene_once(scene, TOLERANCE * self.accuracy, self.way)
+        one = found.response
+        return (
+            one.level, one.settling_time, from_si(one.axis_amplitude, "mm"),
+            from_si(one.residual_imbalance, "g_mm"), found.balanced, found.balanced,
+        )  # fmt: skip
+
+
+def _finite(value: float | None) -> float | None:
+    """A number for a store, which knows no infinities; True and False as 1 and 0."""
+    if value is None or not math.isfinite(value):
+        return None
+    return int(value) if isinstance(value, (bool, int)) else float(value)
+
+
+def _plain(value: object) -> object:
+    """A value for a store: numbers and text as they are, all else as text."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        return str(list(value) if isinstance(value, tuple) else value)
+    return value

@@ -1,0 +1,93 @@
+"""What a sweep answers, as results hold it."""
+
+from typing import Annotated
+
+from abu_calc.studies.quantity import Quantity, Record, record
+
+
+@record
+class Percentiles(Record):
+    """Percentiles of one number over all members that gave one; null where it is later or more than any number."""
+
+    p05: Annotated[float | None, Quantity("5 %")]
+    p50: Annotated[float | None, Quantity("50 %")]
+    p95: Annotated[float | None, Quantity("95 %")]
+    mean: Annotated[float | None, Quantity("mean")]
+
+
+@record
+class Share(Record):
+    """Of all members; one without an answer counts as not met."""
+
+    share: Annotated[float, Quantity("share", "", 4, "", percent=True)]
+    confidence_interval: Annotated[
+        tuple[float, float], Quantity("95 % confidence", "", 4, "Clopper and Pearson 1934", percent=True)
+    ]
+    met: Annotated[int, Quantity("that meet it")]
+    of: Annotated[int, Quantity("members")]
+
+
+@record
+class MeetsLimits(Record):
+    """The share that meets all limits, and that of each."""
+
+    share: Annotated[float, Quantity("meet the limits", "", 4, "", percent=True)]
+    confidence_interval: Annotated[tuple[float, float], Quantity("95 % confidence", "", 4, "", percent=True)]
+    met: Annotated[int, Quantity("that meet them")]
+    of: Annotated[int, Quantity("members")]
+    each: Annotated[dict[str, Share], Quantity("each of them")]
+
+
+@record
+class Failure(Record):
+    """Members without numbers, for one reason."""
+
+    reason: Annotated[str, Quantity("reason")]
+    members: Annotated[int, Quantity("members")]
+    first: Annotated[int, Quantity("first of them")]
+
+
+@record
+class Failed(Record):
+    """Members that gave no number to be trusted."""
+
+    members: Annotated[int, Quantity("members without numbers")]
+    reasons: tuple[Failure, ...]
+
+
+@record
+class Sensitivity(Record):
+    """Shares of the variance of a number that one value decides, alone and with all others."""
+
+    key: Annotated[str, Quantity("value")]
+    first_order: Annotated[float, Quantity("alone", "S", 2)]
+    total: Annotated[float, Quantity("in all", "S_T", 2)]
+
+
+@record
+class Price(Record):
+    """What one value is worth: the level that 95 % of members keep if it stays in its better half, or its worse one.
+
+    Told by the members that lie there.
+    """
+
+    key: Annotated[str, Quantity("value")]
+    better: Annotated[str, Quantity("better half", "", 4, "lower or upper")]
+    median: Annotated[float, Quantity("where the halves meet")]
+    gain_db: Annotated[float, Quantity("the better half lowers it by", "", 2)]
+    cost_db: Annotated[float | None, Quantity("the worse half raises it by", "", 2)]
+    within_chance: Annotated[bool, Quantity("no more than chance may do")]
+    advice: Annotated[str, Quantity("advice")]
+
+
+@record
+class Chart(Record):
+    """The share that balances (or of designs, that passes) and the mean level over two keys, `shares[y][x]`."""
+
+    x_key: Annotated[str, Quantity("across")]
+    y_key: Annotated[str, Quantity("upward")]
+    x: Annotated[tuple[float | str, ...], Quantity("values across")]
+    y: Annotated[tuple[float | str, ...], Quantity("values upward")]
+    of: Annotated[str, Quantity("what is shared")]
+    shares: Annotated[tuple[tuple[float | None, ...], ...], Quantity("shares", "", 3, "null: no member gave an answer")]
+    levels_db: Annotated[tuple[tuple[float | None, ...], ...] | None, Quantity("mean levels")]

@@ -1,0 +1,91 @@
+"""`abu sweep` as people see it."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from abu_calc.studies.sweeping.members import Study
+from tests.cli.runner import abu
+
+OFF = "autobalancer.race_eccentricity_mm=uniform(0.004,0.016)"
+CALM = ("--vary", "start.kind=choice(bunched)", "--workers", "1")
+
+
+def test_one_screen_and_the_document(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    store, csv = tmp_path / "members.sqlite", tmp_path / "found.csv"
+    shown = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "32", *CALM, "--store", str(store), "-o", str(csv))
+    assert shown.status == 0 and len(shown.out.splitlines()) <= 48 and shown.width <= 80
+    assert "32 machines built to one design meet the limits" in shown.out.replace("\n  ", " ")
+    assert "quantities.level_db.p95," in csv.read_text(encoding="utf-8")
+    again = abu("sweep", "avtovaz-707-222", "--store", str(store), "--resume", "--json", "--workers", "1")
+    document = again.document
+    result = document["result"]
+    assert again.status == 0 and document["abu"]["command"] == "sweep" and result["store"] == str(store)
+    assert result["runs"] == 32 and result["failed"] == {"members": 0, "reasons": []}
+    assert result["quantities"]["level_db"].keys() == {"p05", "p50", "p95", "mean"}
+    assert {"share", "confidence_interval"} <= result["meets_limits"].keys()
+    assert {"key", "first_order", "total"} == result["sensitivity"][0].keys()
+
+
+def test_who_interrupts_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    computed = Study._row
+
+    def stopped(self: Study, member: int, may_end_process: bool) -> Any:
+        if member == 2:
+            raise KeyboardInterrupt
+        return computed(self, member, may_end_process)
+
+    monkeypatch.setattr(Study, "_row", stopped)
+    store = tmp_path / "members.sqlite"
+    seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "8", *CALM, "--store", str(store))
+    assert seen.status == 130 and f"of 8 members are in {store}. Go on with:" in seen.err and "--resume" in seen.err
+    kept = abu("sweep", "avtovaz-707-222", "--vary", OFF, *CALM)
+    assert kept.status == 130 and "no member is kept" in kept.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (("--vary", "wheel.mas_kg=1:2:2"), "--vary wheel.mas_kg: unknown key"),
+        (("--vary", "wheel.mass_kg=norml(1,2)"), "--vary wheel.mass_kg: an unknown distribution"),
+        (("--vary", "wheel.mass_kg"), "--vary: not KEY="),
+        (("--resume",), "--resume goes with --store"),
+        (("--runs", "0"), "--runs"),
+        (("--what", "builds"), "--what"),
+        (("--grid", "wheel.mass_kg", "machine.mass_kg"), "--grid"),
+        (("--set", 'sweep.vary=["wheel.mass_kg"]'), "not KEY="),
+        (("--set", "sweep.run=5"), "runs"),
+    ],
+    ids=str,
+)
+def test_wrong_options_are_refused(arguments: tuple[str, ...], part: str) -> None:
+    seen = abu("sweep", "msh-230", *arguments)
+    assert seen.status == 2 and part in seen.err and seen.out == ""
+
+
+def test_a_file_that_is_no_store_is_refused_and_stays(tmp_path: Path) -> None:
+    other = tmp_path / "other.sqlite"
+    other.write_text("something else", encoding="utf-8")
+    for more in (("--resume",), ("--force",)):
+        seen = abu("sweep", "msh-230", "--tolerances", "--store", str(other), *more)
+        assert seen.status == 2 and "store" in seen.err
+    assert other.read_text(encoding="utf-8") == "something else"
+
+
+def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "distributed", None)
+    seen = abu("sweep", "msh-230", "--tolerances", "--cluster", "tcp://127.0.0.1:1", "--json")
+    assert seen.status == 2 and "abu-calc[cluster]" in seen.err
+    assert json.loads(seen.out)["error"]["key"] == "--cluster"
+
+
+def test_a_wrong_table_is_named_with_its_file(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    assert abu("init", str(file)).status == 0
+    with file.open("a", encoding="utf-8") as text:
+        text.write('\n[sweep.vary]\n"wheel.mas_kg" = "1:2:2"\n')
+    seen = abu("sweep", str(file))
+    assert seen.status == 2 and "machine.toml" in seen.err and "sweep.vary wheel.mas_kg: unknown key" in seen.err
