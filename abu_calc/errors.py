@@ -38,14 +38,14 @@ class AbuError(Exception):
     """Base of all errors raised on purpose; `kind` names it in JSON."""
 
     kind: ClassVar[str] = "error"
-    exit_status: ClassVar[int] = 3
+    exit_status: int = 3
 
 
 class InputError(AbuError):
     """A wrong input: what was found, what is allowed, and the remedy, in one or two lines."""
 
     kind: ClassVar[str] = "input"
-    exit_status: ClassVar[int] = 2
+    exit_status: int = 2
 
     def __init__(
         self,
@@ -98,4 +98,7 @@ class StoppedError(AbuError):
     """Somebody interrupted long work; says what is kept, and how to go on."""
 
     kind: ClassVar[str] = "interrupted"
-    exit_status: ClassVar[int] = 130
+
+    def __init__(self, message: str, exit_status: int = 130) -> None:
+        super().__init__(message)
+        self.exit_status = exit_status

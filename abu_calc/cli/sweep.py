@@ -15,6 +15,7 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.cli.scene_options import File
+from abu_calc.cli.signals import EndedBySignal, status_of
 from abu_calc.errors import InputError, Place, StoppedError
 from abu_calc.report.outcome import Outcome
 
@@ -115,12 +116,14 @@ def _wording(store: Path | None) -> Iterator[None]:
         if error.place.file is not None or not key.startswith("vary "):
             raise
         raise error.at(Place(key=f"--{key}")) from None
-    except KeyboardInterrupt as stopped:
-        if store is None or not str(stopped):
+    except (KeyboardInterrupt, EndedBySignal) as stopped:
+        kept = getattr(stopped, "__notes__", ())
+        if store is None or not kept:
             text = "interrupted; no member is kept. A sweep with --store FILE.sqlite can be gone on with."
-            raise StoppedError(text) from None
-        resume = "" if "--resume" in sys.argv else " --resume"
-        raise StoppedError(f"interrupted; {stopped} are in {store}. Go on with:\n  {_command()}{resume}") from None
+        else:
+            resume = "" if "--resume" in sys.argv else " --resume"
+            text = f"interrupted; {kept[0]} are in {store}. Go on with:\n  {_command()}{resume}"
+        raise StoppedError(text, status_of(stopped)) from None
 
 
 @contextmanager

@@ -153,8 +153,10 @@ def _computed(
     run = store.begun(facts)
     try:
         compute(plan.study, store, workers, executor, progress)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"{store.done} of {store.runs} members") from None
+    except BaseException as ended:
+        if not isinstance(ended, Exception):  # Ctrl-C or a signal
+            ended.add_note(f"{store.done} of {store.runs} members")
+        raise
     finally:
         store.ended(run)
 
