@@ -26,6 +26,10 @@ from tests.drawing.samples import HOSTILE, MACHINES, result
 
 SVG = "{http://www.w3.org/2000/svg}"
 ARM = SwingArm(
+    advice="nothing to change", changes=(), contact_stiffness_N_per_m=1e6, idle_frequency_rpm=187.0,
+    cutting_frequency_rpm=4492.0, joint_damping_N_s_per_m=40.0, damping_limit_bunched_N_s_per_m=None,
+    parametric_contact_angles_deg=(), lifted_contact_angles_deg=None, joint_stiffness_standing_N_per_m=1.0,
+    pressing_moment_N_m=20.0, least_pressing_moment_N_m=8.6, press_force_N=28.0,
     contact_stiffness_limit_N_per_m=2e6, contact_stiffness_limit_exact_N_per_m=2e6, worst_contact_angle_deg=101.4,
     resonance_rpm=4583.0, damping_limit_N_s_per_m=0.343, parametric_growth_rate_per_s=-1.0, pressed_angle_deg=2.1,
     arm_length_mm=350.0, wheel_diameter_mm=230.0, contact_angle_deg=90.0, touch_angle_deg=2.0,
