@@ -207,12 +207,12 @@ def test_drawing_seats_loads_no_numerics(tmp_path: Path) -> None:
 
 
 def test_sizes_and_limits_of_the_knife_shaft_s_seats() -> None:
-    """Afanasiev 2015: Ø80 k6 is +21/+2, Ø140 K7 is +12/−28."""
+    """Afanasiev 2015: Ø80 k6 is +21/+2, Ø140 K7 is +12/−28; by ISO 286 Ø80 m6 is +30/+11, Ø140 H7 +40/0."""
     from abu_calc.report.drawing.sheets import seat_sheets
 
-    (drawing,) = seat_sheets(check_fit(read_machine("mmg-3200k-knife-shaft")))
-    _clear(drawing)
-    lengths = {each.text: (each.value, each.below) for each in drawing.shapes if isinstance(each, Length)}
-    assert lengths == {
-        "Ø80 k6": (80.0, "(+21 / +2 µm)"), "Ø140 K7": (140.0, "(+12 / -28 µm)"), "33": (33.0, "")
-    }  # fmt: skip
+    drawn = []
+    for drawing in seat_sheets(check_fit(read_machine("mmg-3200k-knife-shaft")))[:2]:
+        _clear(drawing)
+        drawn.append({each.text: (each.value, each.below) for each in drawing.shapes if isinstance(each, Length)})
+    assert drawn[0] == {"Ø80 k6": (80.0, "(+21 / +2 µm)"), "Ø140 H7": (140.0, "(+40 / 0 µm)"), "33": (33.0, "")}
+    assert drawn[1] == {"Ø80 m6": (80.0, "(+30 / +11 µm)"), "Ø140 K7": (140.0, "(+12 / -28 µm)"), "33": (33.0, "")}
