@@ -48,7 +48,7 @@ def _told(seat: SeatResult) -> str:
 
 
 def _limits(pair: Pair) -> str:
-    return f"{pair[1]:+g} / {pair[0]:+g} µm"
+    return " / ".join(f"{limit:+g}" if limit else "0" for limit in reversed(pair)) + " µm"
 
 
 def _parts(shaft: SeatResult, housing: SeatResult, beyond: float) -> Iterator[Shape]:
