@@ -59,7 +59,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
         frequency.check,
         *candidate_checks(case, best),
         *track_checks(case, best, race),
-        *vibration_checks(case, imbalance.value, best, idle, levels),
+        *vibration_checks(case, imbalance.value, best, idle, levels, worst),
         *power_checks(case),
         *(arm.checks if arm else ()),
         *(check for bearing in seats for check in bearing.checks),

@@ -1,13 +1,14 @@
 """The idle level against its limit over the speed range, and what a truer race would do to it."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.vibration import LevelAtSpeed, SpeedLevels, Vibration, speed_levels
-from abu_calc.sizing.worst import worst_residuals
+from abu_calc.sizing.worst import WorstResidual, worst_residuals
 from abu_calc.units import from_si
 
 SHARES = (0.5, 0.25)
@@ -15,7 +16,12 @@ SHARES = (0.5, 0.25)
 
 
 def vibration_checks(
-    case: Case, imbalance: float, one: Candidate, idle: Vibration, levels: SpeedLevels | None
+    case: Case,
+    imbalance: float,
+    one: Candidate,
+    idle: Vibration,
+    levels: SpeedLevels | None,
+    worst: Sequence[WorstResidual],
 ) -> tuple[Check, ...]:
     """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
@@ -32,12 +38,14 @@ def vibration_checks(
             remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
     message = "with the autobalancer against without, idle"
     return (
-        _level_check(case, imbalance, one, levels),
+        _level_check(case, imbalance, one, levels, worst),
         coded("ABU402", verdict(idle.lowered), message, after, before, "dB", remedy),
     )
 
 
-def _level_check(case: Case, imbalance: float, one: Candidate, levels: SpeedLevels) -> Check:
+def _level_check(
+    case: Case, imbalance: float, one: Candidate, levels: SpeedLevels, worst: Sequence[WorstResidual]
+) -> Check:
     """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
     limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
     kept, safe = highest.after <= limit, arranged.after <= limit
@@ -46,26 +54,35 @@ def _level_check(case: Case, imbalance: float, one: Candidate, levels: SpeedLeve
     if kept and not safe:
         there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
         message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
-    remedy = None if kept and safe else _remedy(case, imbalance, one, worst=kept)
+    remedy = None if kept and safe else _remedy(case, imbalance, one, None if kept else worst)
     return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", remedy)
 
 
-def _remedy(case: Case, imbalance: float, one: Candidate, *, worst: bool) -> str:
-    """The first truer race that keeps the limit, by the same formulas; `worst`: as friction holds balls at worst."""
+def _remedy(case: Case, imbalance: float, one: Candidate, held: Sequence[WorstResidual] | None) -> str:
+    """The least truer race that keeps the limit, by the same formulas.
+
+    `held`: where friction holds the balls worst, which is not asked about; None: that is what has to keep it.
+    """
     background, limit = case.background_level, case.level_limit
     if background is not None and background >= limit:
         return (
             f"The background alone is {background:.4g} dB, which no autobalancer lowers: a quieter machine, or another "
             "limits.vibration_level_db."
         )
-    for words, other in _truer(case):
-        levels = speed_levels(other, imbalance, one, worst_residuals(other, imbalance, one), possible=True)
-        if levels and (found := levels.arranged if worst else levels.highest).after <= limit:
-            return f"Tried: {words} gives {found.after:.1f} dB."
-    return (
-        f"Tried without success: {1 / SHARES[-1]:g} times less eccentricity and friction of the race. What is left: a "
-        "heavier machine, or another limits.vibration_level_db."
-    )
+
+    def level(other: Case) -> float:
+        levels = speed_levels(other, imbalance, one, held or worst_residuals(other, imbalance, one), possible=True)
+        return math.inf if levels is None else (levels.highest if held else levels.arranged).after
+
+    *others, (words, truest) = _truer(case)
+    if (least := level(truest)) > limit:
+        return (
+            f"Tried without success: {1 / SHARES[-1]:g} times less eccentricity and friction of the race. What is "
+            "left: a heavier machine, or another limits.vibration_level_db."
+        )
+    tried = ((each, level(other)) for each, other in others)
+    words, found = next((pair for pair in tried if pair[1] <= limit), (words, least))
+    return f"Tried: {words} gives {found:.1f} dB."
 
 
 def _truer(case: Case) -> Iterator[tuple[str, Case]]:

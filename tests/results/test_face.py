@@ -144,6 +144,7 @@ def test_importing_loads_nothing() -> None:
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.slow
 def test_a_type_checker_sees_real_types(tmp_path: Path) -> None:
     script = tmp_path / "use.py"
     script.write_text(
