@@ -9,6 +9,7 @@ from abu_calc.report.parts import check_blocks, default_blocks, facts, provenanc
 from abu_calc.report.shown_text import measured_after_blocks, shown_blocks
 from abu_calc.report.size_screen import about, balls, numbers_that_matter, section_picture
 from abu_calc.studies.design_records import Autobalancer, Frequency, StabilityBoundary
+from abu_calc.studies.ensemble_records import SettlingOfStart
 from abu_calc.studies.simulated_scene import SimulatedScene
 from abu_calc.studies.size import SizeResult
 
@@ -22,6 +23,11 @@ START = (
     "out may change, `abu effects` tells more."
 )
 
+WAYS = (
+    "Drag from a third to three times of the file's, as of hot and cold oil. Below the optimum drag small disturbances "
+    "decay by h₀/2J whatever the balls, above it heavier balls are quicker: see the runners-up. From standstill they "
+    "take up the speed by h₀/J. The groove's radius plays no part in the plane."
+)
 ROWS = 15
 """Of the section's picture."""
 
@@ -54,7 +60,7 @@ def _design(one: Autobalancer) -> list[Block]:
     names = (
         *("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm"),
         *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),
-        *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s"),
+        *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s", "slowest_decay_per_s"),
     )
     rows = ((f"{one.ball_material} {one.corrector}s", "n × 2r", balls(one)), *facts(one, *names).rows)
     return [Heading("Design"), Facts(rows), Paragraph(f"Housing {one.housing}.")]
@@ -92,7 +98,21 @@ def _ensemble(result: SizeResult) -> list[Block]:
         Heading("Many starts"),
         facts(many, "members", "balanced", "hanging"),
         Grid(("", "median", "worst", ""), rows, frozenset({1, 2})),
+        Heading("What shortens the balls' way: settling time in s, by start and drag"),
+        _ways(many.settling_by_start),
+        Paragraph(WAYS),
     ]
+
+
+def _ways(found: Sequence[SettlingOfStart]) -> Grid:
+    """A row for each kind of start, a column for each drag, ascending."""
+    drags = sorted({one.drag_per_s for one in found})
+    times = {(one.start, one.drag_per_s): one.settling_time_s for one in found}
+    rows = tuple(
+        (start, *(_or_never(times[start, drag]) if (start, drag) in times else "" for drag in drags))
+        for start in dict.fromkeys(one.start for one in found)
+    )
+    return Grid(("", *(f"{number(drag, 3)} 1/s" for drag in drags)), rows, frozenset(range(1, len(drags) + 1)))
 
 
 def _or_never(value: float | None) -> str:
@@ -214,10 +234,10 @@ def _weight(weight: float | None) -> str:
 def _alternatives(others: Sequence[Autobalancer]) -> list[Block]:
     if not others:
         return []
-    names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um")
+    names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um", "slowest_decay_per_s")
     rows = tuple((balls(one), *(_bare(one, name) for name in names), one.why_not or "") for one in others)
-    header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "why not")
-    return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4}))]
+    header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "decay, 1/s", "why not")
+    return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4, 5}))]
 
 
 def _bare(one: Autobalancer, name: str) -> str:

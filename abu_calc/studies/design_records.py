@@ -99,6 +99,7 @@ class Autobalancer(Record):
     contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρv²", 3)]
     optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ)", 3)]
+    slowest_decay_per_s: Annotated[float, Quantity("slowest decay of the balls' way", "", 3, "at the drag given")]
     carry_over_rpm: Annotated[float, Quantity("least speed that carries balls over", "√(g/R_p)", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
     corrector: Annotated[str, Quantity("kind of corrector")]
@@ -129,6 +130,7 @@ class Autobalancer(Record):
             contact_pressure_MPa=from_si(one.strength.contact_pressure, "MPa"),
             hoop_stress_MPa=from_si(one.strength.hoop_stress, "MPa"),
             optimum_drag_per_s=race.optimum_drag,
+            slowest_decay_per_s=race.decay_rates[0][1],
             carry_over_rpm=from_si(race.carry_over, "rpm"),
             residual_um=_um(one.budget.residual),
             corrector=table.corrector,

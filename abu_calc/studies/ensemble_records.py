@@ -38,6 +38,26 @@ class WorstMember(Record):
 
 
 @record
+class SettlingOfStart(Record):
+    """How long balls take from one kind of start at one drag: the slower of a race off to either side; None: never."""
+
+    start: Annotated[str, Quantity("start")]
+    drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
+    settling_time_s: Annotated[float | None, Quantity("settling time", "t_s", 3)]
+
+    @classmethod
+    def all_of(cls, ensemble: Ensemble) -> tuple[Self, ...]:
+        """Each kind of start at each drag, in the order in which they ran."""
+        slowest: dict[tuple[str, float], float] = {}
+        for one in ensemble.outcomes:
+            key = one.member.name, one.member.drag
+            slowest[key] = max(one.time, slowest.get(key, 0.0))
+        return tuple(
+            cls(start=start, drag_per_s=drag, settling_time_s=finite(time)) for (start, drag), time in slowest.items()
+        )
+
+
+@record
 class EnsembleResult(Record):
     """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
 
@@ -48,6 +68,7 @@ class EnsembleResult(Record):
     level_db: Annotated[Spread, Quantity("level", "L")]
     residual_um: Annotated[Spread, Quantity("residual", "w")]
     worst_member: Annotated[WorstMember | None, Quantity("worst start")]
+    settling_by_start: tuple[SettlingOfStart, ...]
 
     @classmethod
     def of(cls, ensemble: Ensemble) -> Self:
@@ -61,4 +82,5 @@ class EnsembleResult(Record):
             level_db=Spread.of(ensemble, (one.level for one in outcomes)),
             residual_um=Spread.of(ensemble, (from_si(one.residual, "um") for one in outcomes)),
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
+            settling_by_start=SettlingOfStart.all_of(ensemble),
         )

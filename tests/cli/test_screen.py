@@ -214,3 +214,15 @@ def test_a_number_stays_with_its_unit() -> None:
         assert not re.search(r"\d\n +(s|rpm|dB|%|kg)\b", text) and flat(text).startswith(
             "settled in 0.142 s, at 5800 rpm"
         )
+
+
+def test_what_shortens_the_balls_way(sized: SizeResult) -> None:
+    """Each start at each drag, the slower of two sides; below the optimum small disturbances decay by h₀/2J, J = 7/5."""
+    many = sized.ensemble
+    assert many is not None
+    times = {(one.start, round(one.drag_per_s, 6)): one.settling_time_s for one in many.settling_by_start}
+    assert {start for start, _ in times} == {"bunched", "behind", "spread", "standstill", "run-up in 1 s"}
+    assert {drag for _, drag in times} == {5.0, 15.0, 45.0} and len(times) == 15
+    assert max(time for time in times.values() if time is not None) == many.settling_time_s.worst
+    assert (sized.autobalancer.optimum_drag_per_s or 0) > 15
+    assert sized.autobalancer.slowest_decay_per_s == pytest.approx(15 / (2 * 7 / 5), rel=1e-9)
