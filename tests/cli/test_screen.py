@@ -217,7 +217,7 @@ def test_a_number_stays_with_its_unit() -> None:
 
 
 def test_what_shortens_the_balls_way(sized: SizeResult) -> None:
-    """Each start at each drag, the slower of two sides; below the optimum small disturbances decay by h₀/2J, J = 7/5."""
+    """Each start at each drag, the slower of two sides; below the optimum decay is h₀/2J, J = 7/5."""
     many = sized.ensemble
     assert many is not None
     times = {(one.start, round(one.drag_per_s, 6)): one.settling_time_s for one in many.settling_by_start}
