@@ -98,9 +98,9 @@ def _table(path: str, text: str, told: list[str]) -> Lines:
 
 
 def _numeric(line: str) -> bool:
-    """Whether the first cell of a line is a number."""
+    """Whether the first cell of a line is a number; a comma before a digit may be a decimal point, or end the cell."""
     cell = re.split(r"[;\t]|,(?!\d)|\s", line.strip())[0].strip('"')
-    return re.fullmatch(r"[-+]?(\d+([.,]\d*)*|[.,]\d+)([eE][-+]?\d+)?", cell) is not None
+    return re.fullmatch(r"[-+]?(\d+([.,]\d*)*|[.,]\d+)([eE][-+]?\d+(,.*)?)?", cell) is not None
 
 
 def _delimiter(line: str) -> str | None:

@@ -4,6 +4,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from abu_calc.errors import InputError
 from abu_calc.spec.table import Name, Table, problem
 from abu_calc.spec.usual import usual
 from abu_calc.standards.maker_fits import RingLoad
@@ -122,6 +123,24 @@ class RollingBearing(Table):
         "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
         examples=["C3"],
     )
+
+    def own_defaults(self) -> dict[str, object]:
+        """Class and series have a default where no designation tells them."""
+        derived: dict[str, object] = {}
+        if self.series is None and self.designation is None:
+            derived["series"] = "light"
+        if self.bearing_class is None and not self._class_is_designated():
+            derived["bearing_class"] = "0"
+        return {**super().own_defaults(), **derived}
+
+    def _class_is_designated(self) -> bool:
+        """Whether a suffix tells the class; an unknown designation is refused where it is looked up."""
+        from abu_calc.standards.designations import read_designation  # many files have no bearing
+
+        try:
+            return self.designation is not None and read_designation(self.designation).accuracy is not None
+        except InputError:
+            return True
 
     @model_validator(mode="after")
     def _sized_one_way(self) -> Self:

@@ -16,7 +16,7 @@ from abu_calc.validity import Range
 
 Array = NDArray[np.float64]
 
-SAMPLES: Final = Range("number of samples", 2, 1_000_000, remedy="ask for fewer samples", key="samples")
+SAMPLES: Final = Range("number of samples", 2, 1_000_000, remedy="ask for a number in this range", key="samples")
 
 MOST_NUMBERS: Final = 2**25
 """Samples times states that are held: 256 MB."""

@@ -93,6 +93,7 @@ def test_defaults_in_force_are_listed(tmp_path: Path) -> None:
         "bearing[0].shaft_material": "steel",
         "bearing[0].housing_material": "steel",
         "bearing[0].housing_split": False,
+        "bearing[0].bearing_class": "0",
         "limits.settling_time_s": 1,
     }
 
@@ -157,6 +158,18 @@ def test_bearings_alone(tmp_path: Path) -> None:
     assert loaded.tables.limits.vibration_level_db == 109
     assert dict(loaded.defaults_used)["bearing[1].housing_material"] == "steel"
     assert loaded.tables.bearing[1].shaft_fit is None  # which to write is the answer, never a default
+
+
+@pytest.mark.parametrize(("given", "told"), [
+    ({"bore_mm": 17.0, "outer_mm": 40.0, "width_mm": 12.0}, {"series": "light", "bearing_class": "0"}),
+    ({"designation": "6203"}, {"bearing_class": "0"}), ({"designation": "6203/P6"}, {}),
+    ({"designation": "6203", "bearing_class": "5"}, {}), ({"designation": "nonsense"}, {}),
+])  # fmt: skip
+def test_class_and_series_of_a_bearing_are_defaults_where_no_designation_tells_them(
+    given: dict[str, object], told: dict[str, str]
+) -> None:
+    found = Bearing.model_validate(given).own_defaults()
+    assert {key: found[key] for key in ("series", "bearing_class") if key in found} == told
 
 
 def test_a_designation_may_have_its_own_chamfer() -> None:

@@ -68,6 +68,8 @@ def test_what_is_taken_for_granted_is_told(tmp_path: Path, text: str, told: str)
     .replace("[m/s]", "[m/s];"), table("t v_m_per_s", [row.replace(",", "  ") for row in ROWS]),
     table('"t_s","v [m/s]"'), table("t_ms,v [m/s]", [f"{1000 * t:.3f},{x:.6f}" for t, x in zip(T, WAVE, strict=True)]),
     table("v [m/s],t_s", [",".join(reversed(row.split(","))) for row in ROWS]), table("t_s,v [m/s]") + "\n\n",
+    table("t_s,v [m/s]", [f"{t:.9e},{x:.9e}" for t, x in zip(T, WAVE, strict=True)]),
+    table("v [m/s],t_s", [f"{x + 1e-9:.9e},{t:.9e}" for t, x in zip(T, WAVE, strict=True)]),
 ])  # fmt: skip
 def test_ways_of_writing_that_mean_the_same(tmp_path: Path, text: str) -> None:
     found = read_recording(written(tmp_path, text))
