@@ -2,11 +2,14 @@
 
 from collections.abc import Sequence
 
+from abu_calc.escapes import shortened
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.fits import Seats
 from abu_calc.studies.seat_parts import Repair
 from abu_calc.studies.seat_records import SeatResult
 
+NAME = 22
+"""Signs of a bearing's name in a table: more would be wrapped, and a wrapped name may look like a verdict."""
 VERDICTS = {"pass": "PASS", "warn": "PASS, warning", "fail": "FAIL", "not-done": "NOT DONE"}
 
 
@@ -25,7 +28,7 @@ def advice_lines(pair: Seats) -> list[Paragraph]:
 def bearing_table(pairs: Sequence[Seats]) -> Grid:
     """A line a bearing: its fits, the verdict, the advice."""
     rows = tuple(
-        (shaft.name, shaft.fit, housing.fit, VERDICTS[shaft.bearing_verdict], _short(shaft, housing))
+        (shortened(shaft.name, NAME), shaft.fit, housing.fit, VERDICTS[shaft.bearing_verdict], _short(shaft, housing))
         for shaft, housing in pairs
     )
     return Grid(("bearing", "shaft", "housing", "verdict", "write"), rows)

@@ -2,8 +2,9 @@
 
 from typing import Final
 
+from abu_calc.escapes import shortened
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.report.fit_advice import advice_lines, bearing_table, repair_lines, sorting_blocks
+from abu_calc.report.fit_advice import NAME, advice_lines, bearing_table, repair_lines, sorting_blocks
 from abu_calc.report.fits import by_bearing
 from abu_calc.report.numbers import number
 from abu_calc.report.screen import BLANK, cut, one_screen, verdict_line
@@ -37,7 +38,7 @@ def _row(seat: SeatResult) -> tuple[str, ...]:
     low, high = seat.interference_um
     needed = "no grip" if seat.needs_no_grip else _um(seat.required_interference_um)
     return (
-        seat.name if seat.seat == "shaft" else "", seat.seat, seat.fit, f"{low:.4g} … {high:.4g}",
+        shortened(seat.name, NAME) if seat.seat == "shaft" else "", seat.seat, seat.fit, f"{low:.4g} … {high:.4g}",
         needed, _um(seat.permitted_interference_um), seat.recommended_fit or "–",
     )  # fmt: skip
 

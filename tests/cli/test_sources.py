@@ -130,7 +130,7 @@ def test_odd_entries_are_wrong_input(tmp_path: Path, text: str, key: str, line: 
             continue
         seen = abu(*arguments)
         if "[expected]" not in text and arguments[1] == str(tmp_path):
-            assert "no machine file with [expected]" in seen.err
+            assert "no file with [expected]" in seen.err
             continue
         assert seen.status == 2 and f"{file}:{line}: {key}" in seen.err and "bug" not in seen.err, seen
         assert seen.err.count("\n") >= 1

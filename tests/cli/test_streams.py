@@ -15,7 +15,7 @@ from abu_calc.cli.streams import Outlet
 from tests.spec.samples import BEARINGS
 
 posix = pytest.mark.skipif(os.name == "nt", reason="shells of POSIX")
-FAILING = ("check-fit", "mmg-3200k-knife-shaft")
+FAILING = ("check-fit", *["--designation", "7516", "--radial-load-kN", "3", "--shaft", "f6", "--housing", "H7"])
 """A quick command whose checks fail; `presets` is one that passes."""
 
 

@@ -12,7 +12,7 @@ from tests.cli.runner import abu
 from tests.spec.samples import BEARINGS
 from tests.spec.scenes import SCENE
 
-COMMAND = ("check-fit", "mmg-3200k-knife-shaft")
+COMMAND = ("check-fit", *["--designation", "7516", "--radial-load-kN", "3", "--shaft", "f6", "--housing", "H7"])
 posix = pytest.mark.skipif(os.name == "nt", reason="links need rights there, and FIFOs are none")
 
 
