@@ -37,6 +37,7 @@ COMMANDS = (
     "accuracy",
     "levels",
     "factory",
+    "compare",
     "verify",
     "validate",
     "init",

@@ -8,6 +8,7 @@ from abu_calc.checks import Check, Status
 from abu_calc.studies.accuracy import AccuracyResult
 from abu_calc.studies.balance import BalanceResult
 from abu_calc.studies.check_fit import CheckFitResult
+from abu_calc.studies.compare import CompareResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
 from abu_calc.studies.factory import FactoryResult
 from abu_calc.studies.grinding import GrindingResult
@@ -24,7 +25,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
     SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
-    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, VerifyResult,
+    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, CompareResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
