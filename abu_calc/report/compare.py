@@ -40,7 +40,7 @@ def compare_screen(result: CompareResult) -> tuple[Block, ...]:
     tables: list[Block] = [BLANK, Paragraph("Nothing differs.")]
     if result.differences:
         tables = _shared_out(result, room - others)
-    below = [Heading("What did not pass"), *reasons(result.checks)] if _unsettled(result) else []
+    below: list[Block] = [Heading("What did not pass"), *reasons(result.checks)] if _unsettled(result) else []
     rest = cut([*below, *warning_blocks(result.warnings)], room - height([*tables, BLANK]) - 1)
     return (*about, *tables, *rest, *last)
 
