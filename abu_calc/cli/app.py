@@ -18,9 +18,9 @@ from abu_calc.version import __version__
 FIRST_STEPS: Final = """\
 abu-calc sizes ball autobalancers of hand grinders. Three commands to try:
 
-  abu size avtovaz-707-222            an autobalancer for a grinder of the presets
-  abu init my-grinder.toml            a file for your own, every key explained
-  abu check-fit --designation 6203    which fits a bearing's seats need
+  abu size avtovaz-707-222            sizes the autobalancer of a preset
+  abu init my-grinder.toml            writes a file for a machine of your own
+  abu check-fit --designation 6203    says which fits its seats need
 
 All commands: abu --help. Completion by the Tab key: abu --install-completion."""
 """What `abu` alone says."""

@@ -15,12 +15,12 @@ from abu_calc.report.outcome import Outcome
 def compare(
     how: Delivery,
     machines: Annotated[
-        list[str], typer.Argument(metavar="MACHINE...", help="Machine files, or names of presets; the first leads.")
+        list[str], typer.Argument(metavar="MACHINE", help="Machine files, or names of presets; the first leads.")
     ],
     variants: Annotated[
         list[str] | None,
         typer.Option(
-            "--variant", metavar='"KEY=VALUE,..."', help="The machine with these entries replaced; repeatable."
+            "--variant", metavar="KEY=VALUE,KEY=VALUE", help="The machine with these entries replaced; repeatable."
         ),
     ] = None,
     set_: Overrides = None,
