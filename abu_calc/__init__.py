@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from abu_calc.studies.accuracy import AccuracyResult, accuracy
     from abu_calc.studies.balance import BalanceResult, balance
     from abu_calc.studies.check_fit import CheckFitResult, check_fit
+    from abu_calc.studies.compare import CompareResult, compare
     from abu_calc.studies.effects import EffectsResult, effects
     from abu_calc.studies.factory import FactoryResult, factory
     from abu_calc.studies.grinding import GrindingResult, grinding
@@ -52,6 +53,7 @@ _ROOMS: Final = {
     "studies.accuracy": ("AccuracyResult", "accuracy"),
     "studies.balance": ("BalanceResult", "balance"),
     "studies.check_fit": ("CheckFitResult", "check_fit"),
+    "studies.compare": ("CompareResult", "compare"),
     "studies.effects": ("EffectsResult", "effects"),
     "studies.factory": ("FactoryResult", "factory"),
     "studies.levels": ("LevelsResult", "levels"),
@@ -71,6 +73,7 @@ __all__ = [
     "BalanceResult",
     "Check",
     "CheckFitResult",
+    "CompareResult",
     "EffectsResult",
     "FactoryResult",
     "GrindingResult",
@@ -94,6 +97,7 @@ __all__ = [
     "accuracy",
     "balance",
     "check_fit",
+    "compare",
     "effects",
     "factory",
     "grinding",

@@ -15,6 +15,19 @@ from abu_calc.errors import AbuError, InputError, OutputError
 from abu_calc.escapes import escaped, shortened
 from abu_calc.version import __version__
 
+FIRST_STEPS: Final = """\
+abu-calc sizes ball autobalancers of hand grinders. Three commands to try:
+
+  abu size avtovaz-707-222            sizes the autobalancer of a preset
+  abu init my-grinder.toml            writes a file for a machine of your own
+  abu check-fit --designation 6203    says which fits its seats need
+
+All commands: abu --help. Completion by the Tab key: abu --install-completion."""
+"""What `abu` alone says."""
+
+COMPLETION: Final = "_ABU_COMPLETE"
+"""Set by shells that ask how a line may go on."""
+
 LONGEST_MESSAGE: Final = 400
 """Characters of what the parser of command lines says, which repeats what it was given."""
 
@@ -38,6 +51,7 @@ COMMANDS = (
     "sweep",
     "levels",
     "factory",
+    "compare",
     "verify",
     "validate",
     "init",
@@ -56,7 +70,6 @@ def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
         epilog="Start with `abu presets`, then `abu size avtovaz-707-222`, then `abu init FILE` for a machine of your "
         "own.",
         no_args_is_help=True,
-        add_completion=False,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
@@ -101,6 +114,9 @@ def _warn(message: Warning | str, *_: object, **__: object) -> None:
 
 def run(arguments: list[str]) -> int:
     """Run `abu` with these arguments and return its exit status; every error is printed in a line or two."""
+    if not arguments and COMPLETION not in os.environ:
+        print(FIRST_STEPS)
+        return 0
     command = next((word for word in arguments if not word.startswith("-")), "")
     as_json = "--json" in arguments
     try:

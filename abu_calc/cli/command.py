@@ -78,7 +78,8 @@ def add_command(
     run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     run.__doc__ = function.__doc__
-    app.command(name)(run)
+    # Given by itself it is wrapped, not cut.
+    app.command(name, short_help=inspect.cleandoc(run.__doc__ or "").partition("\n\n")[0])(run)
 
 
 def _options(parameters: Mapping[str, inspect.Parameter]) -> Iterator[tuple[str, str]]:

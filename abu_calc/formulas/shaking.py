@@ -13,7 +13,7 @@ from abu_calc.formula import formula
         "a amplitude across the race, of the axial runout a_z by which a face wheel moves the machine, or along it, of "
         "the backward whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
     ),
-    assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(ρ−r), across it at resonance",
+    assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(R_g−r), across it at resonance",
     source="derived, and seen in simulations",
     printed=(
         "Kladiev 1996 has axial runout alone shake friction out; the whirl by runout in the plane does, too, but slowly"

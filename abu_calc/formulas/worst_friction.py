@@ -44,16 +44,16 @@ class _Split:
 
 @formula(
     "Largest displacement at which dry rolling friction can hold the balls in any arrangement",
-    "largest ρ ≥ b with L(ρ) ≤ u ≤ H(ρ)",
+    "largest d ≥ b with L(d) ≤ u ≤ H(d)",
     "m",
     where=(
-        "b = k_r·R_p/r. At the displacement ρ each ball rests within arcsin(b/ρ) of the displacement's direction or of "
-        "the opposite one; for each split of the balls L and H are the least and the largest |Kρ + Σe^{iφ}|, K = "
-        "−1/(h·m·R_p), h = Ω²/(k − MΩ² + icΩ), u = U/(m·R_p). Counted is the interval of ρ that begins at b; of two "
+        "b = k_r·R_p/r. At the displacement d each ball rests within arcsin(b/d) of the displacement's direction or of "
+        "the opposite one; for each split of the balls L and H are the least and the largest |Kd + Σe^{iφ}|, K = "
+        "−1/(h·m·R_p), h = Ω²/(k − MΩ² + icΩ), u = U/(m·R_p). Counted is the interval of d that begins at b; of two "
         "balls also the one with a ball on either side, where 5–10 % of starts end. Not counted: two balls bunched "
         "opposite the imbalance (one start in 400), and all on the heavy side."
     ),
-    assumed="ball contact left out; ρ small against R_p",
+    assumed="ball contact left out; d small against R_p",
     source="derived; confirmed by integration from random starts",
 )
 def worst_friction(count: int, moment: float, band: float, imbalance: float, receptance: complex) -> WorstFriction:
@@ -120,7 +120,7 @@ def _possible(split: _Split, rho: "Reals", *, every: bool = False) -> "NDArray[n
 
 
 def _carried(split: _Split, rho: "Reals", angles: "Reals") -> "Complexes":
-    """z = Kρ + Σe^{iφ}; balls stand along the last axis of the angles."""
+    """z = Kd + Σe^{iφ}; balls stand along the last axis of the angles."""
     import numpy as np
 
     return np.asarray(split.pull * rho + np.exp(1j * angles).sum(axis=-1))

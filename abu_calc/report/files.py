@@ -18,7 +18,7 @@ FORMULAS: Final = ("=", "+", "-", "@")
 
 
 def as_toml(outcome: Outcome) -> str:
-    """The JSON document as TOML; what is null there is left out, since TOML has no null."""
+    """The JSON document as TOML, which has no null: such keys are left out, in a list the word keeps the place."""
     import tomli_w
 
     return escaped_toml(tomli_w.dumps(_without_null(document(outcome))))
@@ -95,5 +95,5 @@ def _without_null(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _without_null(inner) for key, inner in value.items() if inner is not None}
     if isinstance(value, (list, tuple)):
-        return [_without_null(inner) for inner in value if inner is not None]
+        return ["null" if inner is None else _without_null(inner) for inner in value]
     return value

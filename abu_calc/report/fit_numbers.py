@@ -6,6 +6,7 @@ from abu_calc.fits.joint import CENTRIFUGAL, WARMTH
 from abu_calc.studies.seat_model import BearingModel, SeatModel
 from abu_calc.studies.seat_parts import Clearance
 from abu_calc.studies.seat_records import SeatResult
+from abu_calc.units import from_si
 
 
 def seat_numbers(models: Sequence[BearingModel], seats: Sequence[SeatResult]) -> tuple[str, ...]:
@@ -61,7 +62,7 @@ def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[
     numbers = {
         "smoothing": f"0.4·{_g(model.roughness_um)} µm",
         WARMTH: f"{_g(model.diameter_mm)} mm·({_warm(model)})",
-        CENTRIFUGAL: f"Ω = {_g(bearing.speed_rad_per_s or 0.0)} rad/s, d = {bore}, d₁ = "
+        CENTRIFUGAL: f"Ω = {_g(from_si(bearing.speed_rad_per_s or 0.0, 'rpm'))} rpm, d = {bore}, d₁ = "
         f"{_g(bearing.inner_ring_diameter_mm)}, d₀ = {_g(bearing.shaft_bore_mm)} mm",
     }
     lines = tuple(

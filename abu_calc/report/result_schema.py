@@ -8,6 +8,7 @@ from abu_calc.checks import Check, Status
 from abu_calc.studies.accuracy import AccuracyResult
 from abu_calc.studies.balance import BalanceResult
 from abu_calc.studies.check_fit import CheckFitResult
+from abu_calc.studies.compare import CompareResult
 from abu_calc.studies.effects import EffectsResult, KnownEffectsResult
 from abu_calc.studies.factory import FactoryResult
 from abu_calc.studies.grinding import GrindingResult
@@ -25,7 +26,11 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
     SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
+<<<<<<< HEAD
     AccuracyResult, BalanceResult, LevelsResult, FactoryResult, SweepResult, VerifyResult,
+=======
+    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, CompareResult, VerifyResult,
+>>>>>>> hJ
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from abu_calc.report.numbers import number
+from abu_calc.units import from_si
 
 if TYPE_CHECKING:
     from abu_calc.studies.size import SizeResult
@@ -70,10 +71,10 @@ def track(result: "SizeResult") -> Lines:
     """The groove, and what presses on it."""
     one, model = result.autobalancer, result.model
     return (
-        f"ρ = r + (5/7)(R−r) = {_n(model.ball_radius_mm)} + (5/7)·{_n(one.pitch_radius_mm)} = "
+        f"R_g = r + (5/7)(R−r) = {_n(model.ball_radius_mm)} + (5/7)·{_n(one.pitch_radius_mm)} = "
         f"{_n(one.groove_radius_mm)} mm",
         f"F = m·R_p·Ω² = {_n(one.ball_force_N)} N, p₀ = {_n(one.contact_pressure_MPa)} MPa, permitted "
-        f"{_n(model.permitted_pressure_Pa)} Pa",
+        f"{_n(from_si(model.permitted_pressure_Pa, 'MPa'))} MPa",
     )
 
 

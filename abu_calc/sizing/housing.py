@@ -66,15 +66,15 @@ class Housing:
 
 @formula(
     "Radius of the toroidal groove",
-    "ρ = r + (5/7)(R − r), from 5(R−r) = 7(ρ−r)",
+    "R_g = r + (5/7)(R − r), from 5(R−r) = 7(R_g−r)",
     "m",
     where=(
         "R race radius at the bottom of the groove, r ball radius [m]. Then the ball's natural frequency across the "
         "groove equals the speed at any speed, and axial runout shakes out dry friction."
     ),
     assumed=(
-        "a ball held from spinning about the contact normal. Free to spin, w_t² = Ω²[(5/7)(R−r)/(ρ−r) + 2/7], and the "
-        "resonance sits at ρ = R; a real ball lies between"
+        "a ball held from spinning about the contact normal. Free, w_t² = Ω²[(5/7)(R−r)/(R_g−r) + 2/7], and the "
+        "resonance sits at R_g = R; a real ball lies between"
     ),
     source="Kladiev 1996, (12), its meaning derived",
 )
@@ -102,7 +102,7 @@ def width(design: Design, ball_diameter: float) -> float:
 
 
 def groove_depth(groove: float, inner_width: float) -> float:
-    """Depth of the groove at the edges of the race [m], s = ρ − √(ρ² − (b/2)²), b width between the webs.
+    """Depth of the groove at the edges of the race [m], s = R_g − √(R_g² − (b/2)²), b width between the webs.
 
     >>> round(1e3 * groove_depth(24.43e-3, 16.6e-3), 2)
     1.45
@@ -138,7 +138,7 @@ def housing(
 
 
 def _fill(race_radius: float, groove: float, inner_width: float) -> float:
-    """Volume [m³] between the cylinder of the race and its groove: π∫(R² − (c + √(ρ² − x²))²)dx, c = R − ρ."""
+    """Volume [m³] between the cylinder of the race and its groove: π∫(R² − (c + √(R_g² − x²))²)dx, c = R − R_g."""
     centre, half = race_radius - groove, inner_width / 2
     arc = half * math.sqrt(groove**2 - half**2) + groove**2 * math.asin(half / groove)
     return math.pi * (2 * half * (race_radius**2 - centre**2 - groove**2 + half**2 / 3) - 2 * centre * arc)

@@ -15,8 +15,8 @@ CURVATURE_RATIO = Range("ratio of the contact's curvatures", 1.0, 100.0)
     "p₀ = 3F/(2π·a·b)",
     "Pa",
     where=(
-        "Curvature sums 1/r − 1/R and 1/r − 1/ρ; ellipse by k = α^(2/π), 𝓔 = 1 + (π/2 − 1)/α, α their ratio ≥ 1, b³ = "
-        "6·𝓔·F·R'/(π·k·E'), a = k·b, 1/R' the sum of both, E' = E/(1−ν²). F force [N]; radii [m]; steel on steel. "
+        "Curvature sums 1/r − 1/R and 1/r − 1/R_g; ellipse by k = α^(2/π), 𝓔 = 1 + (π/2 − 1)/α, α their ratio ≥ 1, "
+        "b³ = 6·𝓔·F·R'/(π·k·E'), a = k·b, 1/R' the sum of both, E' = E/(1−ν²). F force [N]; radii [m]; steel on steel. "
         "Within 2 % of the elliptic integrals."
     ),
     checked=(CURVATURE_RATIO,),

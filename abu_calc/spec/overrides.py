@@ -18,6 +18,8 @@ _STEP: Final = re.compile(
 CHANGED: Final = "{}"
 """What messages call an override that Python gave: by its key alone."""
 EXAMPLE: Final = "--set machine.mass_kg=5.6"
+VARIANT: Final = "--variant"
+_KEY_FOLLOWS: Final = re.compile(r"""\s*(?:[\w.\[\]-]|"[^"]*"|'[^']*')+\s*=""")
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,33 @@ def parse_overrides(texts: Sequence[str]) -> tuple[Override, ...]:
     raise InputError("not a list of overrides", place=place, found=found_as(texts), allowed=f'["{EXAMPLE[6:]}"]')
 
 
-def parse_override(text: str) -> Override:
+def parse_variant(text: str) -> tuple[Override, ...]:
+    """The overrides of a variant, "key=value,key=value"; commas inside of values divide nothing.
+
+    >>> [override.key for override in parse_variant("machine.name=a,b, wheel.mass_kg=0.5")]
+    ['machine.name', 'wheel.mass_kg']
+    """
+    return tuple(parse_override(part, VARIANT) for part in _parted(text))
+
+
+def _parted(text: str) -> list[str]:
+    """Divided at the commas outside of quotes and brackets behind which a further key begins."""
+    parts, depth, quote = [""], 0, ""
+    for index, sign in enumerate(text):
+        if quote:
+            quote = "" if sign == quote else quote
+        elif sign in "\"'":
+            quote = sign
+        else:
+            depth += (sign in "[{") - (sign in "]}")
+            if sign == "," and depth <= 0 and _KEY_FOLLOWS.match(text, index + 1):
+                parts.append("")
+                continue
+        parts[-1] += sign
+    return parts
+
+
+def parse_override(text: str, option: str = "--set") -> Override:
     """An override as written on the command line; a bare word is text, since shells strip quotes.
 
     >>> parse_override("bearing.0.shaft_fit=m6")
@@ -91,9 +119,9 @@ def parse_override(text: str) -> Override:
     """
     key, equals, value = _split(text)
     if not equals or not key.strip():
-        raise InputError("not an override", place=Place(key="--set"), found=text, allowed=EXAMPLE)
-    path = _path(key.strip())
-    return Override(path, _value(value.strip(), Place(key=f"--set {key_path(path)}")))
+        raise InputError("not an override", place=Place(key=option), found=text, allowed=option + EXAMPLE[5:])
+    path = _path(key.strip(), option)
+    return Override(path, _value(value.strip(), Place(key=f"{option} {key_path(path)}")), f"{option} {{}}")
 
 
 def apply(document: dict[str, object], overrides: Sequence[Override], model: type[Table]) -> list[str]:

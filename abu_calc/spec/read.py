@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from abu_calc.spec.machine import MachineFile
     from abu_calc.spec.overrides import Override
 
-__all__ = ["LARGEST_FILE", "Machine", "machine_from", "read", "read_machine"]
+__all__ = ["LARGEST_FILE", "Machine", "machine_from", "read", "read_machine", "variant_of"]
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,13 @@ def machine_from(document: Document, overrides: "Sequence[Override]" = ()) -> Ma
     known = _whole() if overrides else BearingFile
     tables, reading = validate(document, overrides, known, _model)
     return Machine(**vars(reading), tables=tables)
+
+
+def variant_of(machine: Machine, text: str) -> Machine:
+    """The machine with the entries replaced that `--variant "key=value,key=value"` names; raises as `changed` does."""
+    from abu_calc.spec.overrides import following, parse_variant
+
+    return machine_from(machine.document, following(machine.overrides, parse_variant(text), _whole()))
 
 
 def _model(content: Mapping[str, object]) -> "type[MachineFile] | type[BearingFile]":

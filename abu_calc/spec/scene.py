@@ -48,7 +48,7 @@ class Initial(Table):
 class SceneTable(Table):
     """One simulation: the rotor, its support, its speed, how long and from where."""
 
-    shown_in_template: ClassVar[frozenset[str]] = frozenset({"mass_kg", *SPRINGS})
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"mass_kg", *SPRINGS, "rolling_inertia"})
 
     support: Literal["planar", "tilting", "swing-arm"] = Field(
         default="planar",
@@ -59,25 +59,25 @@ class SceneTable(Table):
         default=None,
         description="Mass of the rotor and what moves with it, WITHOUT balls [kg]; {range}. Planar and tilting "
         "supports need it; a swing arm holds it in its moment of inertia.",
-        examples=[1.0],
+        examples=[6.37],
         gt=0,
         le=1e9,
     )
     stiffness_N_per_m: StiffnessPair | None = Field(
         default=None,
         description="Stiffness of a planar support along x and y [N/m]; {range}.",
-        examples=[[1.0, 1.0]],
+        examples=[[1530.0, 1530.0]],
     )
     damping_N_s_per_m: DampingPair | None = Field(
         default=None,
         description="Damping of a planar support along x and y [N·s/m]; {range}.",
-        examples=[[0.02, 0.02]],
+        examples=[[97.4, 97.4]],
     )
     speed_rpm: float = Field(
-        description="Speed of rotation, from +x to +y [rpm]; {range}.", examples=[19.0985931710274], gt=0, le=1e6
+        description="Speed of rotation, from +x to +y [rpm]; {range}.", examples=[5800.0], gt=0, le=1e6
     )
     imbalance_g_mm: float = Field(
-        description="Imbalance of the rotor without balls [g·mm]; {range}.", examples=[10000.0], ge=0, le=1e15
+        description="Imbalance of the rotor without balls [g·mm]; {range}.", examples=[256.0], ge=0, le=1e15
     )
     imbalance_angle_deg: float = Field(
         default=0.0,
@@ -86,10 +86,11 @@ class SceneTable(Table):
         le=1e6,
     )
     duration_s: float = Field(
-        description="Time to simulate [s]; at least one revolution, up to {most}.", examples=[700.0], gt=0, le=1e9
+        description="Time to simulate [s]; at least one revolution, up to {most}.", examples=[5.0], gt=0, le=1e9
     )
     rolling_inertia: bool = Field(
         default=False,
+        examples=[True],
         description="true: solid balls that roll, inertia factor 7/5 (rollers 3/2); false: points. Default: {default}.",
     )
     initial: Initial = Field(default_factory=Initial)

@@ -127,7 +127,7 @@ class TransverseMotion(Table):
 
     groove_radius_mm: float = Field(
         description="Radius of the groove across the race [mm]; above ball_radius_mm, up to {most}.",
-        examples=[23.7],
+        examples=[24.4],
         gt=0,
         le=1e4,
     )

@@ -21,7 +21,7 @@ class SceneRace(Table):
 
     pitch_radius_mm: float = Field(
         description="Radius of the circle on which the balls' centres run [mm]; {range}.",
-        examples=[1000.0],
+        examples=[23.0],
         gt=0,
         le=1e6,
     )
@@ -34,7 +34,7 @@ class SceneRace(Table):
     )
     ball_masses_g: Annotated[tuple[Mass, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
         description="Mass of each ball [g]; {range}, up to 100 balls, none for the rotor alone.",
-        examples=[[50.0, 50.0]],
+        examples=[[16.7, 16.7, 16.7, 16.7]],
     )
     ball_radius_mm: float | None = Field(
         default=None,
@@ -53,18 +53,18 @@ class SceneRace(Table):
     rolling_drag_per_s: float = Field(
         description="Viscous drag h0: the torque on a ball is -m·R_p²·h0·(speed relative to the race) [1/s]; "
         "{range}, 0 switches it off.",
-        examples=[0.01],
+        examples=[15.0],
         ge=0,
         le=1e7,
     )
     start_angles_deg: Annotated[tuple[Angle, ...], Field(strict=False, max_length=MOST_BALLS)] = Field(
-        description="Angle of each ball at the start [degrees]; {range}.", examples=[[90.0, -90.0]]
+        description="Angle of each ball at the start [degrees]; {range}.", examples=[[-41.5, -0.5, 40.5, 81.5]]
     )
     start_speeds_rpm: Annotated[tuple[BallSpeed, ...], Field(strict=False, max_length=MOST_BALLS)] | None = Field(
         default=None,
         description="Speed of each ball at the start, relative to the race [rpm]; {range}. Without it: at rest in "
         "the race.",
-        examples=[[0.0, 0.0]],
+        examples=[[0.0, 0.0, 0.0, 0.0]],
     )
 
     @property

@@ -24,10 +24,10 @@ class Body(Table):
 
     mass_kg: float = Field(description="Mass of the body [kg]; {range}.", examples=[0.5], gt=0, le=1e9)
     stiffness_N_per_m: StiffnessPair = Field(
-        description="Stiffness between rotor and body along x and y [N/m]; {range}.", examples=[[1.0, 1.0]]
+        description="Stiffness between rotor and body along x and y [N/m]; {range}.", examples=[[20000.0, 20000.0]]
     )
     damping_N_s_per_m: DampingPair = Field(
-        description="Damping between rotor and body along x and y [N·s/m]; {range}.", examples=[[0.02, 0.02]]
+        description="Damping between rotor and body along x and y [N·s/m]; {range}.", examples=[[5.0, 5.0]]
     )
 
 

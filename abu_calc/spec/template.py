@@ -71,7 +71,8 @@ def _tables_inside(model: type[Table], path: tuple[str, ...], *, live: bool) -> 
 
 def _key(model: type[Table], key: str, field: FieldInfo, *, live: bool) -> str:
     inner = subtable(model, key)
-    given = field.default if not field.is_required() and field.default is not None else (field.examples or [None])[0]
+    default = None if field.is_required() or (key in model.shown_in_template and field.examples) else field.default
+    given = default if default is not None else (field.examples or [None])[0]
     shows = field.is_required() or (field.default is not None and not inner) or key in model.shown_in_template
     return _row(f"{key} = {_inline(inner, given) if inner else shown(given)}", live and shows)
 

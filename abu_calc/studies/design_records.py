@@ -88,7 +88,7 @@ class Autobalancer(Record):
     ball_mass_g: Annotated[float, Quantity("mass of one ball", "m")]
     race_radius_mm: Annotated[float, Quantity("race radius", "R")]
     pitch_radius_mm: Annotated[float, Quantity("pitch radius", "R − r")]
-    groove_radius_mm: Annotated[float | None, Quantity("groove radius (± 0.2)", "ρ")]
+    groove_radius_mm: Annotated[float | None, Quantity("groove radius (± 0.2)", "R_g")]
     capacity_g_mm: Annotated[float, Quantity("capacity, balls touching", "mR_p·sin nβ/sin β")]
     capacity_ratio: Annotated[float | None, Quantity("capacity / need", "", 3)]
     outer_diameter_mm: Annotated[float, Quantity("outer diameter")]

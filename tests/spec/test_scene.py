@@ -44,7 +44,7 @@ CASES: list[tuple[str, str, int | None, str, tuple[str, ...]]] = [
     # wrong kinds and lengths
     (MASS, 'mass_kg = "1.0"', 4, "scene.mass_kg", ("without quotes",)),
     (MASS, "mass_kg = nan", 4, "scene.mass_kg", ("finite",)),
-    (STIFFNESS, "stiffness_N_per_m = 1.0", 5, "scene.stiffness_N_per_m", ("list", "[1.0, 1.0]")),
+    (STIFFNESS, "stiffness_N_per_m = 1.0", 5, "scene.stiffness_N_per_m", ("list", "[1530.0, 1530.0]")),
     (STIFFNESS, "stiffness_N_per_m = [1.0]", 5, "scene.stiffness_N_per_m", ("too few", "at least 2")),
     (STIFFNESS, "stiffness_N_per_m = [1.0, inf]", 5, "scene.stiffness_N_per_m[1]", ("finite",)),
     (STIFFNESS, "stiffness_N_per_m = [1.0, -1.0]", 5, "scene.stiffness_N_per_m[1]", ("at least 0 N/m",)),

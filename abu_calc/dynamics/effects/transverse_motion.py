@@ -1,6 +1,6 @@
 """Transverse motion: balls roll across the race too, in its groove, by w along the spindle.
 
-Geometry, to second order in w/b, b = ρ − r the radius of the curve of the balls' centres across a groove of radius ρ:
+Geometry, to second order in w/b, b = R_g − r the radius of the curve of the balls' centres across a groove of R_g:
 
     R = R_p − w²/2b,    R' = −w w'/b,    place R e_r + (w + a_z cos turn) ẑ,    tangent ∂place/∂w = ẑ − (w/b) e_r
 
@@ -16,9 +16,9 @@ contact locks it. They take nothing from the energy ½ (J − 1) m [(R θ')² + 
 
     ω_t² = (1/J) Ω² R_p/b,    with free spin Ω² [(1/J) R_p/b + (J − 1)/J]
 
-Locked, J = 7/5: ω_t = Ω at 5 (R − r) = 7 (ρ − r), at every speed (Kladiev 1996, eq. (12), R the radius of the raceway):
+Locked, J = 7/5: ω_t = Ω at 5 (R − r) = 7 (R_g − r), at every speed (Kladiev 1996, eq. (12), R that of the raceway):
 then an axial runout "shakes out" dry friction. In print the locked spin is not mentioned; with free spin it is at
-ρ = R. The axial runout is a motion of the machine along the spindle, once per turn: a swash of the race itself stands
+R_g = R. The axial runout is a motion of the machine along the spindle, once per turn: a swash of the race itself stands
 still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b times the rotor's acceleration in ν'.
 """
 
@@ -45,7 +45,7 @@ _EDGE = 1e-9
 
 @dataclass(frozen=True)
 class TransverseMotion(Effect):
-    """`groove_radius` ρ, `ball_radius` r, `axial_runout` a_z [m]; `free_spin`: about the contact's normal."""
+    """`groove_radius` R_g, `ball_radius` r, `axial_runout` a_z [m]; `free_spin`: about the contact's normal."""
 
     groove_radius: float
     ball_radius: float
@@ -69,7 +69,7 @@ class TransverseMotion(Effect):
 
     @property
     def bend(self) -> float:
-        """b = ρ − r [m]."""
+        """b = R_g − r [m]."""
         return self.groove_radius - self.ball_radius
 
     def _split(self, own: Any) -> tuple[Array, Array, Any]:

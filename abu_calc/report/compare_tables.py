@@ -1,0 +1,127 @@
+"""Entries of several machines as tables: one column for each machine, one row for each entry."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final, NamedTuple
+
+from abu_calc.checks import Grade
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.numbers import number
+from abu_calc.report.parts import RANK, WORD
+from abu_calc.spec.text import is_number
+from abu_calc.spec.text import shown as exact
+from abu_calc.studies.compare import CompareResult
+from abu_calc.studies.side_by_side import ROUNDING, Difference, Part
+
+SECTIONS: Final[dict[Part, str]] = {
+    "file": "Files",
+    "check": "Checks: grade, value (limit where it differs)",
+    "design": "Designs",
+}
+WIDTH: Final = 80
+"""Of a table; of more machines than stand side by side there, each further table begins with the first again."""
+LONGEST_CELL: Final = 20
+MARGIN: Final = 2
+DIGITS: Final = 4
+MOST_DIGITS: Final = 15
+
+
+class Table(NamedTuple):
+    """A heading, and lines: what an entry is called, and the cell of each machine."""
+
+    heading: str
+    lines: tuple[tuple[str, ...], ...]
+
+
+def tables_of(result: CompareResult, rows: Sequence[Difference], *, marked: bool = False) -> list[Table]:
+    """Each part that has rows under its heading, the checks with value beside grade."""
+    tables = []
+    for part, heading in SECTIONS.items():
+        own = [row for row in rows if row.part == part]
+        lines = _checks(result, own, marked) if part == "check" else [_cells(row, marked) for row in own]
+        if lines:
+            tables.append(Table(heading, tuple(lines)))
+    return tables
+
+
+def table_blocks(letters: Sequence[str], table: Table, count: int | None = None) -> list[Block]:
+    """So many lines of a table; those with long cells stand below it, one machine after another."""
+    lines = table.lines[:count]
+    short = [line for line in lines if max(map(len, line[1:])) <= LONGEST_CELL]
+    blocks: list[Block] = [Heading(table.heading), *_grids(letters, short)]
+    for label, *cells in (line for line in lines if line not in short):
+        blocks.append(Paragraph(label))
+        blocks += [Paragraph(f"{k}  {cell}", indent=4, hang=3) for k, cell in zip(letters, cells, strict=True)]
+    return blocks
+
+
+def _grids(letters: Sequence[str], lines: Sequence[Sequence[str]]) -> list[Grid]:
+    """A table, or several where there are more machines than stand side by side, the first one in each."""
+    if not lines:
+        return []
+    label, *widths = (max(len(line[k]) for line in lines) + MARGIN for k in range(len(letters) + 1))
+    groups: list[list[int]] = [[]]
+    for k in range(1, len(letters)):
+        taken = label + widths[0] + sum(widths[one] for one in groups[-1])
+        if groups[-1] and taken + widths[k] > WIDTH:
+            groups.append([])
+        groups[-1].append(k)
+    return [_grid(letters, lines, (0, *group)) for group in groups]
+
+
+def _grid(letters: Sequence[str], lines: Sequence[Sequence[str]], columns: Sequence[int]) -> Grid:
+    cells = tuple((line[0], *(line[1 + k] for k in columns)) for line in lines)
+    return Grid(("", *(letters[k] for k in columns)), cells, frozenset(range(1, len(columns) + 1)))
+
+
+def _mark(row_alike: bool, marked: bool) -> str:
+    return "" if not marked else "  " if row_alike else "≠ "
+
+
+def _cells(row: Difference, marked: bool) -> tuple[str, ...]:
+    return f"{_mark(row.alike, marked)}{row.path}", *_written(row.values)
+
+
+def _checks(result: CompareResult, rows: Sequence[Difference], marked: bool) -> list[tuple[str, ...]]:
+    """One line for each check of these rows, the worst first: grade and value of each machine."""
+    known = {row.path: row for row in (*result.differences, *result.alike) if row.part == "check"}
+    names = {check.code: check.name for check in reversed(result.checks)}
+    lines = []
+    for head in dict.fromkeys(row.path.rpartition(".")[0] for row in rows):
+        status, value, limit = (known[f"{head}.{key}"] for key in ("status", "value", "limit"))
+        name = head.removeprefix("checks.").strip('"')
+        label = name if " " in name else f"{name} {names[name].rpartition(', ')[0]}"
+        limits = [""] * len(limit.values) if limit.alike else [f" ({one})" for one in _written(limit.values)]
+        cells = (
+            "–" if grade is None else f"{WORD[grade]} {found}{bound}".replace(" –", "").rstrip()
+            for grade, found, bound in zip(status.values, _written(value.values), limits, strict=True)
+        )  # fmt: skip
+        same = status.alike and value.alike and limit.alike
+        line = f"{_mark(same, marked)}{label}{f', {value.unit}' if value.unit else ''}", *cells
+        lines.append((min(map(_rank, status.values)), line))
+    return [line for _, line in sorted(lines, key=lambda one: one[0])]
+
+
+def _rank(grade: Grade | None) -> int:
+    return RANK.index(grade) if grade in RANK else len(RANK)
+
+
+def _written(values: Sequence[Any]) -> list[str]:
+    """Values as text; numbers to as many digits as tell apart those that differ."""
+    apart = len({value for value in values if is_number(value)})
+    for digits in range(DIGITS, MOST_DIGITS + 1):
+        texts = [_text(value, digits) for value in values]
+        if len({text for text, value in zip(texts, values, strict=True) if is_number(value)}) >= apart:
+            break
+    return texts
+
+
+def _text(value: Any, digits: int) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, float):
+        short = f"{value:g}"
+        return (
+            short if math.isclose(float(short), value, rel_tol=ROUNDING) and "e" not in short else number(value, digits)
+        )
+    return value if isinstance(value, str) else exact(value)
