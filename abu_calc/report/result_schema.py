@@ -26,11 +26,7 @@ DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
 RESULTS: Final[tuple[type[Result], ...]] = (
     SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
-<<<<<<< HEAD
-    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, SweepResult, VerifyResult,
-=======
-    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, CompareResult, VerifyResult,
->>>>>>> hJ
+    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, SweepResult, CompareResult, VerifyResult,
 )  # fmt: skip
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
