@@ -39,10 +39,10 @@ def page(outcome: "Outcome") -> str:
         (f"<header><h1>{text(title)}</h1>",),
         elements(_below(head), title),
         ("</header>", _contents(named), '<main id="main" tabindex="-1">'),
-        chain.from_iterable(_section(part, extras.figures) for part in front),
+        _sections(front, extras.figures),
         (_opened("Figures"), *map(_figure, rest), "</section>") if rest else (),
         _note(extras.note),
-        chain.from_iterable(_section(part, ()) for part in back if _heading(part) != "Provenance"),
+        _sections([part for part in back if _heading(part) != "Provenance"], ()),
         (_opened("To repeat it"), *repeat),
         chain.from_iterable(elements(_below(part), "To repeat it") for part in back if _heading(part) == "Provenance"),
         ("</section>", "</main>"),
@@ -66,13 +66,15 @@ def _framed(title: str, body: Iterable[str]) -> str:
     return "\n".join(line for line in lines if line) + "\n"
 
 
-def _section(part: Sequence[Block], figures: Sequence[Figure]) -> Iterator[str]:
-    """A heading, its figures, and what stands below it; pictures in characters give way to figures."""
-    title, drawn = _heading(part), figures_of(part, figures)
-    yield _opened(title)
-    yield from map(_figure, drawn)
-    yield from elements((one for one in _below(part) if not (drawn and isinstance(one, Picture))), title)
-    yield "</section>"
+def _sections(parts: Sequence[Sequence[Block]], figures: Sequence[Figure]) -> Iterator[str]:
+    """Each a heading, its figures, and what stands below it; pictures in characters give way to figures."""
+    titles = [_heading(part) for part in parts]
+    for index, (title, part) in enumerate(zip(titles, parts, strict=True)):
+        drawn = figures_of(part, figures)
+        yield _opened(title, linked=title not in titles[:index])
+        yield from map(_figure, drawn)
+        yield from elements((one for one in _below(part) if not (drawn and isinstance(one, Picture))), title)
+        yield "</section>"
 
 
 def figures_of(part: Sequence[Block], figures: Sequence[Figure]) -> list[Figure]:
@@ -109,12 +111,14 @@ def _figure(one: Figure) -> str:
 
 
 def _contents(titles: Sequence[str]) -> str:
-    links = "".join(f'<li><a href="#{_place(title)}">{text(title)}</a></li>\n' for title in titles)
+    """Of sections of one name the first."""
+    links = "".join(f'<li><a href="#{_place(title)}">{text(title)}</a></li>\n' for title in dict.fromkeys(titles))
     return f'<nav aria-label="Contents"><ul>\n{links}</ul></nav>'
 
 
-def _opened(title: str) -> str:
-    return f'<section id="{_place(title)}"><h2>{text(title)}</h2>'
+def _opened(title: str, *, linked: bool = True) -> str:
+    place = f' id="{_place(title)}"' if linked else ""
+    return f"<section{place}><h2>{text(title)}</h2>"
 
 
 def _place(title: str) -> str:
