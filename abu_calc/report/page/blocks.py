@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 from abu_calc.report.page.figure import text
-from abu_calc.report.text import STYLES, WORDS
+from abu_calc.report.text import BEFORE_UNIT, STYLES, TIE, WORDS
 
 CODE = re.compile(r"`([^`]+)`")
 
@@ -42,7 +42,7 @@ def paragraph(words: str, mark: str | None = None) -> str:
 
 def _facts(rows: Iterable[tuple[str, str, str]], title: str) -> str:
     lines = "".join(
-        f'<tr><th scope="row">{text(label)}</th><td class="sign">{text(sign)}</td><td>{text(value)}</td></tr>\n'
+        f'<tr><th scope="row">{text(label)}</th><td class="sign">{text(sign)}</td><td>{_cell(value)}</td></tr>\n'
         for label, sign, value in rows
     )
     return _table(title, f"<tbody>\n{lines}</tbody>", "facts") if lines else ""
@@ -53,10 +53,15 @@ def _grid(grid: Grid, title: str) -> str:
     names = "".join(f'<th scope="col"{kind}>{text(name)}</th>' for name, kind in zip(grid.header, kinds, strict=True))
     head = f"<thead><tr>{names}</tr></thead>\n" if any(grid.header) else ""
     rows = (
-        "".join(f"<td{_graded(cell) or kind}>{text(cell)}</td>" for cell, kind in zip(row, kinds, strict=False))
+        "".join(f"<td{_graded(cell) or kind}>{_cell(cell)}</td>" for cell, kind in zip(row, kinds, strict=False))
         for row in grid.rows
     )
     return _table(title, head + "<tbody>\n" + "".join(f"<tr>{row}</tr>\n" for row in rows) + "</tbody>")
+
+
+def _cell(words: str) -> str:
+    """A number keeps its unit beside it."""
+    return text(BEFORE_UNIT.sub(TIE, words))
 
 
 def _graded(cell: str) -> str:

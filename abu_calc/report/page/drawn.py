@@ -12,7 +12,7 @@ from abu_calc.studies.seat_records import SeatResult
 
 PIXELS: Final = 3.78
 """Of a screen, for a millimetre."""
-READABLE: Final = 2.4
+READABLE: Final = 2.1
 """Pixels for a millimetre below which writing is too small."""
 NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
 """Elements inside a page need none."""

@@ -10,6 +10,7 @@ from abu_calc.report.numbers import number
 from abu_calc.report.page.chart import Axis, Bar, Plot, Point, bars, db, micrometres, plot
 from abu_calc.report.page.drawn import drawn, seat_figures
 from abu_calc.report.page.figure import Extras, Figure
+from abu_calc.report.page.motion import player, settling
 from abu_calc.report.parts import value_of
 from abu_calc.report.size_screen import balls
 from abu_calc.studies.quantity import quantities
@@ -26,8 +27,8 @@ SUMS: Final = ("residual_um", "worst_um")
 def size_extras(result: SizeResult) -> Extras:
     """Figures, and the calculation note."""
     figures = (
-        *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_candidates(result),
-        *_costs(result),
+        *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_settling(result),
+        *_candidates(result), *_costs(result),
     )  # fmt: skip
     return Extras(figures, explanation_blocks(result)[1:])
 
@@ -119,6 +120,14 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
     told = "; ".join(f"{one.name} {one.told}" for one in rows) + (f"; {limit[1]}" if limit else "")
     caption = "What keeps the balls from balancing to nothing; the sums should end left of what is permitted (dashed)."
     yield Figure("Accuracy budget", bars("budget", "Accuracy budget", told, axis, rows, limit), caption)
+
+
+def _settling(result: SizeResult) -> Iterator[Figure]:
+    if result.idle_run is None:
+        return
+    limit = next((one.limit for one in result.checks if one.code == "ABU701"), None)
+    yield player(result.idle_run, result.autobalancer, "Simulation: idle")
+    yield settling(result.idle_run, limit, "Simulation: idle")
 
 
 def _candidates(result: SizeResult) -> Iterator[Figure]:
