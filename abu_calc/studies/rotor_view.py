@@ -6,7 +6,7 @@ from typing import Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.analysis.course import axis_place, total_imbalance
+from abu_calc.analysis.course import SAMPLES_PER_REVOLUTION, axis_place, settling_times, total_imbalance
 from abu_calc.analysis.simulate import Simulation
 from abu_calc.units import from_si
 
@@ -20,7 +20,8 @@ MOST: Final = 500
 class RotorView:
     """Thinned samples of a run that was made; angles from the rotor's zero mark in its sense of rotation.
 
-    x, y: the axis from its place at rest, along axes that turn with the rotor. `ball_angles_deg`: a row for each ball.
+    x, y: how the axis goes round, along axes that turn with the rotor: what it drifts, its mean over a revolution, is
+    taken off. `ball_angles_deg`: a row for each ball.
     """
 
     t_s: Array
@@ -33,20 +34,33 @@ class RotorView:
     @classmethod
     def of(cls, run: Simulation) -> Self | None:
         """Of a run; None of one so long that its beginning is not held."""
-        times, scene = run.trajectory.t, run.scene
-        if not len(times) or times[0] > 0:
+        scene = run.scene
+        times = settling_times(scene)
+        try:
+            states = run.trajectory.at(times)
+        except ValueError:
             return None
         index = np.unique(np.linspace(0, len(times) - 1, MOST).round().astype(np.intp))
-        t, states = times[index], run.trajectory.y[:, index]
         size, balls = len(scene.support.names), len(scene.ball_masses)
         x, y = axis_place(scene, states)
-        seen = from_si(1.0, "um") * (x + 1j * y) * np.exp(-1j * scene.rotor.turning(t, states, scene.speed)[0])
-        angles = states[2 * size : 2 * size + balls]
+        turn = scene.rotor.turning(times, states, scene.speed)[0]
+        seen = (from_si(1.0, "um") * _swinging(x + 1j * y) * np.exp(-1j * turn))[index]
+        angles = states[2 * size : 2 * size + balls, index]
         return cls(
-            t_s=t,
+            t_s=times[index],
             x_um=seen.real,
             y_um=seen.imag,
             ball_angles_deg=from_si(1.0, "deg") * angles,
             residual_g_mm=from_si(1.0, "g_mm") * np.abs(total_imbalance(scene, angles)),
             imbalance_angle_deg=from_si(scene.imbalance_angle, "deg"),
         )
+
+
+def _swinging(place: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """Places without their mean over a revolution; for half of one at both ends that mean stays as it is."""
+    half = SAMPLES_PER_REVOLUTION // 2
+    weights = np.ones(2 * half + 1)
+    weights[[0, -1]] = 0.5
+    mean: NDArray[np.complex128] = np.convolve(place, weights / weights.sum(), "valid")
+    swinging: NDArray[np.complex128] = place - np.pad(mean, half, "edge")
+    return swinging

@@ -114,6 +114,11 @@ def bars(name: str, title: str, told: str, axis: Axis, rows: Sequence[Bar], limi
             yield f'<path class="grid" d="M{at(tick):.1f} {TOP}V{low}"/>'
             yield f'<text class="soft" x="{at(tick):.1f}" y="{low + 15}" text-anchor="middle">{_tick(tick)}</text>'
         yield f'<text x="{MARGIN}" y="{low + 33}">{text(axis.name)}</text>'
+        if limit:
+            x = at(limit[0])
+            anchor = "end" if axis.share(limit[0]) > 0.5 else "start"
+            yield f'<path class="limit" d="M{x:.1f} {TOP}V{low}"/>'
+            yield f'<text class="limit-name" x="{x:.1f}" y="{TOP - 6}" text-anchor="{anchor}">{text(limit[1])}</text>'
         for index, one in enumerate(rows):
             y = TOP + ROW * index
             yield f'<text x="{MARGIN}" y="{y + 13}">{text(one.name)}</text>'
@@ -123,11 +128,6 @@ def bars(name: str, title: str, told: str, axis: Axis, rows: Sequence[Bar], limi
                 else _point(Point(one.value, 0.0, "", one.series), at(one.value), y + 25, right)
             )
             yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
-        if limit:
-            x = at(limit[0])
-            anchor = "end" if axis.share(limit[0]) > 0.5 else "start"
-            yield f'<path class="limit" d="M{x:.1f} {TOP}V{low}"/>'
-            yield f'<text class="limit-name" x="{x:.1f}" y="{TOP - 6}" text-anchor="{anchor}">{text(limit[1])}</text>'
 
     return _svg(name, title, told, low + BELOW - 4, marks())
 

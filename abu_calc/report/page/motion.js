@@ -43,7 +43,7 @@ function draw() {
     const at = row[k] * turn, pitch = data.pitch * scale;
     circle(side / 2 + pitch * Math.cos(at), middle - pitch * Math.sin(at), data.ball * scale, colour("c1"), colour("ink"));
   });
-  write("axis, within " + Number(reach.toPrecision(2)) + " µm", 1.5 * side, 16, "soft");
+  write("axis, circle " + Number(reach.toPrecision(2)) + " µm", 1.5 * side, 16, "soft");
   circle(1.5 * side, middle, 118, null, colour("line"));
   circle(1.5 * side, middle, 2, colour("soft"));
   const at = (index) => [1.5 * side + (118 / reach) * data.x[index], middle - (118 / reach) * data.y[index]];

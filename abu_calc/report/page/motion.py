@@ -38,7 +38,7 @@ def player(view: "RotorView", one: "Autobalancer", section: str) -> Figure:
     )
     caption = (
         "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
-        "to rest against it; beside them the path of the axis. Space plays, arrows move in time."
+        "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
     )
     return Figure(section, drawn, caption, 640)
 
