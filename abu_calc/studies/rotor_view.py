@@ -14,12 +14,14 @@ Array = NDArray[np.float64]
 
 MOST: Final = 500
 """Samples that a picture needs."""
+HALF: Final = SAMPLES_PER_REVOLUTION // 2
 
 
 @dataclass(frozen=True, eq=False)
 class RotorView:
-    """Thinned samples of a run that was made; angles from the rotor's zero mark in its sense of rotation.
+    """Thinned samples of a run that was made, without half a revolution at both ends.
 
+    Angles from the rotor's zero mark in its sense of rotation.
     x, y: how the axis goes round, along axes that turn with the rotor: what it drifts, its mean over a revolution, is
     taken off. `ball_angles_deg`: a row for each ball.
     """
@@ -40,11 +42,16 @@ class RotorView:
             states = run.trajectory.at(times)
         except ValueError:
             return None
-        index = np.unique(np.linspace(0, len(times) - 1, MOST).round().astype(np.intp))
-        size, balls = len(scene.support.names), len(scene.ball_masses)
         x, y = axis_place(scene, states)
+        swinging = _swinging(x + 1j * y)
+        times, states = times[HALF:-HALF], states[:, HALF:-HALF]
+        if len(times) < 2:
+            return None
+        # Denser at the start, where all moves.
+        index = np.unique(((len(times) - 1) * np.linspace(0, 1, MOST) ** 2).round().astype(np.intp))
         turn = scene.rotor.turning(times, states, scene.speed)[0]
-        seen = (from_si(1.0, "um") * _swinging(x + 1j * y) * np.exp(-1j * turn))[index]
+        seen = (from_si(1.0, "um") * swinging * np.exp(-1j * turn))[index]
+        size, balls = len(scene.support.names), len(scene.ball_masses)
         angles = states[2 * size : 2 * size + balls, index]
         return cls(
             t_s=times[index],
@@ -57,10 +64,8 @@ class RotorView:
 
 
 def _swinging(place: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Places without their mean over a revolution; for half of one at both ends that mean stays as it is."""
-    half = SAMPLES_PER_REVOLUTION // 2
-    weights = np.ones(2 * half + 1)
+    """Places without their mean over a revolution, half of one left out at both ends."""
+    weights = np.ones(2 * HALF + 1)
     weights[[0, -1]] = 0.5
-    mean: NDArray[np.complex128] = np.convolve(place, weights / weights.sum(), "valid")
-    swinging: NDArray[np.complex128] = place - np.pad(mean, half, "edge")
+    swinging: NDArray[np.complex128] = place[HALF:-HALF] - np.convolve(place, weights / weights.sum(), "valid")
     return swinging

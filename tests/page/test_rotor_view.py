@@ -15,7 +15,7 @@ def test_thinned_run_is_the_one_that_was_made() -> None:
     view, idle = result.idle_run, result.simulation[0]
     assert view is not None
     assert 100 < len(view.t_s) <= MOST
-    assert (view.t_s[0], view.t_s[-1]) == (0.0, pytest.approx(idle.duration_s))
+    assert (view.t_s[0], view.t_s[-1]) == (pytest.approx(0, abs=0.01), pytest.approx(idle.duration_s, abs=0.01))
     assert view.residual_g_mm[-1] == pytest.approx(idle.residual_imbalance_g_mm, rel=0.05)
     # Vectors of balls and imbalance added anew; balls sit on the pitch circle.
     one = result.autobalancer
@@ -26,8 +26,8 @@ def test_thinned_run_is_the_one_that_was_made() -> None:
     radius = np.hypot(view.x_um, view.y_um)
     assert 0.4e3 * idle.axis_amplitude_mm < radius[-1] < 1.1e3 * idle.axis_amplitude_mm
     # Far above resonance the mass turns about its centre: at the start the axis goes round by the imbalance over mass.
-    first = view.residual_g_mm[3] / result.effective_mass_kg
-    assert radius[3] == pytest.approx(first, rel=0.3)
+    first = view.residual_g_mm[0] / result.effective_mass_kg
+    assert radius[0] == pytest.approx(first, rel=0.3)
     # It swings, it does not drift: from one sample to the next it moves by little of that.
-    assert np.max(np.hypot(np.diff(view.x_um), np.diff(view.y_um))[3:-3]) < 0.3 * radius.max()
+    assert np.max(np.hypot(np.diff(view.x_um), np.diff(view.y_um))) < 0.3 * radius.max()
     assert "idle_run" not in result.to_dict()
