@@ -13,6 +13,7 @@ from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.report.drawing.shapes import Drawing
+    from abu_calc.report.page.figure import Extras
     from abu_calc.spec.read import Machine
     from abu_calc.studies.check_fit import CheckFitResult
 
@@ -32,7 +33,13 @@ def check_fit(
     source = _of_options(given, set_ or ()) if machine is None else _of_file(machine, set_ or (), given)
     result = study(source)
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(source, result, explain), short, lambda: _drawings(result))
+    return Outcome.of(
+        result,
+        lambda: _blocks(source, result, explain),
+        short,
+        lambda: _drawings(result),
+        lambda: _extras(source, result),
+    )
 
 
 def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
@@ -44,20 +51,30 @@ def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
 def _blocks(source: "Machine", result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:
     from abu_calc.report.fit_report import check_fit_blocks
 
-    if not explain:
-        return check_fit_blocks(result)
+    return (*check_fit_blocks(result), *(_note(source, result) if explain else ()))
+
+
+def _note(source: "Machine", result: "CheckFitResult") -> tuple[Block, ...]:
+    """Every formula with the numbers of each bearing."""
     from abu_calc.report.explain import step_blocks
     from abu_calc.report.fit_numbers import seat_numbers
     from abu_calc.report.steps import STEPS
     from abu_calc.studies.seat_model import bearing_models
 
-    return (*check_fit_blocks(result), *step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))
+    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))
 
 
 def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
     from abu_calc.report.drawing.sheets import seat_sheets
 
     return seat_sheets(result)
+
+
+def _extras(source: "Machine", result: "CheckFitResult") -> "Extras":
+    from abu_calc.report.page.drawn import seat_figures
+    from abu_calc.report.page.figure import Extras
+
+    return Extras(tuple(seat_figures(result, result.seats)), _note(source, result))
 
 
 def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":

@@ -6,11 +6,13 @@ Its parameters are called like the arguments of the study it asks, so that an er
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, get_args
 
 import typer
 
+from abu_calc.cli.asked import asked
 from abu_calc.cli.deliver import Delivery, deliver
 from abu_calc.cli.filing import write_files
 from abu_calc.errors import InputError, Place
@@ -33,7 +35,7 @@ def _shared(
             "-o",
             metavar="FILE",
             help="Also write a file; its suffix says as what (.json, .toml, .csv; .txt: the whole report; "
-            "drawings: size .dxf and .svg, check-fit .svg).",
+            ".html: a page with figures; drawings: size .dxf and .svg, check-fit .svg).",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
@@ -66,6 +68,7 @@ def add_command(
         wanted = {"how": how} if "how" in own else {}
         with _naming_options(options):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
+        outcome = replace(outcome, asked=asked(name, own, given))
         status = deliver(outcome, how, wrote=write_files(outcome, how))
         if status:
             raise typer.Exit(status)

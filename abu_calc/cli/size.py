@@ -13,6 +13,7 @@ from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.report.drawing.shapes import Drawing
+    from abu_calc.report.page.figure import Extras
     from abu_calc.studies.size import SizeResult
 
 
@@ -32,7 +33,9 @@ def size(
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
+    return Outcome.of(
+        result, lambda: _blocks(result, explain), short, lambda: _drawings(result), lambda: _extras(result)
+    )
 
 
 def _screen(result: "SizeResult") -> tuple[Block, ...]:
@@ -55,6 +58,12 @@ def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
     from abu_calc.report.drawing.sheets import size_sheets
 
     return size_sheets(result)
+
+
+def _extras(result: "SizeResult") -> "Extras":
+    from abu_calc.report.page.size_page import size_extras
+
+    return size_extras(result)
 
 
 def register(app: typer.Typer) -> None:

@@ -59,6 +59,13 @@ def as_dxf(outcome: Outcome) -> str:
     return dxf_text((outcome.drawings() if outcome.drawings else ())[0])
 
 
+def as_html(outcome: Outcome) -> str:
+    """One page that needs no other file."""
+    from abu_calc.report.page.document import page
+
+    return page(outcome)
+
+
 def as_file(outcome: Outcome, suffix: str) -> str:
     """The text of a file with this suffix; what stands for itself is written as it is."""
     return {**FORMATS, **DRAWN}[suffix](outcome) if outcome.plain is None else outcome.plain
@@ -69,6 +76,7 @@ FORMATS: dict[str, Callable[[Outcome], str]] = {
     ".toml": as_toml,
     ".csv": as_csv,
     ".txt": lambda outcome: as_text(outcome.blocks),
+    ".html": as_html,
 }
 
 DRAWN: dict[str, Callable[[Outcome], str]] = {".dxf": as_dxf, ".svg": as_svg}

@@ -3,7 +3,7 @@
 from typing import Final
 
 from abu_calc.fits.words import of_all
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph, Picture
 from abu_calc.report.fit_advice import advice_lines, bearing_table, repair_lines, sorting_blocks
 from abu_calc.report.fit_zones import legend, zone_lines
 from abu_calc.report.fits import CONVENTION, Seats, by_bearing, fit_grid, note_blocks
@@ -42,10 +42,8 @@ def _bearing(pair: Seats) -> list[Block]:
         *map(_verdict, pair),
         *advice_lines(pair),
         *repair_lines(pair),
-        # A drawing is a paragraph a line, so that nothing is wrapped.
         Paragraph(""),
-        *map(Paragraph, zone_lines(*pair)),
-        Paragraph(legend()),
+        Picture(tuple(zone_lines(*pair)), legend(), indent=2),
         Paragraph(""),
         fit_grid(pair),
         *_clearance(pair[0].internal_clearance),

@@ -11,6 +11,7 @@ from abu_calc.report.blocks import Block
 
 if TYPE_CHECKING:
     from abu_calc.report.drawing.shapes import Drawing
+    from abu_calc.report.page.figure import MakesExtras
     from abu_calc.report.write import Target
     from abu_calc.studies.result import Provenance, Result
 
@@ -35,6 +36,10 @@ class Outcome:
     """The one screen that stands in a terminal for blocks that take more."""
     drawings: "Callable[[], tuple[Drawing, ...]] | None" = None
     """What makes the sheets of a drawing, where the command has one."""
+    extras: "MakesExtras | None" = None
+    """What makes the figures and the calculation note of a page, where the command has such."""
+    asked: str = ""
+    """The command line that gives this, files that it writes left out."""
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
     further: tuple["Target", ...] = ()
@@ -47,11 +52,12 @@ class Outcome:
         view: Callable[[], tuple[Block, ...]],
         short: Callable[[], tuple[Block, ...]] | None = None,
         drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
+        extras: "MakesExtras | None" = None,
     ) -> "Outcome":
-        """That of a study, and what makes its blocks, all of them and one screen, and its drawings."""
+        """That of a study, and what makes its blocks, all of them and one screen, its drawings, its page's extras."""
         return cls(
             result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
-            result.warnings, result.status, short, drawings,
+            result.warnings, result.status, short, drawings, extras,
         )  # fmt: skip
 
     @property

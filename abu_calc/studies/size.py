@@ -1,7 +1,7 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
@@ -30,6 +30,7 @@ from abu_calc.studies.design_records import (
 from abu_calc.studies.ensemble_records import EnsembleResult
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
+from abu_calc.studies.rotor_view import RotorView
 from abu_calc.studies.seat_records import SeatResult, seat_results
 from abu_calc.studies.section_records import Section
 from abu_calc.studies.shown import MeasuredAfter
@@ -48,6 +49,7 @@ class SizeResult(Result):
 
     command: ClassVar[str] = "size"
     optional: ClassVar[frozenset[str]] = frozenset({"measured_after", "arm_motion"})
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -70,6 +72,8 @@ class SizeResult(Result):
     swing_arm: SwingArm | None
     arm_motion: ArmMotion | None
     drawing: tuple[DrawingLine, ...]
+    idle_run: RotorView | None = field(compare=False, repr=False)
+    """The idle machine's way to rest, thinned; None: it was not simulated, or for too long."""
 
 
 WORKERS: Final = Range("workers", 1, 1024, key="workers")
@@ -139,6 +143,7 @@ def size(
             DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
             for line in design.drawing
         ),
+        idle_run=next((RotorView.of(run.simulation) for run in runs if run.ledger.scene.name == "idle"), None),
     )
 
 

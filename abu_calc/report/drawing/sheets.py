@@ -17,7 +17,7 @@ def size_sheets(result: "SizeResult") -> tuple[Drawing, ...]:
     """The section, and sketches of the swing arm and of bearing seats where the machine has them."""
     from abu_calc.report.drawing.sheet import section_sheet
 
-    return section_sheet(result), *arm_sheets(result), *_seats(result, result.fits)
+    return section_sheet(result), *arm_sheets(result), *seats_of(result, result.fits)
 
 
 def arm_sheets(result: "SizeResult") -> tuple[Drawing, ...]:
@@ -31,10 +31,10 @@ def arm_sheets(result: "SizeResult") -> tuple[Drawing, ...]:
 
 def seat_sheets(result: "CheckFitResult") -> tuple[Drawing, ...]:
     """One sketch for each bearing."""
-    return _seats(result, result.seats)
+    return seats_of(result, result.seats)
 
 
-def _seats(result: Result, seats: Sequence[SeatResult]) -> tuple[Drawing, ...]:
+def seats_of(result: Result, seats: Sequence[SeatResult]) -> tuple[Drawing, ...]:
     """Seats come in pairs, the shaft's first."""
     if not seats:
         return ()

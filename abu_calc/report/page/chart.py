@@ -1,0 +1,191 @@
+"""Charts as inline SVG: axes with units, limits, points, bars; told by shape and word, not by color alone."""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final, NamedTuple
+
+from abu_calc.report.numbers import number
+from abu_calc.report.page.figure import text
+
+WIDE: Final = 420.0
+HIGH: Final = 270.0
+LEFT, RIGHT, TOP, BELOW = 52.0, 14.0, 22.0, 44.0
+"""Around the field of a chart."""
+ROW: Final = 35.0
+"""Of a chart of bars: a name, and the bar below it."""
+MARGIN: Final = 8.0
+VALUES: Final = 74.0
+"""What the values beside bars take."""
+
+
+class Axis(NamedTuple):
+    """What is shown along it, with its unit, and from where to where."""
+
+    name: str
+    low: float
+    high: float
+
+    @classmethod
+    def around(cls, name: str, values: Iterable[float], *, zero: bool = False) -> "Axis":
+        """An axis with room beside all values; `zero`: from zero."""
+        found = list(values)
+        low, high = min(found), max(found)
+        margin = 0.08 * ((high - low) or abs(high) or 1.0)
+        return cls(name, 0.0 if zero else low - margin, high + margin)
+
+    @property
+    def ticks(self) -> list[float]:
+        """Some five round numbers."""
+        rough = (self.high - self.low) / 5
+        power = 10.0 ** math.floor(math.log10(rough))
+        step = next(power * part for part in (1, 2, 5, 10) if power * part >= rough)
+        return [step * k for k in range(math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9) + 1)]
+
+    def share(self, value: float) -> float:
+        """How far along."""
+        return (value - self.low) / (self.high - self.low)
+
+
+class Point(NamedTuple):
+    """A point with a word beside it; `series` chooses color and shape (1 round, 2 hollow square, 3 hollow lozenge)."""
+
+    x: float
+    y: float
+    word: str = ""
+    series: int = 1
+
+
+class Bar(NamedTuple):
+    """A length, its name and its value as text; `series` as of points."""
+
+    name: str
+    value: float
+    told: str
+    series: int = 1
+
+
+class Plot(NamedTuple):
+    """What stands in a field between two axes; `limit`: of y; `bands`: ranges of x that are forbidden."""
+
+    across: Axis
+    up: Axis
+    lines: Sequence[Sequence[tuple[float, float]]] = ()
+    points: Sequence[Point] = ()
+    limit: tuple[float, str] | None = None
+    bands: Sequence[tuple[float, float]] = ()
+
+
+def plot(name: str, title: str, told: str, one: Plot) -> str:
+    """A chart; `told`: its text alternative."""
+    right, low = WIDE - RIGHT, HIGH - BELOW
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return LEFT + one.across.share(x) * (right - LEFT), low - one.up.share(y) * (low - TOP)
+
+    def marks() -> Iterator[str]:
+        for first, last in one.bands:
+            start, end = (max(LEFT, min(right, at(x, one.up.low)[0])) for x in (first, last))
+            yield f'<rect class="band" x="{start:.1f}" y="{TOP}" width="{end - start:.1f}" height="{low - TOP}"/>'
+            yield f'<text class="soft" x="{(start + end) / 2:.1f}" y="{low - 6}" text-anchor="middle">not stable</text>'
+        if one.limit:
+            y = at(one.across.low, one.limit[0])[1]
+            yield f'<path class="limit" d="M{LEFT} {y:.1f}H{right}"/>'
+            yield f'<text class="limit-name" x="{right}" y="{y - 5:.1f}" text-anchor="end">{text(one.limit[1])}</text>'
+        for index, line in enumerate(one.lines, 1):
+            path = "L".join(f"{x:.1f} {y:.1f}" for x, y in (at(*each) for each in line))
+            yield f'<path class="line s{index}" d="M{path}"/>'
+        yield from (_point(one, *at(one.x, one.y), right) for one in one.points)
+
+    return _svg(name, title, told, HIGH, (*_axes(one.across, one.up), *marks()))
+
+
+def bars(name: str, title: str, told: str, axis: Axis, rows: Sequence[Bar], limit: tuple[float, str] | None) -> str:
+    """Lengths below one another, each under its name, with the limit across them all.
+
+    On an axis that does not begin at zero, as levels have it, points stand instead of lengths.
+    """
+    low, right = TOP + ROW * len(rows), WIDE - VALUES
+
+    def at(value: float) -> float:
+        return MARGIN + axis.share(value) * (right - MARGIN)
+
+    def marks() -> Iterator[str]:
+        for tick in axis.ticks:
+            yield f'<path class="grid" d="M{at(tick):.1f} {TOP}V{low}"/>'
+            yield f'<text class="soft" x="{at(tick):.1f}" y="{low + 15}" text-anchor="middle">{_tick(tick)}</text>'
+        yield f'<text x="{MARGIN}" y="{low + 33}">{text(axis.name)}</text>'
+        if limit:
+            x = at(limit[0])
+            anchor = "end" if axis.share(limit[0]) > 0.5 else "start"
+            yield f'<path class="limit" d="M{x:.1f} {TOP}V{low}"/>'
+            yield f'<text class="limit-name" x="{x:.1f}" y="{TOP - 6}" text-anchor="{anchor}">{text(limit[1])}</text>'
+        for index, one in enumerate(rows):
+            y = TOP + ROW * index
+            yield f'<text x="{MARGIN}" y="{y + 13}">{text(one.name)}</text>'
+            yield (
+                _length(one, at(0.0), at(one.value), y + 19)
+                if axis.low <= 0
+                else _point(Point(one.value, 0.0, "", one.series), at(one.value), y + 25, right)
+            )
+            yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
+
+    return _svg(name, title, told, low + BELOW - 4, marks())
+
+
+def _length(one: Bar, start: float, end: float, y: float) -> str:
+    left, wide = min(start, end), max(abs(end - start), 1.0)
+    return f'<rect class="f{one.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
+
+
+def _svg(name: str, title: str, told: str, high: float, parts: Iterable[str]) -> str:
+    named = f"chart-{name}"
+    return "\n".join((
+        f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
+        f'<title id="{named}-t">{text(title)}</title><desc id="{named}-d">{text(told)}</desc>',
+        *parts,
+        "</svg>",
+    ))  # fmt: skip
+
+
+def _axes(across: Axis, up: Axis) -> Iterator[str]:
+    right, low = WIDE - RIGHT, HIGH - BELOW
+    for tick in across.ticks:
+        x = LEFT + across.share(tick) * (right - LEFT)
+        yield f'<path class="grid" d="M{x:.1f} {TOP}V{low}"/>'
+        yield f'<text class="soft" x="{x:.1f}" y="{low + 15}" text-anchor="middle">{_tick(tick)}</text>'
+    for tick in up.ticks:
+        y = low - up.share(tick) * (low - TOP)
+        yield f'<path class="grid" d="M{LEFT} {y:.1f}H{right}"/>'
+        yield f'<text class="soft" x="{LEFT - 5}" y="{y + 4:.1f}" text-anchor="end">{_tick(tick)}</text>'
+    yield f'<path class="axis" d="M{LEFT} {TOP}V{low}H{right}"/>'
+    yield f'<text x="{right}" y="{low + 33}" text-anchor="end">{text(across.name)}</text>'
+    yield f'<text x="2" y="13">{text(up.name)}</text>'
+
+
+def _point(one: Point, x: float, y: float, right: float) -> str:
+    """The word stands on the side where there is room."""
+    if one.series == 1:
+        drawn = f'<circle class="f1" cx="{x:.1f}" cy="{y:.1f}" r="5"/>'
+    elif one.series == 2:
+        drawn = f'<rect class="hollow s2" x="{x - 4.5:.1f}" y="{y - 4.5:.1f}" width="9" height="9"/>'
+    else:
+        drawn = f'<path class="hollow s3" d="M{x - 6:.1f} {y:.1f}l6 -6 6 6 -6 6z"/>'
+    if not one.word:
+        return drawn
+    left = x + 9 + 6.4 * len(one.word) > right
+    place = f'x="{x - 9 if left else x + 9:.1f}" y="{y + 4:.1f}" text-anchor="{"end" if left else "start"}"'
+    return f"{drawn}<text {place}>{text(one.word)}</text>"
+
+
+def _tick(value: float) -> str:
+    return f"{value:.6g}" if abs(value) > 1e-9 else "0"
+
+
+def db(value: float) -> str:
+    """A level as tables show it."""
+    return f"{value:.1f} dB"
+
+
+def micrometres(value: float) -> str:
+    """A displacement as tables show it."""
+    return f"{number(value, 3)} µm"
