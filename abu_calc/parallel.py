@@ -1,24 +1,47 @@
 """The same work on many things, side by side on all processors; the outcome does not depend on how many there are."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from multiprocessing import get_context
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Workers:
-    """How many work side by side: threads, for work that lets go of the interpreter, or processes for any other."""
+    """How many work side by side: threads, for work that lets go of the interpreter, or processes for any other.
+
+    Within `with` they stay for all that they are given; else they are there for one round of work each.
+    """
 
     count: int
     processes: bool = False
+    _kept: Executor | None = field(default=None, init=False, repr=False)
 
-    def executor(self) -> Executor:
-        """That runs them."""
+    def __enter__(self) -> Self:
+        self._kept = self._executor()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._kept is not None:
+            self._kept.shutdown(wait=True, cancel_futures=True)
+        self._kept = None
+
+    @contextmanager
+    def running(self) -> Iterator[Executor]:
+        """What runs them."""
+        if self._kept is not None:
+            yield self._kept
+            return
+        with self:
+            assert self._kept is not None
+            yield self._kept
+
+    def _executor(self) -> Executor:
         if not self.processes:
             return ThreadPoolExecutor(self.count)
         # Started afresh on every system: a copy of this process would have its locks, but not its threads.
@@ -44,11 +67,12 @@ def side_by_side(
             found.append(work(*task))
             told(len(found))
         return found
-    executor = workers.executor()
-    try:
+    with workers.running() as executor:
         waiting = [executor.submit(work, *task) for task in tasks[1:]]
-        for done, _ in enumerate(as_completed(waiting), 2):
-            told(done)
-        return [*found, *(one.result() for one in waiting)]
-    finally:
-        executor.shutdown(wait=True, cancel_futures=True)
+        try:
+            for done, _ in enumerate(as_completed(waiting), 2):
+                told(done)
+            return [*found, *(one.result() for one in waiting)]
+        finally:
+            for one in waiting:
+                one.cancel()

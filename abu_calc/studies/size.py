@@ -94,7 +94,8 @@ def size(
     tables = machine.whole("size")
     with machine.located():
         sized = size_design(tables)
-        tried = proven(sized, accuracy=accuracy, progress=progress, workers=_side_by_side(workers))
+        with _side_by_side(workers) as side_by_side:
+            tried = proven(sized, accuracy=accuracy, progress=progress, workers=side_by_side)
         design = tried.design
         runs, failures = simulated(design, accuracy, progress)
         region = true_region(design)
