@@ -177,7 +177,7 @@ def test_a_grade_without_a_passing_class_gives_way_to_the_usual_one():
     assert seats(shaft_fit="h7").shaft.recommended_fit == "m6"
 
 
-@settings(derandomize=True, deadline=None, max_examples=150)
+@settings(derandomize=True, deadline=None, max_examples=60)
 @given(
     size=st.sampled_from(["608", "6203", "6000", "6310", "6216", "30206", "32216"]),
     shaft=st.sampled_from(SHAFTS),
@@ -198,7 +198,7 @@ def test_the_recommended_fit_passes_its_own_checks(size, shaft, housing, load, i
         assert judged.recommended_fit == fit.recommended_fit
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(derandomize=True, deadline=None, max_examples=25)
 @given(bore=st.floats(10.5, 300.0), field=st.sampled_from(["shaft 5", "shaft 6", "housing 6", "housing 7"]))
 def test_a_tighter_field_never_lowers_the_interference(bore, field):
     seat, grade = field.split()
