@@ -64,11 +64,13 @@ def settles(design: Design) -> bool:
     """Whether balls balance at this contact, free of flutter in any arrangement and within seconds.
 
     Not where the contact's stiffness is within a fifth of a resonance's: there the axis moves so much at 2Ω that balls
-    swing far.
+    swing far. Nor where a rigid contact drives the rotor: its friction feeds what swings, and balls go on swinging.
     """
     steady = fitted(design, runout_of(design.case))
     balls, contact = steady.balls, steady.contact
     assert balls is not None
+    if contact.compliance == 0 and contact.friction > 0:
+        return False
     if abs(1 + contact.compliance * contact.dynamic_stiffness[1]) < 0.2 * abs(
         contact.compliance * contact.dynamic_stiffness[1]
     ):
@@ -178,7 +180,8 @@ def test_closed_form_against_own_equations(stiffness: float | None, sense: int, 
     U = contact.balancing_imbalance(E)
     half = math.acos(abs(U - own) / (2 * ball * radius))
     start = np.array([cmath.phase(U - own) + sign * half + 0.05 for sign in (-1, 1)])
-    found = integrated(contact, E, own, mass, ball, radius, 12.0, start, 0.9)
+    # A stiff contact lets balls creep: it takes four times as long until a hundredth is left.
+    found = integrated(contact, E, own, mass, ball, radius, 12.0, start, 3.6 if stiffness == 6e6 else 0.9)
     X, Y = contact.axis(U, E)
     assert found[2] == pytest.approx(U, rel=0.01, abs=1e-6)
     assert found[0] == pytest.approx(X, abs=0.01 * max(abs(X), abs(Y)))
