@@ -115,7 +115,7 @@ def test_what_cannot_be_carried_is_neither_balanced_nor_hidden() -> None:
         ("suspension.natural_frequencies_hz=[96.0, 97.0]", "suspension.damping_ratios=0"),
         ("autobalancer.ball_diameter_mm=0.5",),
         pytest.param(
-            ("autobalancer.max_outer_diameter_mm=3000", "autobalancer.max_width_mm=500"), marks=pytest.mark.slow
+            ("autobalancer.max_outer_diameter_mm=3000", "autobalancer.max_width_mm=500"), marks=pytest.mark.hard
         ),
         ("wheel.imbalance_g_mm=1e9",),
         ("machine.mass_kg=0.01", "wheel.mass_kg=0.1", "wheel.imbalance_g_mm=1"),

@@ -247,7 +247,7 @@ def test_floquet_and_simulation_agree_on_the_side(arm: Drawn) -> None:
     same_side(arm)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 def test_floquet_and_simulation_agree_on_the_side_of_100_arms() -> None:
     arms = drawn(100, 2010)
     growing = sum(arm.sigma < floquet_edge(arm.kappa, arm.ratio) for arm in arms)

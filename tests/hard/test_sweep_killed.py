@@ -36,7 +36,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
     return rows(store)
 
 
-@pytest.mark.slow
+@pytest.mark.hard
 @pytest.mark.parametrize("workers", [1, 2])
 def test_twenty_kills_leave_the_same_members(whole: list[Any], tmp_path: Path, workers: int) -> None:
     store, draw, kept = tmp_path / "members.sqlite", random.Random(workers), 0
