@@ -28,7 +28,7 @@ class Difference(Record):
     part: Annotated[Part, Quantity("part", "", 4, "file: the key in the machine file; design: the path in the result")]
     path: Annotated[str, Quantity("path")]
     unit: Annotated[str, Quantity("unit")]
-    values: tuple[Any, ...]
+    values: Annotated[tuple[Any, ...], Quantity("values", "", 4, "in the order of the files")]
 
     @property
     def alike(self) -> bool:
