@@ -78,11 +78,17 @@ def _remedy(case: Case, imbalance: float, one: Candidate, held: Sequence[WorstRe
     if (least := level(truest)) > limit:
         return (
             f"Tried without success: {1 / SHARES[-1]:g} times less eccentricity and friction of the race. What is "
-            "left: a heavier machine, or another limits.vibration_level_db."
+            f"left: {_left(one)}a heavier machine, or another limits.vibration_level_db."
         )
     tried = ((each, level(other)) for each, other in others)
     words, found = next((pair for pair in tried if pair[1] <= limit), (words, least))
     return f"Tried: {words} gives {found:.1f} dB."
+
+
+def _left(one: Candidate) -> str:
+    """What else rests at the wheel of this design."""
+    capacity = "enough capacity (ABU201), " if one.budget.shortfall else ""
+    return f"{capacity}a race nearer to the wheel's plane, " if one.budget.plane_offset else capacity
 
 
 def _truer(case: Case) -> Iterator[tuple[str, Case]]:

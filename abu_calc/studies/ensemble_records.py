@@ -61,7 +61,7 @@ class SettlingOfStart(Record):
 class EnsembleResult(Record):
     """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
 
-    members: Annotated[int, Quantity("starts simulated")]
+    members: Annotated[int, Quantity("starts")]
     balanced: Annotated[int, Quantity("that balance")]
     hanging: Annotated[int, Quantity("that leave balls hanging")]
     settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]

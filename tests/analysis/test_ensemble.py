@@ -14,7 +14,7 @@ from abu_calc.analysis.ensemble import Ensemble, Lost, Outcome, simulate_members
 from abu_calc.analysis.idle import ensemble_checks, level_check
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.remedies import changes, other_drags, passes
-from abu_calc.checks import Check, coded
+from abu_calc.checks import Check, Grade, coded
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import with_parted_balls
@@ -225,6 +225,18 @@ def test_the_level_check_keeps_the_worse() -> None:
     assert value(closed, 110.0) == ("fail", 110.0)
     assert value(failed, 100.0) == ("fail", 111.0)
     assert value(failed, 112.0) == ("fail", 112.0)
+
+
+@pytest.mark.parametrize(
+    ("status", "slip", "told"),
+    [("fail", 0.0, "truer race"), ("fail", 0.5, "more drag"), ("warn", 0.0, "more drag"), ("warn", 0.5, "more drag")],
+)
+def test_a_loud_start_is_answered_by_what_helps_it(status: Grade, slip: float, told: str) -> None:
+    """A truer race does not catch balls that hang."""
+    closed = coded("ABU401", status, "closed", 105.0, 109.0, "dB", "truer race")
+    loud = Ensemble(10.0, (outcome(level=120.0, slip=slip),), ())
+    assert level_check(closed, loud, "more drag").remedy == told
+    assert "ABU701" in (level_check(closed, loud).remedy or "") or told == "truer race"
 
 
 def test_another_candidate_where_the_best_does_not_pass(monkeypatch: pytest.MonkeyPatch) -> None:
