@@ -13,7 +13,7 @@ from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.report.drawing.shapes import Drawing
-    from abu_calc.report.page.figure import Extras
+    from abu_calc.report.figures.figure import Extras
     from abu_calc.spec.read import Machine
     from abu_calc.studies.check_fit import CheckFitResult
 
@@ -71,8 +71,8 @@ def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
 
 
 def _extras(source: "Machine", result: "CheckFitResult") -> "Extras":
-    from abu_calc.report.page.drawn import seat_figures
-    from abu_calc.report.page.figure import Extras
+    from abu_calc.report.figures.drawings import seat_figures
+    from abu_calc.report.figures.figure import Extras
 
     return Extras(tuple(seat_figures(result, result.seats)), _note(source, result))
 

@@ -13,7 +13,7 @@ from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.report.drawing.shapes import Drawing
-    from abu_calc.report.page.figure import Extras
+    from abu_calc.report.figures.figure import Extras
     from abu_calc.studies.size import SizeResult
 
 
@@ -61,7 +61,7 @@ def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
 
 
 def _extras(result: "SizeResult") -> "Extras":
-    from abu_calc.report.page.size_page import size_extras
+    from abu_calc.report.figures.size import size_extras
 
     return size_extras(result)
 

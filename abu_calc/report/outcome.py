@@ -11,7 +11,7 @@ from abu_calc.report.blocks import Block
 
 if TYPE_CHECKING:
     from abu_calc.report.drawing.shapes import Drawing
-    from abu_calc.report.page.figure import MakesExtras
+    from abu_calc.report.figures.figure import MakesExtras
     from abu_calc.report.write import Target
     from abu_calc.studies.result import Provenance, Result
 

@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 
-from abu_calc.report.page.chart import Axis, Bar, Plot, Point, bars, plot
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Plot, Point
+from abu_calc.report.page.chart_svg import bars, plot
 from tests.cli.runner import abu
 from tests.page.reader import read
 
@@ -160,8 +161,8 @@ def test_ticks_are_round_within_the_axis_and_evenly_spaced(low: float, high: flo
 
 
 def test_points_and_limits_stand_where_the_ticks_say() -> None:
-    chart = Plot(Axis("speed [rpm]", 0, 100), Axis("level [dB]", 0, 50), (), [Point(40, 20)], (20.0, "limit 20 dB"))
-    page = read(plot("a", "A", "told", chart))
+    axes = Axis("speed [rpm]", 0, 100), Axis("level [dB]", 0, 50)
+    page = read(plot("a", Plot("A", "told", *axes, (), [Point(40, 20)], (20.0, "limit 20 dB"))))
     circle = next(attributes for tag, attributes in page.tags if tag == "circle")
     ticks = [attributes for tag, attributes in page.tags if tag == "text"]
     words = [words for tag, words in page.texts if tag == "text"]
@@ -174,7 +175,7 @@ def test_points_and_limits_stand_where_the_ticks_say() -> None:
 
 def test_lengths_of_bars_are_as_their_values() -> None:
     rows = [Bar("a", 1.0, "1"), Bar("b", 3.0, "3"), Bar("c", -1.0, "-1")]
-    page = read(bars("a", "A", "told", Axis("x [dB]", -1.0, 3.0), rows, None))
+    page = read(bars("a", Bars("A", "told", Axis("x [dB]", -1.0, 3.0), rows)))
     wide = [(float(str(a["x"])), float(str(a["width"]))) for tag, a in page.tags if tag == "rect"]
     assert wide[1][1] == pytest.approx(3 * wide[0][1], abs=0.3)
     assert wide[2][0] + wide[2][1] == pytest.approx(wide[0][0], abs=0.2)

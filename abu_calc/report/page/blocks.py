@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.report.page.figure import text
+from abu_calc.report.page.words import text
 from abu_calc.report.text import BEFORE_UNIT, STYLES, TIE, WORDS
 
 CODE = re.compile(r"`([^`]+)`")

@@ -3,12 +3,14 @@
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from itertools import chain
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from abu_calc.report.blocks import Block, Heading, Picture
+from abu_calc.report.figures.figure import Extras, Figure
+from abu_calc.report.page.beside import beside
 from abu_calc.report.page.blocks import elements, paragraph
-from abu_calc.report.page.figure import Extras, Figure, text
+from abu_calc.report.page.drawn import figure
+from abu_calc.report.page.words import text
 from abu_calc.report.screen import sections
 
 if TYPE_CHECKING:
@@ -40,7 +42,7 @@ def page(outcome: "Outcome") -> str:
         elements(_below(head), title),
         ("</header>", _contents(named), '<main id="main" tabindex="-1">'),
         _sections(front, extras.figures),
-        (_opened("Figures"), *map(_figure, rest), "</section>") if rest else (),
+        (_opened("Figures"), *map(figure, rest), "</section>") if rest else (),
         _note(extras.note),
         _sections([part for part in back if _heading(part) != "Provenance"], ()),
         (_opened("To repeat it"), *repeat),
@@ -58,7 +60,7 @@ def _framed(title: str, body: Iterable[str]) -> str:
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<meta name="color-scheme" content="light dark"><link rel="icon" href="data:,">',
         f"<title>{text(title)}</title>",
-        f"<style>\n{_beside('page.css')}</style></head>",
+        f"<style>\n{beside('page.css')}</style></head>",
         '<body><a class="skip" href="#main">To the report</a>',
         *body,
         "</body></html>",
@@ -72,7 +74,7 @@ def _sections(parts: Sequence[Sequence[Block]], figures: Sequence[Figure]) -> It
     for index, (title, part) in enumerate(zip(titles, parts, strict=True)):
         drawn = figures_of(part, figures)
         yield _opened(title, linked=title not in titles[:index])
-        yield from map(_figure, drawn)
+        yield from map(figure, drawn)
         yield from elements((one for one in _below(part) if not (drawn and isinstance(one, Picture))), title)
         yield "</section>"
 
@@ -101,15 +103,6 @@ def _repeat(outcome: "Outcome") -> Iterator[str]:
         yield f'<p>{text(source.file or "")}, SHA-256:</p><pre class="command" tabindex="0">{text(source.sha256)}</pre>'
 
 
-def _figure(one: Figure) -> str:
-    style = f"max-width:{one.width:.0f}px" + (f";min-width:{one.least:.0f}px" if one.least else "")
-    return (
-        f'<figure style="max-width:{one.width:.0f}px"><div class="wide" tabindex="0" role="group" '
-        f'aria-label="{text(one.caption)}"><div style="{style}">{one.drawn}</div></div>'
-        f"<figcaption>{text(one.caption)}</figcaption></figure>"
-    )
-
-
 def _contents(titles: Sequence[str]) -> str:
     """Of sections of one name the first."""
     links = "".join(f'<li><a href="#{_place(title)}">{text(title)}</a></li>\n' for title in dict.fromkeys(titles))
@@ -132,15 +125,3 @@ def _heading(part: Sequence[Block]) -> str:
 
 def _below(part: Sequence[Block]) -> Sequence[Block]:
     return part[1:] if part and isinstance(part[0], Heading) else part
-
-
-def _beside(name: str) -> str:
-    return (Path(__file__).parent / name).read_text(encoding="utf-8")
-
-
-def script(name: str, **data: Any) -> str:
-    """A script of the page with its data, in which nothing can end the element."""
-    import json
-
-    given = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    return f"<script>\n(() => {{\nconst data = {given};\n{_beside(name)}}})();\n</script>"

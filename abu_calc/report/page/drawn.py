@@ -1,14 +1,15 @@
-"""Drawings to scale as figures of a page."""
+"""A figure as elements of a page."""
 
-from collections.abc import Iterator, Sequence
-from typing import Final
+from typing import Final, NamedTuple
 
 from abu_calc.report.drawing.shapes import Drawing
-from abu_calc.report.drawing.sheets import seats_of
 from abu_calc.report.drawing.svg import svg_figure
-from abu_calc.report.page.figure import Figure
-from abu_calc.studies.result import Result
-from abu_calc.studies.seat_records import SeatResult
+from abu_calc.report.figures.chart import Bars, Plot
+from abu_calc.report.figures.figure import Figure
+from abu_calc.report.figures.motion import Motion
+from abu_calc.report.page.chart_svg import bars, plot
+from abu_calc.report.page.player import player
+from abu_calc.report.page.words import text
 
 PIXELS: Final = 3.78
 """Of a screen, for a millimetre."""
@@ -18,13 +19,32 @@ NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
 """Elements inside a page need none."""
 
 
-def drawn(section: str, drawing: Drawing, caption: str) -> Figure:
-    """A drawing at the size of its sheet where there is room."""
-    wide = drawing.size[0]
-    return Figure(section, svg_figure(drawing).replace(NAMESPACE, ""), caption, PIXELS * wide, READABLE * wide)
+class _Room(NamedTuple):
+    """What an element would like to take, and what it is never narrower than: it then scrolls in its place [px]."""
+
+    wide: float
+    least: float = 0.0
 
 
-def seat_figures(result: Result, seats: Sequence[SeatResult]) -> Iterator[Figure]:
-    """A sketch of the two seats of each bearing."""
-    for index, one in enumerate(seats_of(result, seats), 1):
-        yield drawn("", one, f"Seats of bearing {index}: sizes with limits in mm, and what the drawing asks of them.")
+def figure(one: Figure) -> str:
+    """The element with its caption."""
+    room, drawn = _drawn(one)
+    style = f"max-width:{room.wide:.0f}px" + (f";min-width:{room.least:.0f}px" if room.least else "")
+    return (
+        f'<figure style="max-width:{room.wide:.0f}px"><div class="wide" tabindex="0" role="group" '
+        f'aria-label="{text(one.caption)}"><div style="{style}">{drawn}</div></div>'
+        f"<figcaption>{text(one.caption)}</figcaption></figure>"
+    )
+
+
+def _drawn(one: Figure) -> tuple[_Room, str]:
+    match one.shown:
+        case Plot() as chart:
+            return _Room(520.0), plot(one.name, chart)
+        case Bars() as chart:
+            return _Room(520.0), bars(one.name, chart)
+        case Motion() as motion:
+            return _Room(640.0), player(motion)
+        case Drawing() as drawing:
+            wide = drawing.size[0]
+            return _Room(PIXELS * wide, READABLE * wide), svg_figure(drawing).replace(NAMESPACE, "")

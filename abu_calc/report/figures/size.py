@@ -1,4 +1,4 @@
-"""The page of `abu size`: section and face, levels, candidates, budget, what tolerances cost, the formulas."""
+"""What `abu size` shows: section and face, levels, candidates, budget, what tolerances cost, the formulas."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -6,11 +6,11 @@ from typing import Final
 from abu_calc.report.drawing.autobalancer import face_drawing, section_drawing
 from abu_calc.report.drawing.sheets import arm_sheets
 from abu_calc.report.explain import explanation_blocks
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Line, Plot, Point, db, micrometres
+from abu_calc.report.figures.drawings import seat_figures
+from abu_calc.report.figures.figure import Extras, Figure
+from abu_calc.report.figures.motion import Motion, settling
 from abu_calc.report.numbers import number
-from abu_calc.report.page.chart import Axis, Bar, Plot, Point, bars, db, micrometres, plot
-from abu_calc.report.page.drawn import drawn, seat_figures
-from abu_calc.report.page.figure import Extras, Figure
-from abu_calc.report.page.motion import player, settling
 from abu_calc.report.parts import value_of
 from abu_calc.report.size_screen import balls
 from abu_calc.studies.quantity import quantities
@@ -37,11 +37,11 @@ def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
     scale = next((one for one in SCALES if one * outer <= ROOM), SCALES[-1])
     told = f"drawn to scale {_ratio(scale)}, sizes in mm"
-    yield drawn("Section", section_drawing(result, scale), f"Section through the axis, {told}.")
-    yield drawn(
-        "Section", face_drawing(result, scale), f"Face with the cover off, {told}; balls evenly round the race."
-    )
-    yield from (drawn("Swing arm", one, "Sketch of the swing arm, not to scale.") for one in arm_sheets(result))
+    yield Figure("section", "Section", section_drawing(result, scale), f"Section through the axis, {told}.")
+    face = f"Face with the cover off, {told}; balls evenly round the race."
+    yield Figure("face", "Section", face_drawing(result, scale), face)
+    for one in arm_sheets(result):
+        yield Figure("arm", "Swing arm", one, "Sketch of the swing arm, not to scale.")
     yield from seat_figures(result, result.fits)
 
 
@@ -67,7 +67,7 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
         "Velocity level at each place, idle, at the rated speed, 0 dB = 5e-8 m/s rms: what is after (round) should "
         "stand left of the dashed limit; squares: before, lozenge: measured."
     )
-    yield Figure("Vibration level", bars("levels", "Levels before and after", told, axis, known, limit), caption)
+    yield Figure("levels", "Vibration level", Bars("Levels before and after", told, axis, known, limit), caption)
 
 
 def _over_speed(result: SizeResult) -> Iterator[Figure]:
@@ -85,8 +85,8 @@ def _over_speed(result: SizeResult) -> Iterator[Figure]:
         f"stay below the dashed limit{', and out of shaded speeds, where the balls do not balance' if bands else ''}."
     )
     points = [Point(*one) for one in course]
-    drawing = plot("speeds", "Level against speed", told, Plot(across, up, (course,), points, limit, bands))
-    yield Figure("Vibration level", drawing, caption)
+    chart = Plot("Level against speed", told, across, up, (Line(course),), points, limit, bands)
+    yield Figure("speeds", "Vibration level", chart, caption)
 
 
 def _forbidden(result: SizeResult) -> list[tuple[float, float]]:
@@ -119,15 +119,20 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
     )
     told = "; ".join(f"{one.name} {one.told}" for one in rows) + (f"; {limit[1]}" if limit else "")
     caption = "What keeps the balls from balancing to nothing; the sums should end left of what is permitted (dashed)."
-    yield Figure("Accuracy budget", bars("budget", "Accuracy budget", told, axis, rows, limit), caption)
+    yield Figure("budget", "Accuracy budget", Bars("Accuracy budget", told, axis, rows, limit), caption)
 
 
 def _settling(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
     limit = next((one.limit for one in result.checks if one.code == "ABU701"), None)
-    yield player(result.idle_run, result.autobalancer, "Simulation: idle")
-    yield settling(result.idle_run, limit, "Simulation: idle")
+    caption = (
+        "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
+        "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
+    )
+    yield Figure("motion", "Simulation: idle", Motion(result.idle_run, result.autobalancer), caption)
+    caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
+    yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
 
 
 def _candidates(result: SizeResult) -> Iterator[Figure]:
@@ -152,8 +157,8 @@ def _candidates(result: SizeResult) -> Iterator[Figure]:
         "Candidates, lighter on the left, nearer to rest below: the chosen one is filled, squares are numbered as the "
         "rows below."
     )
-    drawing = plot("candidates", "Mass against residual", told, Plot(across, up, (), points[::-1]))
-    yield Figure("Runners-up", drawing, caption)
+    chart = Plot("Mass against residual", told, across, up, (), points[::-1])
+    yield Figure("candidates", "Runners-up", chart, caption)
 
 
 def _costs(result: SizeResult) -> Iterator[Figure]:
@@ -168,7 +173,7 @@ def _costs(result: SizeResult) -> Iterator[Figure]:
     caption = (
         "What the level rises by where a tolerance of the drawing is used up: the long bars are worth their money."
     )
-    yield Figure("For the drawing", bars("costs", "What tolerances cost", told, axis, rows, None), caption)
+    yield Figure("costs", "For the drawing", Bars("What tolerances cost", told, axis, rows), caption)
 
 
 def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:

@@ -1,11 +1,10 @@
-"""Charts as inline SVG: axes with units, limits, points, bars; told by shape and word, not by color alone."""
+"""Charts as inline SVG; told apart by shape and word, not by color alone."""
 
-import math
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Final, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Final
 
-from abu_calc.report.numbers import number
-from abu_calc.report.page.figure import text
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Plot, Point
+from abu_calc.report.page.words import text
 
 WIDE: Final = 420.0
 HIGH: Final = 270.0
@@ -18,65 +17,8 @@ VALUES: Final = 74.0
 """What the values beside bars take."""
 
 
-class Axis(NamedTuple):
-    """What is shown along it, with its unit, and from where to where."""
-
-    name: str
-    low: float
-    high: float
-
-    @classmethod
-    def around(cls, name: str, values: Iterable[float], *, zero: bool = False) -> "Axis":
-        """An axis with room beside all values; `zero`: from zero."""
-        found = list(values)
-        low, high = min(found), max(found)
-        margin = 0.08 * ((high - low) or abs(high) or 1.0)
-        return cls(name, 0.0 if zero else low - margin, high + margin)
-
-    @property
-    def ticks(self) -> list[float]:
-        """Some five round numbers."""
-        rough = (self.high - self.low) / 5
-        power = 10.0 ** math.floor(math.log10(rough))
-        step = next(power * part for part in (1, 2, 5, 10) if power * part >= rough)
-        return [step * k for k in range(math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9) + 1)]
-
-    def share(self, value: float) -> float:
-        """How far along."""
-        return (value - self.low) / (self.high - self.low)
-
-
-class Point(NamedTuple):
-    """A point with a word beside it; `series` chooses color and shape (1 round, 2 hollow square, 3 hollow lozenge)."""
-
-    x: float
-    y: float
-    word: str = ""
-    series: int = 1
-
-
-class Bar(NamedTuple):
-    """A length, its name and its value as text; `series` as of points."""
-
-    name: str
-    value: float
-    told: str
-    series: int = 1
-
-
-class Plot(NamedTuple):
-    """What stands in a field between two axes; `limit`: of y; `bands`: ranges of x that are forbidden."""
-
-    across: Axis
-    up: Axis
-    lines: Sequence[Sequence[tuple[float, float]]] = ()
-    points: Sequence[Point] = ()
-    limit: tuple[float, str] | None = None
-    bands: Sequence[tuple[float, float]] = ()
-
-
-def plot(name: str, title: str, told: str, one: Plot) -> str:
-    """A chart; `told`: its text alternative."""
+def plot(name: str, one: Plot) -> str:
+    """A field between two axes; `name` makes its parts' names single on the page."""
     right, low = WIDE - RIGHT, HIGH - BELOW
 
     def at(x: float, y: float) -> tuple[float, float]:
@@ -91,20 +33,18 @@ def plot(name: str, title: str, told: str, one: Plot) -> str:
             y = at(one.across.low, one.limit[0])[1]
             yield f'<path class="limit" d="M{LEFT} {y:.1f}H{right}"/>'
             yield f'<text class="limit-name" x="{right}" y="{y - 5:.1f}" text-anchor="end">{text(one.limit[1])}</text>'
-        for index, line in enumerate(one.lines, 1):
-            path = "L".join(f"{x:.1f} {y:.1f}" for x, y in (at(*each) for each in line))
-            yield f'<path class="line s{index}" d="M{path}"/>'
+        for line in one.lines:
+            path = "L".join(f"{x:.1f} {y:.1f}" for x, y in (at(*each) for each in line.points))
+            yield f'<path class="line s{line.series}" d="M{path}"/>'
         yield from (_point(one, *at(one.x, one.y), right) for one in one.points)
 
-    return _svg(name, title, told, HIGH, (*_axes(one.across, one.up), *marks()))
+    return _svg(name, one, HIGH, (*_axes(one.across, one.up), *marks()))
 
 
-def bars(name: str, title: str, told: str, axis: Axis, rows: Sequence[Bar], limit: tuple[float, str] | None) -> str:
-    """Lengths below one another, each under its name, with the limit across them all.
-
-    On an axis that does not begin at zero, as levels have it, points stand instead of lengths.
-    """
-    low, right = TOP + ROW * len(rows), WIDE - VALUES
+def bars(name: str, chart: Bars) -> str:
+    """Lengths or points below one another."""
+    axis, limit = chart.axis, chart.limit
+    low, right = TOP + ROW * len(chart.rows), WIDE - VALUES
 
     def at(value: float) -> float:
         return MARGIN + axis.share(value) * (right - MARGIN)
@@ -119,7 +59,7 @@ def bars(name: str, title: str, told: str, axis: Axis, rows: Sequence[Bar], limi
             anchor = "end" if axis.share(limit[0]) > 0.5 else "start"
             yield f'<path class="limit" d="M{x:.1f} {TOP}V{low}"/>'
             yield f'<text class="limit-name" x="{x:.1f}" y="{TOP - 6}" text-anchor="{anchor}">{text(limit[1])}</text>'
-        for index, one in enumerate(rows):
+        for index, one in enumerate(chart.rows):
             y = TOP + ROW * index
             yield f'<text x="{MARGIN}" y="{y + 13}">{text(one.name)}</text>'
             yield (
@@ -129,7 +69,7 @@ def bars(name: str, title: str, told: str, axis: Axis, rows: Sequence[Bar], limi
             )
             yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
 
-    return _svg(name, title, told, low + BELOW - 4, marks())
+    return _svg(name, chart, low + BELOW - 4, marks())
 
 
 def _length(one: Bar, start: float, end: float, y: float) -> str:
@@ -137,11 +77,11 @@ def _length(one: Bar, start: float, end: float, y: float) -> str:
     return f'<rect class="f{one.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
 
 
-def _svg(name: str, title: str, told: str, high: float, parts: Iterable[str]) -> str:
+def _svg(name: str, one: Plot | Bars, high: float, parts: Iterable[str]) -> str:
     named = f"chart-{name}"
     return "\n".join((
         f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
-        f'<title id="{named}-t">{text(title)}</title><desc id="{named}-d">{text(told)}</desc>',
+        f'<title id="{named}-t">{text(one.title)}</title><desc id="{named}-d">{text(one.told)}</desc>',
         *parts,
         "</svg>",
     ))  # fmt: skip
@@ -179,13 +119,3 @@ def _point(one: Point, x: float, y: float, right: float) -> str:
 
 def _tick(value: float) -> str:
     return f"{value:.6g}" if abs(value) > 1e-9 else "0"
-
-
-def db(value: float) -> str:
-    """A level as tables show it."""
-    return f"{value:.1f} dB"
-
-
-def micrometres(value: float) -> str:
-    """A displacement as tables show it."""
-    return f"{number(value, 3)} µm"

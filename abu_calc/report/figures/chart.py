@@ -1,0 +1,97 @@
+"""Charts as data: axes with units, lines, points, bars, limits, forbidden bands."""
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from abu_calc.report.numbers import number
+
+
+class Axis(NamedTuple):
+    """What is shown along it, with its unit, and from where to where."""
+
+    name: str
+    low: float
+    high: float
+
+    @classmethod
+    def around(cls, name: str, values: Iterable[float], *, zero: bool = False) -> "Axis":
+        """An axis with room beside all values; `zero`: from zero."""
+        found = list(values)
+        low, high = min(found), max(found)
+        margin = 0.08 * ((high - low) or abs(high) or 1.0)
+        return cls(name, 0.0 if zero else low - margin, high + margin)
+
+    @property
+    def ticks(self) -> list[float]:
+        """Some five round numbers."""
+        rough = (self.high - self.low) / 5
+        power = 10.0 ** math.floor(math.log10(rough))
+        step = next(power * part for part in (1, 2, 5, 10) if power * part >= rough)
+        return [step * k for k in range(math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9) + 1)]
+
+    def share(self, value: float) -> float:
+        """How far along."""
+        return (value - self.low) / (self.high - self.low)
+
+
+class Point(NamedTuple):
+    """A point with a word beside it; `series` chooses color and shape (1 round, 2 hollow square, 3 hollow lozenge)."""
+
+    x: float
+    y: float
+    word: str = ""
+    series: int = 1
+
+
+class Line(NamedTuple):
+    """A course; `name` stands in the legend, `series` chooses color and dashes."""
+
+    points: Sequence[tuple[float, float]]
+    name: str = ""
+    series: int = 1
+
+
+class Bar(NamedTuple):
+    """A length, its name and its value as text; `series` as of points."""
+
+    name: str
+    value: float
+    told: str
+    series: int = 1
+
+
+class Plot(NamedTuple):
+    """What stands in a field between two axes; `told`: its text alternative, `limit`: of y, `bands`: forbidden x."""
+
+    title: str
+    told: str
+    across: Axis
+    up: Axis
+    lines: Sequence[Line] = ()
+    points: Sequence[Point] = ()
+    limit: tuple[float, str] | None = None
+    bands: Sequence[tuple[float, float]] = ()
+
+
+class Bars(NamedTuple):
+    """Lengths below one another, each under its name, with the limit across them all.
+
+    On an axis that does not begin at zero, as levels have it, points stand instead of lengths.
+    """
+
+    title: str
+    told: str
+    axis: Axis
+    rows: Sequence[Bar]
+    limit: tuple[float, str] | None = None
+
+
+def db(value: float) -> str:
+    """A level as tables show it."""
+    return f"{value:.1f} dB"
+
+
+def micrometres(value: float) -> str:
+    """A displacement as tables show it."""
+    return f"{number(value, 3)} µm"

@@ -1,0 +1,33 @@
+"""A figure of a result: its name, what it shows, where it stands in a report."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from abu_calc.report.blocks import Block
+from abu_calc.report.drawing.shapes import Drawing
+from abu_calc.report.figures.chart import Bars, Plot
+from abu_calc.report.figures.motion import Motion
+
+Shown = Plot | Bars | Drawing | Motion
+
+
+class Figure(NamedTuple):
+    """What is shown, with a caption that says what to see.
+
+    `name`: single among a result's figures; `section`: the heading it stands below, as far as it is given.
+    """
+
+    name: str
+    section: str
+    shown: Shown
+    caption: str
+
+
+class Extras(NamedTuple):
+    """What a page has beyond the blocks of a report: figures, and the formulas with numbers put in."""
+
+    figures: tuple[Figure, ...] = ()
+    note: tuple[Block, ...] = ()
+
+
+MakesExtras = Callable[[], Extras]
