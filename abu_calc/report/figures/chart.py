@@ -45,7 +45,7 @@ class Point(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A course; `name` stands in the legend, `series` chooses color and dashes."""
+    """A course; `name` stands in the legend where there are several, `series` (1 to 4) chooses color and dashes."""
 
     points: Sequence[tuple[float, float]]
     name: str = ""
@@ -72,6 +72,12 @@ class Plot(NamedTuple):
     points: Sequence[Point] = ()
     limit: tuple[float, str] | None = None
     bands: Sequence[tuple[float, float]] = ()
+
+    @property
+    def legend(self) -> Sequence[Line]:
+        """Lines that need their names told, one for each name: there is more than one name."""
+        named = {line.name: line for line in reversed(self.lines) if line.name}
+        return tuple(reversed(named.values())) if len(named) > 1 else ()
 
 
 class Bars(NamedTuple):
