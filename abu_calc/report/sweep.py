@@ -63,7 +63,7 @@ def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
     some = any(one.share < 1 for one in result.basins)
     body = [*_limits(result), *(_basins(result) if some else ()), *_numbers(result)]
     if result.chart:
-        body += chart_blocks(result.chart)
+        body = [*chart_blocks(result.chart, short=True), *body]
     elif first:
         body += _decides(result, first, MOST)
     body += [*_prices(result, short=True), *_failed(result)]

@@ -1,5 +1,6 @@
 """Shares as bars, and over two keys as a chart of signs."""
 
+from collections.abc import Sequence
 from typing import Final
 
 from abu_calc.report.blocks import Block, Heading, Picture
@@ -14,6 +15,7 @@ SIGNS: Final = "·░▒▓█"
 WIDE: Final = 60
 HIGH: Final = 24
 """The most columns and rows of a chart."""
+Shares = Sequence[Sequence[float | None]]
 WORDS: Final = {"balances": "the share that balances", "meets_limits": "the share that meets the limits"}
 
 
@@ -48,25 +50,36 @@ def title_of(chart: Chart) -> str:
     return f"{chart.y_key} over {chart.x_key}"
 
 
-def chart_blocks(chart: Chart) -> list[Block]:
-    """The chart, the second key upward, with what its signs mean."""
+def chart_blocks(chart: Chart, *, short: bool = False) -> list[Block]:
+    """Each field of the chart; `short`: one of them, where not all cells are alike if there is such a one."""
+    found = fields(chart)
+    if short:
+        found = [next((one for one in found if len({kind_of(share) for row in one[1] for share in row} - {None}) > 1), found[0])]
+    return [Heading(title_of(chart)), *(_picture(chart, *one) for one in found)]
+
+
+def fields(chart: Chart) -> list[tuple[str, Shares]]:
+    """What is shared, in words, and the shares: that balance, and that meet all limits where that asks for more."""
+    found: list[tuple[str, Shares]] = [(WORDS[chart.of], chart.shares)]
+    return found if chart.meets is None else [*found, (WORDS["meets_limits"], chart.meets)]
+
+
+def _picture(chart: Chart, what: str, shares: Shares) -> Picture:
+    """The second key upward, and what the signs mean."""
     columns, rows = few(len(chart.x), WIDE), few(len(chart.y), HIGH)
     width = max(1, WIDE // max(len(columns), 1) // 2) if len(columns) <= WIDE // 2 else 1
     labels = [label_of(chart.y[row]) for row in rows]
     margin = max(map(len, labels))
     lines = [
-        f"{label:>{margin}} {''.join(sign(chart.shares[row][column]) * width for column in columns)}"
+        f"{label:>{margin}} {''.join(sign(shares[row][column]) * width for column in columns)}"
         for label, row in reversed(list(zip(labels, rows, strict=True)))
     ]
     first, last = label_of(chart.x[columns[0]]), label_of(chart.x[columns[-1]])
     gap = max(width * len(columns) - len(first) - len(last), 1)
     lines.append(" " * (margin + 1) + first + " " * gap + last)
-    about = f"{WORDS.get(chart.of, chart.of)}: {SIGNS[0]} none, ░ to a third, ▒ to two thirds, ▓ more, {FULL} all"
+    about = f"{what}: {SIGNS[0]} none, ░ to a third, ▒ to two thirds, ▓ more, {FULL} all"
     shown = "" if len(columns) == len(chart.x) and len(rows) == len(chart.y) else "; not every value is shown"
-    return [
-        Heading(title_of(chart)),
-        Picture(tuple(lines), f"{about[0].upper()}{about[1:]}{shown}.", 2),
-    ]
+    return Picture(tuple(lines), f"{about[0].upper()}{about[1:]}{shown}.", 2)
 
 
 def few(count: int, most: int) -> list[int]:

@@ -1,5 +1,6 @@
 """What `abu sweep` shows: shares, numbers against members, what decides and its price, a chart over two keys."""
 
+import re
 from collections.abc import Iterator, Sequence
 from typing import Final
 
@@ -18,7 +19,7 @@ from abu_calc.report.sweep import (
     title_deciding,
     words_of,
 )
-from abu_calc.report.sweep_chart import WORDS, few, kind_of, label_of, title_of
+from abu_calc.report.sweep_chart import few, fields, kind_of, label_of, title_of
 from abu_calc.studies.sweeping.records import Chart, Distribution, Price, Sensitivity
 from abu_calc.studies.sweeping.result import SweepResult
 from abu_calc.units import unit_of
@@ -164,13 +165,14 @@ def _cells(result: SweepResult) -> Iterator[Figure]:
     chart = result.chart
     if chart is None:
         return
-    classes = [[kind_of(share) for share in row] for row in chart.shares]
     words = ((0, "none"), (1, "to a third"), (2, "to two thirds"), (3, "more"), (4, "all"), (None, "not computed"))
-    what = WORDS.get(chart.of, chart.of)
-    all_of_them = [one for row in classes for one in row]
-    told = f"{what} of {len(all_of_them)} cells: {all_of_them.count(4)} all, {all_of_them.count(0)} none"
-    caption = f"{what[0].upper()}{what[1:]}: the larger the square, the more; a ring: none of the members there."
-    yield Figure("cells", title_of(chart), _field(chart, f"{what} over two values", told, classes, words), caption)
+    for index, (what, shares) in enumerate(fields(chart)):
+        classes = [[kind_of(share) for share in row] for row in shares]
+        all_of_them = [one for row in classes for one in row]
+        told = f"{what}, of {len(all_of_them)} cells: {all_of_them.count(4)} all, {all_of_them.count(0)} none"
+        caption = f"{what[0].upper()}{what[1:]}: the larger the square, the more; a ring: none of the members there."
+        field = _field(chart, f"{what[0].upper()}{what[1:]}", told, classes, words)
+        yield Figure("cells-meets" if index else "cells", title_of(chart), field, caption)
     levels = [one for row in chart.levels_db or () for one in row if one is not None]
     if not levels or min(levels) == max(levels):
         return
@@ -198,4 +200,5 @@ def _field(
 
 
 def _axis(key: str) -> str:
-    return f"{key} [{unit_of(key) or '1'}]"
+    unit = unit_of(re.sub(r"\[\d+\]$", "", key)) or "1"
+    return f"{key} [{unit}]"

@@ -45,7 +45,7 @@ def _drawn(one: Figure) -> tuple[_Room, str]:
         case Bars() as chart:
             return _Room(520.0), bars(one.name, chart)
         case Cells() as chart:
-            return _Room(620.0), cells(one.name, chart)
+            return _Room(520.0), cells(one.name, chart)
         case Motion() as motion:
             return _Room(640.0), player(motion)
         case Drawing() as drawing:

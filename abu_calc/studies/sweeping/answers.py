@@ -187,17 +187,19 @@ def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Ch
     """Shares over two keys, the first across."""
     across, upward = (next(one for one in sample.factors if one.key == key).variation.values for key in grid)
     flag = FLAGS[what][0].name
-    level = quoted(DECIDING[what])
-    query = (
-        f"SELECT {quoted(grid[0])}, {quoted(grid[1])}, AVG({quoted(flag)}), AVG({level}) FROM members "
-        f"WHERE {there(store)} GROUP BY 1, 2"
-    )
+    # A member without an answer counts as not met; a cell without any has no share.
+    met = (f"CASE WHEN COUNT({name}) THEN 1.0 * SUM({name}) / COUNT(*) END" for name in map(quoted, (flag, MEETS.name)))
+    columns = f"{', '.join(map(quoted, grid))}, {', '.join(met)}, AVG({quoted(DECIDING[what])})"
+    query = f"SELECT {columns} FROM members WHERE member < {store.drawn} GROUP BY 1, 2"
     found: dict[tuple[object, object], tuple[float | None, ...]] = {
         (x, y): (*cell,) for x, y, *cell in store.ask(query)
     }
 
+    def field(part: int) -> tuple[tuple[float | None, ...], ...]:
+        return tuple(tuple(cell(one, other, part) for one in x) for other in y)
+
     def cell(x: object, y: object, part: int) -> float | None:
-        return found.get((x, y), (None, None))[part]
+        return found.get((x, y), (None, None, None))[part]
 
     x, y = (tuple(_plain(value) for value in values) for values in (across, upward))
     return Chart(
@@ -206,8 +208,9 @@ def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Ch
         x=x,
         y=y,
         of=flag,
-        shares=tuple(tuple(cell(one, other, 0) for one in x) for other in y),
-        levels_db=tuple(tuple(cell(one, other, 1) for one in x) for other in y),
+        shares=field(0),
+        meets=field(1) if len(FLAGS[what]) > 2 else None,
+        levels_db=field(2),
     )
 
 

@@ -117,4 +117,7 @@ class Chart(Record):
     y: Annotated[tuple[float | str, ...], Quantity("values upward")]
     of: Annotated[str, Quantity("what is shared")]
     shares: Annotated[tuple[tuple[float | None, ...], ...], Quantity("shares", "", 3, "null: no member gave an answer")]
+    meets: Annotated[
+        tuple[tuple[float | None, ...], ...] | None, Quantity("shares that meet all limits", "", 3, "null: as `shares`")
+    ]
     levels_db: Annotated[tuple[tuple[float | None, ...], ...] | None, Quantity("mean levels")]
