@@ -54,8 +54,12 @@ def chart_blocks(chart: Chart, *, short: bool = False) -> list[Block]:
     """Each field of the chart; `short`: one of them, where not all cells are alike if there is such a one."""
     found = fields(chart)
     if short:
-        found = [next((one for one in found if len({kind_of(share) for row in one[1] for share in row} - {None}) > 1), found[0])]
+        found = [next((one for one in found if len(_kinds(one[1])) > 1), found[0])]
     return [Heading(title_of(chart)), *(_picture(chart, *one) for one in found)]
+
+
+def _kinds(shares: Shares) -> set[int | None]:
+    return {kind_of(share) for row in shares for share in row} - {None}
 
 
 def fields(chart: Chart) -> list[tuple[str, Shares]]:
