@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 from abu_calc.report.arm import arm_facts, motion_blocks, printed_otherwise
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
+from abu_calc.report.figures.characters import pictured
+from abu_calc.report.figures.size import size_charts
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
 from abu_calc.report.shown_text import measured_after_blocks, shown_blocks
@@ -34,6 +36,10 @@ ROWS = 15
 
 def size_blocks(result: SizeResult) -> tuple[Block, ...]:
     """The whole report."""
+    return pictured(_blocks(result), size_charts(result))
+
+
+def _blocks(result: SizeResult) -> tuple[Block, ...]:
     return (
         *about(result),
         *numbers_that_matter(result),

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.report.figures.chart import Axis, Bar, Bars, Plot, Point
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Line, Plot, Point
 from abu_calc.report.page.chart_svg import bars, plot
 from tests.cli.runner import abu
 from tests.page.reader import read
@@ -171,6 +171,25 @@ def test_points_and_limits_stand_where_the_ticks_say() -> None:
     assert float(str(circle["cx"])) == pytest.approx(float(str(at["40"]["x"])), abs=0.1)
     assert f"M52.0 {circle['cy']}" in next(str(a["d"]) for tag, a in page.tags if a.get("class") == "limit")
     assert float(str(up["20"]["y"])) - 4 == pytest.approx(float(str(circle["cy"])), abs=0.1)
+
+
+def test_several_lines_have_a_legend_that_stays_inside_the_chart() -> None:
+    names = ["idle", "loaded", "loaded, another place", "with a name that takes most of the width of a chart"]
+    lines = [Line([(0, k), (1, k + 1)], name, k) for k, name in enumerate(names, 1)] + [
+        Line([(0, 0), (1, 1)], "idle", 1)
+    ]
+    axes = Axis("time [s]", 0, 1), Axis("level [dB]", 0, 5)
+    page = read(plot("a", Plot("A", "told", *axes, lines)))
+    high = float(str(page.tags[0][1]["viewbox"]).split()[-1])
+    places = [attributes for tag, attributes in page.tags if tag == "text"]
+    words = [words for tag, words in page.texts if tag == "text"]
+    assert [word for word in words if word in names] == names
+    at = [(float(str(a["x"])), float(str(a["y"])), w) for a, w in zip(places, words, strict=True) if w in names]
+    assert all(x + 5.5 * len(name) < 420 and y < high for x, y, name in at)
+    for one, after in pairwise(at):
+        assert after[1] > one[1] or after[0] > one[0] + 5.5 * len(one[2]) + 20
+    alone = read(plot("a", Plot("A", "told", *axes, lines[:1])))
+    assert "idle" not in [words for tag, words in alone.texts if tag == "text"]
 
 
 def test_lengths_of_bars_are_as_their_values() -> None:

@@ -45,7 +45,7 @@ class Point(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A course; `name` stands in the legend, `series` chooses color and dashes."""
+    """A course; `name` stands in the legend where there are several, `series` (1 to 4) chooses color and dashes."""
 
     points: Sequence[tuple[float, float]]
     name: str = ""
@@ -53,12 +53,13 @@ class Line(NamedTuple):
 
 
 class Bar(NamedTuple):
-    """A length, its name and its value as text; `series` as of points."""
+    """A length, its name and its value as text; `series` as of points, `span` from where to where it may lie."""
 
     name: str
     value: float
     told: str
     series: int = 1
+    span: tuple[float, float] | None = None
 
 
 class Plot(NamedTuple):
@@ -73,6 +74,12 @@ class Plot(NamedTuple):
     limit: tuple[float, str] | None = None
     bands: Sequence[tuple[float, float]] = ()
 
+    @property
+    def legend(self) -> Sequence[Line]:
+        """Lines that need their names told, one for each name: there is more than one name."""
+        named = {line.name: line for line in reversed(self.lines) if line.name}
+        return tuple(reversed(named.values())) if len(named) > 1 else ()
+
 
 class Bars(NamedTuple):
     """Lengths below one another, each under its name, with the limit across them all.
@@ -85,6 +92,22 @@ class Bars(NamedTuple):
     axis: Axis
     rows: Sequence[Bar]
     limit: tuple[float, str] | None = None
+
+
+class Cells(NamedTuple):
+    """A field of cells over two lists of values, the first row lowest; a cell grows with its class, 0 to 4.
+
+    `classes[row][column]`: None where nothing is known; `words`: what each class means.
+    """
+
+    title: str
+    told: str
+    across: str
+    up: str
+    columns: Sequence[str]
+    rows: Sequence[str]
+    classes: Sequence[Sequence[int | None]]
+    words: Sequence[tuple[int | None, str]]
 
 
 def db(value: float) -> str:

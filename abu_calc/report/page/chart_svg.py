@@ -1,9 +1,9 @@
 """Charts as inline SVG; told apart by shape and word, not by color alone."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from abu_calc.report.figures.chart import Axis, Bar, Bars, Plot, Point
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot, Point
 from abu_calc.report.page.words import text
 
 WIDE: Final = 420.0
@@ -15,6 +15,11 @@ ROW: Final = 35.0
 MARGIN: Final = 8.0
 VALUES: Final = 74.0
 """What the values beside bars take."""
+LETTER: Final = 6.4
+"""What a letter takes, about."""
+SAMPLE: Final = 34.0
+"""What a piece of line takes in a legend."""
+LEGEND_ROW: Final = 18.0
 
 
 def plot(name: str, one: Plot) -> str:
@@ -38,7 +43,26 @@ def plot(name: str, one: Plot) -> str:
             yield f'<path class="line s{line.series}" d="M{path}"/>'
         yield from (_point(one, *at(one.x, one.y), right) for one in one.points)
 
-    return _svg(name, one, HIGH, (*_axes(one.across, one.up), *marks()))
+    entries = list(_entries(one.legend))
+    high = max((y for *_, y in entries), default=HIGH - 8) + 8
+    legend = (part for each in entries for part in _entry(*each))
+    return svg(name, one, high, (*_axes(one.across, one.up), *marks(), *legend))
+
+
+def _entries(lines: Sequence[Line]) -> Iterator[tuple[Line, float, float]]:
+    """Lines of a legend, and where each stands: beside one another below the chart, as far as there is room."""
+    x, y = MARGIN, HIGH + 10
+    for line in lines:
+        wide = SAMPLE + LETTER * len(line.name) + 14
+        if x > MARGIN and x + wide > WIDE:
+            x, y = MARGIN, y + LEGEND_ROW
+        yield line, x, y
+        x += wide
+
+
+def _entry(line: Line, x: float, y: float) -> Iterator[str]:
+    yield f'<path class="line s{line.series}" d="M{x:.1f} {y - 4:.1f}h{SAMPLE - 6:.1f}"/>'
+    yield f'<text x="{x + SAMPLE:.1f}" y="{y:.1f}">{text(line.name)}</text>'
 
 
 def bars(name: str, chart: Bars) -> str:
@@ -67,9 +91,11 @@ def bars(name: str, chart: Bars) -> str:
                 if axis.low <= 0
                 else _point(Point(one.value, 0.0, "", one.series), at(one.value), y + 25, right)
             )
+            if one.span:
+                yield _span(at(one.span[0]), at(one.span[1]), y + 24.5)
             yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
 
-    return _svg(name, chart, low + BELOW - 4, marks())
+    return svg(name, chart, low + BELOW - 4, marks())
 
 
 def _length(one: Bar, start: float, end: float, y: float) -> str:
@@ -77,7 +103,13 @@ def _length(one: Bar, start: float, end: float, y: float) -> str:
     return f'<rect class="f{one.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
 
 
-def _svg(name: str, one: Plot | Bars, high: float, parts: Iterable[str]) -> str:
+def _span(low: float, high: float, y: float) -> str:
+    """A line with an end at either side."""
+    return f'<path class="span" d="M{low:.1f} {y - 4:.1f}v8m0 -4H{high:.1f}m0 -4v8"/>'
+
+
+def svg(name: str, one: Plot | Bars | Cells, high: float, parts: Iterable[str]) -> str:
+    """The element, with its title and text alternative."""
     named = f"chart-{name}"
     return "\n".join((
         f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
@@ -112,7 +144,7 @@ def _point(one: Point, x: float, y: float, right: float) -> str:
         drawn = f'<path class="hollow s3" d="M{x - 6:.1f} {y:.1f}l6 -6 6 6 -6 6z"/>'
     if not one.word:
         return drawn
-    left = x + 9 + 6.4 * len(one.word) > right
+    left = x + 9 + LETTER * len(one.word) > right
     place = f'x="{x - 9 if left else x + 9:.1f}" y="{y + 4:.1f}" text-anchor="{"end" if left else "start"}"'
     return f"{drawn}<text {place}>{text(one.word)}</text>"
 
