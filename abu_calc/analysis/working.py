@@ -27,7 +27,8 @@ class Working:
     `x`, `y`: largest distance of the axis from its mean place along each axis [m]; `force`: of wheel and work [N] at
     equal steps over whole turns, none where nothing presses in the plane; `profile`: point of the wheel [rad from the
     imbalance] and mean force there [N]; `velocity` rms [m/s], the larger of both
-    axes; `ball_angles` [rad] in the rotor. `parts`: whether wheel and work part, or a rigid contact pulls.
+    axes; `ball_angles` [rad] in the rotor; `path`: the axis from its mean place over the last turn, x and y [m].
+    `parts`: whether wheel and work part, or a rigid contact pulls.
     """
 
     axis: tuple[complex, complex]
@@ -39,6 +40,7 @@ class Working:
     profile: tuple[tuple[float, float], ...]
     velocity: float
     ball_angles: tuple[float, ...]
+    path: Array
     settled: bool
     parts: bool
     error: float
@@ -86,6 +88,7 @@ def working(scene: Scene, accuracy: float, progress: Progress = silent) -> Worki
         profile=_profile(full, times, force) if len(force) else (),
         velocity=run.response.velocity_rms,
         ball_angles=run.response.ball_angles,
+        path=place[:, -1 - SAMPLES_PER_REVOLUTION :] - whole.mean(axis=1, keepdims=True),
         settled=run.response.settling_time is not None,
         parts=bool(len(force)) and float(force.min()) <= 0,
         error=run.error_estimate,

@@ -71,10 +71,10 @@ def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
 
 
 def _extras(source: "Machine", result: "CheckFitResult") -> "Extras":
-    from abu_calc.report.figures.drawings import seat_figures
+    from abu_calc.report.figures.check_fit import check_fit_figures
     from abu_calc.report.figures.figure import Extras
 
-    return Extras(tuple(seat_figures(result, result.seats)), _note(source, result))
+    return Extras(tuple(check_fit_figures(result)), _note(source, result))
 
 
 def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":

@@ -2,6 +2,8 @@
 
 import cmath
 import math
+from collections.abc import Iterator
+from dataclasses import field
 from typing import Annotated, ClassVar
 
 from abu_calc.analysis import contact_facts as facts
@@ -30,6 +32,7 @@ from abu_calc.studies.grinding_records import (
     Comparison,
     FrictionBand,
     HodographPoint,
+    Orbit,
     Printed,
     ProfilePoint,
     Reaction,
@@ -53,6 +56,7 @@ class GrindingResult(Result):
     """A machine at its work; motions as if wheel and work never parted, `simulation` as they are."""
 
     command: ClassVar[str] = "grinding"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"orbits"}
 
     model: GrindingModel
     verdict: Annotated[str, Quantity("verdict")]
@@ -97,6 +101,8 @@ class GrindingResult(Result):
     simulation_at_once: Simulated | None
     simulation_without: Simulated | None
     agreement: Comparison | None
+    orbits: tuple[Orbit, ...] = field(compare=False, repr=False)
+    """How the axis goes round without autobalancer, with fixed and with free balls."""
 
 
 @checked
@@ -165,7 +171,19 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),
         simulation_without=None if work.without.run is None else Simulated.of(work.without.run),
         agreement=None if compared is None else Comparison.of(compared),
+        orbits=tuple(_orbits(work, still)),
     )  # fmt: skip
+
+
+def _orbits(work: Work, still: Steady) -> Iterator[Orbit]:
+    """Those that are known."""
+    sides = (("without", work.without.steady, work.without.run), ("balls fixed", still, None),
+             ("with", work.fitted.steady, work.fitted.run))  # fmt: skip
+    for name, steady, run in sides:
+        if (found := Orbit.steady(name, steady)) is not None:
+            yield found
+        if run is not None:
+            yield Orbit.through(name, run.path)
 
 
 def _refuse_idle(tables: MachineFile) -> None:

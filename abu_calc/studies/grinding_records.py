@@ -3,7 +3,11 @@
 import cmath
 import math
 from collections.abc import Mapping
-from typing import Annotated, Self
+from dataclasses import dataclass
+from typing import Annotated, Final, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
 from abu_calc.analysis.grinding import Agreement, Remedy
@@ -13,6 +17,9 @@ from abu_calc.analysis.working import Working
 from abu_calc.sizing.case import Case
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, wrapped_deg
+
+SIDES: Final = 60
+"""Of the polygon that stands for an ellipse."""
 
 
 @record
@@ -27,6 +34,31 @@ class AxisMotion(Record):
         """That of phasors."""
         x, y = (None, None) if axis is None else (from_si(abs(each), "mm") for each in axis)
         return cls(x_amplitude_mm=x, y_amplitude_mm=y)
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """How the axis goes round once: points from its mean place [µm], x along the work, y away from it; `name` says with
+    which balls. `simulated`: with every effect that counts, else as if wheel and work never parted.
+    """
+
+    name: str
+    simulated: bool
+    points_um: tuple[tuple[float, float], ...]
+
+    @classmethod
+    def steady(cls, name: str, steady: Steady) -> Self | None:
+        """The ellipse of phasors; None where balls come to no rest."""
+        if steady.axis is None:
+            return None
+        turn = np.exp(2j * np.pi * np.arange(SIDES + 1) / SIDES)
+        return cls.through(name, np.array([(phasor * turn).real for phasor in steady.axis]), simulated=False)
+
+    @classmethod
+    def through(cls, name: str, path: NDArray[np.float64], *, simulated: bool = True) -> Self:
+        """That of places x, y [m]."""
+        points = (from_si(1.0, "um") * path).T.tolist()
+        return cls(name, simulated, tuple((x, y) for x, y in points))
 
 
 @record

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels
 from abu_calc.analysis.machine import Failure, Run, simulated
+from abu_calc.analysis.one_run import loudest
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
@@ -144,8 +145,13 @@ def size(
             DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
             for line in design.drawing
         ),
-        idle_run=next((RotorView.of(run.simulation) for run in runs if run.ledger.scene.name == "idle"), None),
+        idle_run=next((_idle_view(design, run) for run in runs if run.ledger.scene.name == "idle"), None),
     )
+
+
+def _idle_view(design: Design, run: Run) -> RotorView | None:
+    """With levels as the limit of the file is for."""
+    return RotorView.of(run.simulation, loudest(design, run.simulation.response))
 
 
 def _arm(

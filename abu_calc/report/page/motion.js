@@ -39,9 +39,9 @@ function draw() {
   pen.lineTo(side / 2 + far * Math.cos(angle), middle - far * Math.sin(angle));
   pen.stroke();
   circle(side / 2 + far * Math.cos(angle), middle - far * Math.sin(angle), 5, colour("fail"));
-  data.balls.forEach((row) => {
-    const at = row[k] * turn, pitch = data.pitch * scale;
-    circle(side / 2 + pitch * Math.cos(at), middle - pitch * Math.sin(at), data.ball * scale, colour("c1"), colour("ink"));
+  data.balls.forEach((row, ball) => {
+    const at = row[k] * turn, pitch = data.pitch[ball] * scale;
+    circle(side / 2 + pitch * Math.cos(at), middle - pitch * Math.sin(at), data.ball[ball] * scale, colour("c1"), colour("ink"));
   });
   write("axis, circle " + Number(reach.toPrecision(2)) + " µm", 1.5 * side, 16, "soft");
   circle(1.5 * side, middle, 118, null, colour("line"));
