@@ -192,7 +192,9 @@ _ALL: Final = (
         "ABU421", "level lowered under load",
         "Whether the autobalancer lowers the level of the machine at its work, at the loudest handle.",
         "The machine moves no less with it: by steady contact, or by simulation where wheel and work part. Not done "
-        "where a rigid contact would have to pull, or where no simulation gave an answer.",
+        "where a rigid contact would have to pull, where no simulation gave an answer, or where levels of chaotic "
+        "bouncing are no further apart than its runs. Warns where it does not when the machine is pressed to the work "
+        "before the balls have settled.",
         "A truer wheel, a softer contact, a harder press; what was tried on this machine stands in the report.",
         "grinding", ("formulas.grinding:hodograph_limit",),
     ),
@@ -303,7 +305,8 @@ _ALL: Final = (
     CheckCode(
         "ABU703", "simulated scene",
         "Whether a further scene that the file calls for (grinding, swing arm) could be simulated.",
-        "Never failed: not done where no simulation reached the accuracy.",
+        "Never failed: not done where no simulation reached the accuracy. Warns where wheel and work bounce "
+        "chaotically, and the mean of long runs is known.",
         "A drag nearer to the optimum, or less accuracy (--accuracy).", "simulation", ("formulas.motion:simulate",),
     ),
     CheckCode(
