@@ -1,20 +1,19 @@
 """Blocks as text in a terminal or a file."""
 
-import io
 import os
 import re
 import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
-
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
+from typing import TYPE_CHECKING, Any
 
 from abu_calc.escapes import escaped
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
+from abu_calc.report.columns import Line, Piece, table_lines, widths_within
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 STYLES = {
     "pass": "bold green",
@@ -47,48 +46,46 @@ def show(blocks: Iterable[Block], *, color: bool = True) -> None:
     if not (color and (sys.stdout.isatty() or os.environ.get("FORCE_COLOR"))):
         print(as_text(blocks, width), end="")
         return
+    from rich.text import Text  # in color alone
+
     out = console(width)
-    for part in _parts(blocks, width):
-        out.print(Text(*part) if isinstance(part, tuple) else part)
+    for line in _lines(blocks, width):
+        out.print(Text.assemble(*line))
 
 
-def console(width: int, **how: Any) -> Console:
+def console(width: int, **how: Any) -> "Console":
     """A console of so many columns: Rich does not bear everything that COLUMNS and LINES may be."""
+    from rich.console import Console
+
     plain = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
     return Console(width=width, markup=False, highlight=False, emoji=False, _environ=plain, **how)
 
 
 def as_text(blocks: Iterable[Block], width: int = 80) -> str:
     """Blocks as plain text for a file or a pipe, no blanks at the ends of lines."""
-    buffer = io.StringIO()
-    out = console(width, file=buffer, color_system=None)
-    for part in _parts(blocks, width):
-        if isinstance(part, tuple):
-            buffer.write(part[0] + "\n")
-        else:
-            out.print(part)
-    return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines()) + "\n"
+    text = "".join("".join(piece for piece, _ in line) + "\n" for line in _lines(blocks, width))
+    return "\n".join(line.rstrip() for line in text.splitlines()) + "\n"
 
 
-def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Table]:
-    """Lines that are wrapped already, each with its style, and tables."""
+def _lines(blocks: Iterable[Block], width: int) -> Iterator[Line]:
+    """Lines that are wrapped already, several together where they have one style."""
     for index, block in enumerate(blocks):
         if index and isinstance(block, Heading):
-            yield "", ""
+            yield (("", ""),)
         match block:
             case Heading(text):
-                yield fill(escaped(text), width, 0, HEADING_HANG), "bold"
+                yield ((fill(escaped(text), width, 0, HEADING_HANG), "bold"),)
             case Paragraph(text, mark, indent, hang):
                 style = STYLES.get(mark or "", "")
-                yield fill(escaped(text), width, indent, hang), style.removeprefix("bold ") if hang else style
+                yield ((fill(escaped(text), width, indent, hang), style.removeprefix("bold ") if hang else style),)
             case Facts(rows):
-                yield _facts(rows, width)
+                yield from _facts(rows, width)
             case Grid():
-                yield _grid(block)
+                yield from _grid(block, width)
             case Picture(lines, caption, indent):
                 if indent + max(map(len, lines)) <= width:
-                    yield "\n".join(" " * indent + line for line in lines), ""
-                    yield fill(caption, width, MARGIN), ""
+                    yield (("\n".join(" " * indent + line for line in lines), ""),)
+                    yield ((fill(caption, width, MARGIN), ""),)
 
 
 def height(blocks: Sequence[Block], width: int = 80) -> int:
@@ -105,21 +102,22 @@ def fill(text: str, width: int, indent: int, hang: int = 0) -> str:
     ).replace(TIE, " ")  # fmt: skip
 
 
-def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
-    table = Table(box=None, show_header=False, padding=(0, 0, 0, MARGIN))
+def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Iterator[Line]:
     label, symbol = FACT_WIDTHS
-    rest = width - label - 2 * MARGIN
-    for column in (label, rest) if width < NARROW else (label, symbol, rest - symbol - MARGIN):
-        table.add_column(width=column, overflow="fold")
-    for name, sign, value in rows:
-        table.add_row(*map(escaped, (name, value) if width < NARROW else (name, sign, value)))
-    return table
+    if width < NARROW:
+        both = max(width - 2 * MARGIN, 2)
+        label = min(label, max(both - symbol, both // 2))
+        return table_lines([(_cell(name), _cell(value)) for name, _, value in rows], (label, both - label), MARGIN)
+    widths = (label, symbol, width - label - symbol - 3 * MARGIN)
+    return table_lines([tuple(map(_cell, row)) for row in rows], widths, MARGIN)
 
 
-def _grid(grid: Grid) -> Table:
-    table = Table(box=None, padding=(0, 0, 0, MARGIN), header_style="dim", show_header=any(grid.header))
-    for index, title in enumerate(grid.header):
-        table.add_column(title, justify="right" if index in grid.right else "left", overflow="fold")
-    for row in grid.rows:
-        table.add_row(*(Text(escaped(cell), style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
-    return table
+def _cell(text: str) -> Piece:
+    return escaped(text), ""
+
+
+def _grid(grid: Grid, width: int) -> Iterator[Line]:
+    header = [[(escaped(title), "dim") for title in grid.header]] if any(grid.header) else []
+    rows = [[(escaped(cell), STYLES.get(WORDS.get(cell, cell), "")) for cell in row] for row in grid.rows]
+    cells = [*header, *rows]
+    return table_lines(cells, widths_within(cells, width - MARGIN * len(grid.header)), MARGIN, grid.right)
