@@ -27,6 +27,8 @@ def grinding_extras(result: GrindingResult) -> Extras:
         *_levels(result), *_wear(result), *_orbits(result), *_hodograph(result), *_response(result), *_force(result),
         *_profile(result),
     )  # fmt: skip
+    if result.profile is None:  # a face presses by nothing in the plane: over angles and speeds all is the same
+        figures = tuple(one for one in figures if one.name in ("levels", "orbit-simulated"))
     return Extras(figures, tuple(step_blocks(STEPS["grinding"], _numbers(result))))
 
 
