@@ -139,11 +139,14 @@ def _g_mm(value: float | None) -> float | None:
     return None if value is None else from_si(value, "g_mm")
 
 
-def not_simulated(scene: str, reason: str, *, answered: bool = False) -> Check:
+def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str | None = None) -> Check:
     """The check of a scene whose simulation gave no number to be trusted.
 
-    `answered`: whether many starts of the idle machine gave theirs: then one that did not is no veto.
+    `answered`: whether many starts of the idle machine gave theirs: then one that did not is no veto. `mean`: what a
+    chaotic motion comes to on average, where that is known.
     """
+    if mean is not None:
+        return coded("ABU703", "warn", mean, of=scene, remedy="What keeps the wheel on the work, see abu grinding.")
     status: Grade = "warn" if answered and scene == "idle" else "not-done"
     return coded("ABU703", status, f"no trustworthy simulation: {reason}", of=scene,
                  remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip

@@ -21,6 +21,7 @@ from abu_calc.formulas.suspension import natural_frequency
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.budget import permitted_displacement
+from abu_calc.sizing.compared import compared_design, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.read import Machine
@@ -43,6 +44,7 @@ from abu_calc.studies.grinding_records import (
 )
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
+from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.units import from_si, to_si, wrapped_deg
 
 USABLE = 0.2
@@ -57,6 +59,7 @@ class GrindingResult(Result):
 
     command: ClassVar[str] = "grinding"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"orbits"}
+    optional: ClassVar[frozenset[str]] = frozenset({"measured_after"})
 
     model: GrindingModel
     verdict: Annotated[str, Quantity("verdict")]
@@ -65,6 +68,8 @@ class GrindingResult(Result):
     level_before_db: Annotated[float | None, Quantity("level without autobalancer")]
     level_after_db: Annotated[float | None, Quantity("level with it")]
     level_at_once_db: Annotated[float | None, Quantity("with it, pressed before the balls have settled")]
+    at_once_stays: Annotated[bool, Quantity("pressed at once, wheel and work go on bouncing louder")]
+    measured_after: MeasuredAfter | None
     remedies: tuple[TriedRemedy, ...]
     ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
     ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
@@ -136,7 +141,9 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         contact=design.case.contact.kind if design.case.contact else "",
         level_before_db=work.levels.before,
         level_after_db=work.levels.after,
-        level_at_once_db=work.hasty,
+        level_at_once_db=work.level_at_once,
+        at_once_stays=work.stays_loud,
+        measured_after=MeasuredAfter.of(compared_design(design), level_where_measured(design, work.moved)),
         remedies=tuple(map(TriedRemedy.of, tried)),
         ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
         ball_resultant_angle_deg=None if not resultant else wrapped_deg(cmath.phase(resultant)),

@@ -250,6 +250,8 @@ class Simulated(Record):
     apart: Annotated[float, Quantity("share of the time apart", "", 3, "", percent=True)]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the imbalance")]
     ball_angles_deg: Annotated[tuple[float, ...], Quantity("balls end at", "θ", 5)]
+    duration_s: Annotated[float, Quantity("duration of the run")]
+    scatter_db: Annotated[float, Quantity("level known to", "±", 2, "0 unless it is the mean of chaotic runs")]
 
     @classmethod
     def of(cls, run: Working) -> Self:
@@ -265,6 +267,8 @@ class Simulated(Record):
             apart=run.apart,
             hardest_at_deg=wrapped_deg(cmath.phase(run.pressure)) if presses and run.reaction else None,
             ball_angles_deg=tuple(map(wrapped_deg, run.ball_angles)),
+            duration_s=run.duration,
+            scatter_db=run.scatter,
         )
 
 

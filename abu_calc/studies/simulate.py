@@ -12,7 +12,7 @@ from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
-from abu_calc.sizing.compared import Compared, compared, measured_place
+from abu_calc.sizing.compared import compared, compared_design, measured_place
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.motion import Motion, equally_spaced
 from abu_calc.studies.quantity import Quantity, record
@@ -95,7 +95,7 @@ def simulate(
         model=SceneModel.of(run.scene),
         level_at=_level_at(subject, run.response),
         handles=_handles(subject, run.response),
-        measured_after=MeasuredAfter.of(_measured(subject, run.response)),
+        measured_after=_measured(subject, run.response),
         provenance=subject.provenance,
         description=in_words(run.scene),
         start=subject.start,
@@ -129,15 +129,21 @@ def _level_at(subject: Subject, response: Response) -> str:
     return "axis" if response.final.tilt is None else "axis, centre of mass"
 
 
-def _measured(subject: Subject, response: Response) -> Compared | None:
-    """[measured_after] of a machine, held against the level of the idle scene at its place."""
+def _measured(subject: Subject, response: Response) -> MeasuredAfter | None:
+    """[measured_after] of a machine, held against the level of the idle scene at its place.
+
+    At work against the idle level that sizing predicts, with that of the run under load beside it.
+    """
     design = subject.design
-    if design is None or response.scene != "idle":
+    if design is None or response.scene not in ("idle", "grinding"):
         return None
     table = design.case.table.measured_after
     if table is None or table.shown is None:
         return None
-    return compared(design.case, level_at(design, response, measured_place(design.case, table.shown)[1]))
+    level = level_at(design, response, measured_place(design.case, table.shown)[1])
+    if response.scene == "idle":
+        return MeasuredAfter.of(compared(design.case, level))
+    return MeasuredAfter.of(compared_design(design), level)
 
 
 def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...] | None:

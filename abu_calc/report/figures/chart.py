@@ -77,13 +77,14 @@ class Line(NamedTuple):
 
 
 class Bar(NamedTuple):
-    """A length from `start`, its name and its value as text; `series` as of points."""
+    """A length from `start`, its name and its value as text; `series` as of points, `span`: where its end may lie."""
 
     name: str
     value: float
     told: str
     series: int = 1
     start: float = 0.0
+    span: tuple[float, float] | None = None
 
 
 class Plot(NamedTuple):
@@ -116,6 +117,22 @@ class Bars(NamedTuple):
     axis: Axis
     rows: Sequence[Bar]
     limit: tuple[float, str] | None = None
+
+
+class Cells(NamedTuple):
+    """A field of cells over two lists of values, the first row lowest; a cell grows with its class, 0 to 4.
+
+    `classes[row][column]`: None where nothing is known; `words`: what each class means.
+    """
+
+    title: str
+    told: str
+    across: str
+    up: str
+    columns: Sequence[str]
+    rows: Sequence[str]
+    classes: Sequence[Sequence[int | None]]
+    words: Sequence[tuple[int | None, str]]
 
 
 def db(value: float) -> str:

@@ -33,6 +33,11 @@ def size_extras(result: SizeResult) -> Extras:
     return Extras(figures, explanation_blocks(result)[1:])
 
 
+def size_charts(result: SizeResult) -> tuple[Figure, ...]:
+    """Those that a terminal has room for."""
+    return (*_over_speed(result), *_settling(result), *_candidates(result))
+
+
 def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
     scale = next((one for one in SCALES if one * outer <= ROOM), SCALES[-1])

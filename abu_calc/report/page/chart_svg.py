@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from abu_calc.report.figures.chart import Axis, Bar, Bars, Line, Plot, Point
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot, Point
 from abu_calc.report.page.words import text
 
 WIDE: Final = 420.0
@@ -49,7 +49,7 @@ def plot(name: str, one: Plot) -> str:
     high = max((y for *_, y in entries), default=HIGH - 8) + 8
     marked = {each.series for each in one.points if not each.word}
     legend = (part for each in entries for part in _entry(*each, marked=each[0].series in marked))
-    return _svg(name, one, high, (*_axes(one.across, one.up), *marks(), *legend))
+    return svg(name, one, high, (*_axes(one.across, one.up), *marks(), *legend))
 
 
 def _entries(lines: Sequence[Line]) -> Iterator[tuple[Line, float, float]]:
@@ -96,9 +96,11 @@ def bars(name: str, chart: Bars) -> str:
                 if axis.low <= 0
                 else _point(Point(one.value, 0.0, "", one.series), at(one.value), y + 25, right)
             )
+            if one.span:
+                yield _span(at(one.span[0]), at(one.span[1]), y + 24.5)
             yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
 
-    return _svg(name, chart, low + BELOW - 4, marks())
+    return svg(name, chart, low + BELOW - 4, marks())
 
 
 def _length(one: Bar, start: float, end: float, y: float) -> str:
@@ -106,7 +108,13 @@ def _length(one: Bar, start: float, end: float, y: float) -> str:
     return f'<rect class="f{one.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
 
 
-def _svg(name: str, one: Plot | Bars, high: float, parts: Iterable[str]) -> str:
+def _span(low: float, high: float, y: float) -> str:
+    """A line with an end at either side."""
+    return f'<path class="span" d="M{low:.1f} {y - 4:.1f}v8m0 -4H{high:.1f}m0 -4v8"/>'
+
+
+def svg(name: str, one: Plot | Bars | Cells, high: float, parts: Iterable[str]) -> str:
+    """The element, with its title and text alternative."""
     named = f"chart-{name}"
     return "\n".join((
         f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
