@@ -8,7 +8,7 @@ from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Pictu
 from abu_calc.report.page.words import text
 from abu_calc.report.text import BEFORE_UNIT, STYLES, TIE, WORDS
 
-WIDEST: Final = 100
+WIDEST: Final = 92
 """Letters that stand side by side on paper."""
 CODE = re.compile(r"`([^`]+)`")
 

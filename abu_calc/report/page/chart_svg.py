@@ -15,7 +15,7 @@ ROW: Final = 35.0
 MARGIN: Final = 8.0
 VALUES: Final = 74.0
 """What the values beside bars take."""
-LETTER: Final = 6.4
+LETTER: Final = 6.8
 """What a letter takes, about."""
 SAMPLE: Final = 34.0
 """What a piece of line takes in a legend."""
@@ -130,7 +130,7 @@ def _axes(across: Axis, up: Axis) -> Iterator[str]:
         x = LEFT + across.share(tick) * (right - LEFT)
         yield f'<path class="grid" d="M{x:.1f} {TOP}V{low}"/>'
         told = _tick(tick, log=across.log)
-        x = min(x, WIDE - LETTER * len(told) / 2)
+        x = min(x, WIDE - 2 - LETTER * len(told) / 2)
         yield f'<text class="soft" x="{x:.1f}" y="{low + 17}" text-anchor="middle">{told}</text>'
     for tick in up.ticks:
         y = low - up.share(tick) * (low - TOP)

@@ -3,7 +3,7 @@ const play = document.getElementById("motion-play"), time = document.getElementB
 const pace = document.getElementById("motion-pace"), told = document.getElementById("motion-told");
 const last = data.t[data.t.length - 1], side = 320, turn = Math.PI / 180;
 const reach = 1.15 * Math.max(1e-9, ...data.x.map((x, k) => Math.hypot(x, data.y[k])));
-let now = 0, playing = false, before = 0, printing = false;
+let now = 0, playing = false, before = 0, printing = false, kept = 0;
 
 function colour(name) {
   const paper = { ink: "#000", soft: "#444", line: "#bbb", c1: "#0072b2", c2: "#b84a00", fail: "#a40e26" };
@@ -86,6 +86,6 @@ canvas.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
-addEventListener("beforeprint", () => { printing = true; draw(); });
-addEventListener("afterprint", () => { printing = false; draw(); });
+addEventListener("beforeprint", () => { run(false); printing = true; kept = now; set(last); });
+addEventListener("afterprint", () => { printing = false; set(kept); });
 draw();
