@@ -142,8 +142,8 @@ def replace_runs(design: Design) -> Any:
 
 
 USUAL = {0: "balanced", 1: "balanced", 16: "restless", 11: "short", 40: "gathered", 147: "balanced"}
-"""Of the two hundred: compliant, rigid of the sense that feeds balls, and others that are not so simple. 147 is within a
-fifth of the contact's resonance, where its balls go round when they come from idle.
+"""Of the two hundred: compliant, rigid of the sense that feeds balls, and others that are not so simple. 147 is within
+a fifth of the contact's resonance, where its balls go round when they come from idle.
 """
 
 
