@@ -6,7 +6,7 @@ from dataclasses import replace
 from abu_calc.analysis.ensemble import Ensemble, simulate_members
 from abu_calc.formulas.suspension import Springs
 from abu_calc.parallel import Workers
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, within
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp
 
@@ -30,8 +30,7 @@ def remedy(
     for name, other in changes(design, first):
         if most <= 0:
             break
-        progress(f"idle: with {name}")
-        found = simulate_members(other, accuracy, silent, workers, (1.0,))
+        found = simulate_members(other, accuracy, within(progress, f"with {name}"), workers, (1.0,))
         if passes(other, found):
             return f"Tried: with {name} all {found.members} starts pass."
         tried.append(name)
