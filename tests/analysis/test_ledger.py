@@ -136,7 +136,7 @@ def test_what_is_left_out_of_a_machine_changes_no_more_than_promised(name: str) 
     names = [effect.name for effect in smooth]
     for unwanted in ((), *((one,) for one in names)):
         ledger = chosen(full, 0.5, unwanted=unwanted)
-        told = audit(full, ledger, simulate(ledger.scene, 0.01), 0.01)
+        told = audit(full, ledger, simulate(ledger.scene, 0.01), 0.01, 10**7)
         assert told.difference <= 3 * told.promise, (told, unwanted)
         if not unwanted:
             assert told.difference <= 0.5
