@@ -135,7 +135,7 @@ def _settling(result: SizeResult) -> Iterator[Figure]:
         "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
         "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
     )
-    yield Figure("motion", "Simulation: idle", Motion(result.idle_run, result.autobalancer), caption)
+    yield Figure("motion", "Simulation: idle", Motion(result.idle_run), caption)
     caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
     yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
 

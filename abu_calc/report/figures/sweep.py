@@ -47,10 +47,12 @@ def _shares(result: SweepResult) -> Iterator[Figure]:
     """Of each limit and of all, with the confidence interval."""
     met, check = result.meets_limits, next(one for one in result.checks if one.code == "ABU822")
     rows = [
-        Bar(LIMITS[name], 100 * one.share, percent(one.share), 1, _hundredths(one.confidence_interval))
+        Bar(LIMITS[name], 100 * one.share, percent(one.share), 1, span=_hundredths(one.confidence_interval))
         for name, one in met.each.items()
     ]
-    rows.append(Bar("meets all limits", 100 * met.share, percent(met.share), 2, _hundredths(met.confidence_interval)))
+    rows.append(
+        Bar("meets all limits", 100 * met.share, percent(met.share), 2, span=_hundredths(met.confidence_interval))
+    )
     limit = None if check.limit is None else (check.limit, f"at least {number(check.limit, 3)} %")
     told = "; ".join(f"{one.name} {one.told}" for one in rows) + (f"; {limit[1]}" if limit else "")
     caption = (
@@ -67,7 +69,7 @@ def _hundredths(interval: tuple[float, float]) -> tuple[float, float]:
 
 def _basins(result: SweepResult) -> Iterator[Figure]:
     rows = [
-        Bar(one.start, 100 * one.share, percent(one.share), 1, _hundredths(one.confidence_interval))
+        Bar(one.start, 100 * one.share, percent(one.share), 1, span=_hundredths(one.confidence_interval))
         for one in result.basins
     ]
     if len(rows) < 2:
@@ -125,7 +127,7 @@ def _decides(result: SweepResult) -> Iterator[Figure]:
 
 def _share_of_variance(one: Sensitivity) -> Bar:
     total = max(one.total, one.first_order)
-    return Bar(one.key, one.first_order, f"{one.total:.2f}", 1, (one.first_order, min(total, 1.0)))
+    return Bar(one.key, one.first_order, f"{one.total:.2f}", 1, span=(one.first_order, min(total, 1.0)))
 
 
 def _tighten(result: SweepResult) -> Iterator[Figure]:
