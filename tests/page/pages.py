@@ -16,6 +16,20 @@ COMMANDS = {
     "face": ("grinding", "msh-230"),
     "accuracy": ("accuracy", "avtovaz-707-222", "--budget", "4"),
     "sweep": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "12"),
+    "sweep-many": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "130", "--workers", "1"),
+    "sweep-grid": (
+        "sweep",
+        "avtovaz-707-222",
+        "--vary",
+        "autobalancer.rolling_drag_per_s=1:20:4",
+        "--vary",
+        "wheel.imbalance_g_mm=200:1300:6",
+        "--grid",
+        "wheel.imbalance_g_mm",
+        "autobalancer.rolling_drag_per_s",
+        "--workers",
+        "1",
+    ),  # fmt: skip
     "arm-size": ("size", "swing-arm-grinder"),
 }
 """By the names that tests call them."""
