@@ -75,7 +75,7 @@ class GrindingResult(Result):
     ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
     ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
     needed_resultant_g_mm: Annotated[float, Quantity("imbalance asked of the balls")]
-    ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "Θ", 5)]
+    ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
     balls: Annotated[str, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
     printed: Printed | None
     reaction: Reaction
@@ -102,7 +102,7 @@ class GrindingResult(Result):
     flutter_drag_limit_per_s: Annotated[float | None, Quantity("drag against flutter, as the balls stand", "h₀")]
     flutter_drag_worst_per_s: Annotated[float | None, Quantity("drag against flutter, balls in a cross", "h₀")]
     friction: FrictionBand
-    cutting_power_W: Annotated[float, Quantity("cutting power", "fN₀v")]
+    cutting_power_W: Annotated[float, Quantity("cutting power", "fN₀ΩR_w")]
     simulation: Simulated | None
     simulation_at_once: Simulated | None
     simulation_without: Simulated | None
