@@ -13,6 +13,7 @@ from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import run, scipy_
+from abu_calc.dynamics.integrators.compiled.cache import FOLDER
 from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, placed
 from abu_calc.dynamics.supports.planar import planar
@@ -218,8 +219,9 @@ def test_every_order_keeps_the_tolerance(tolerance):
     assert off < 100 * tolerance
 
 
-def test_compiled_code_is_kept_apart_and_bounded(tmp_path):
+def test_compiled_code_is_kept_apart_and_bounded(tmp_path, monkeypatch):
     """In a folder of its own, in this process alone; where somebody has chosen one, there."""
+    monkeypatch.delenv(FOLDER, raising=False)
     state = heyoka.llvm_state
     before = state.get_diskcache_path()
     try:
