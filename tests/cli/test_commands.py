@@ -324,8 +324,8 @@ def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
         tables.setdefault(table, {}).update({key: value} if key else value)
     options = [f"{table}.{key}={json.dumps(value)}" for table, keys in tables.items() for key, value in keys.items()]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(machine, "WORK", 5_000)  # what takes more is a check not done, an answer too
-        patch.setattr(ensemble, "WORK", 500)
+        patch.setattr(machine, "WORK", 1_000)  # what takes more is a check not done, an answer too
+        patch.setattr(ensemble, "WORK", 100)
         without_extras(patch)
         seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
     document = seen.document

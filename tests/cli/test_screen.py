@@ -168,8 +168,9 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
 
 
 # room
-@pytest.mark.parametrize("bad", [0, 1, 5, 14, 60])
-@pytest.mark.parametrize("warned", [0, 1, 7, 60])
+@pytest.mark.parametrize(
+    ("bad", "warned"), [(0, 0), (0, 60), (1, 7), (5, 1), (5, 7), (14, 0), (14, 60), (60, 1), (60, 60)]
+)
 def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFitResult, bad: int, warned: int) -> None:
     checks = tuple(graded(GRADES[1 + number % 3], number) for number in range(bad))
     warnings = tuple(f"Warning {number} " + "of some words " * (number % 12) for number in range(warned))

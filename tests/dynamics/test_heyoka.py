@@ -70,7 +70,13 @@ def test_every_support_and_rotor(support):
     agree(replace(scene_on(support, *ROTORS[way]), duration=10.0))
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+SWITCHING = ("ball_contact", "grinding_contact", "dry_rolling_friction", "run_up")
+"""Effects that are more than a smooth force; those come into the code of heyoka all in one way."""
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in SWITCHING else pytest.param(name, marks=pytest.mark.slow) for name in EXAMPLES]
+)
 def test_every_effect(name):
     """On the supports in turn; a rigid contact lets errors pass into the motion along the constraint."""
     supports = ["planar", "tilting", "swing arm"]
@@ -114,6 +120,7 @@ def test_breaks_are_met():
     np.testing.assert_allclose(turn, [(7.0, 35.0, 44.0), (2.0, 2.0, 0.0)], atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrolled")
 def test_errors_fall_with_the_tolerance():
     """Three decades of tolerance are at least two of error, until rounding of some hundred steps is met."""
