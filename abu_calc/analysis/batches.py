@@ -22,6 +22,8 @@ MOST: Final = 512
 AHEAD: Final = 2
 """Batches in flight for each worker."""
 ENDED: Final = "the process that computed it ended"
+KILLED: Final = "KilledWorker"
+"""What Dask raises once some of its workers ended on the same member."""
 
 Row = tuple[Any, ...]
 
@@ -48,12 +50,15 @@ class Here(Executor):
 
 @dataclass
 class Workers:
-    """Who computes: `make` an executor, and how many work at once; `own`: it is ours to close and to make anew."""
+    """Who computes: `make` an executor, and how many work at once; `own`: it is ours to close and to make anew.
+
+    `ends`: whoever computes is a process that may be ended when it hangs, since another takes its place.
+    """
 
     make: Callable[[], Executor]
     count: int = 1
     own: bool = True
-    processes: bool = False
+    ends: bool = False
     _executor: Executor | None = field(default=None, init=False)
 
     @property
@@ -87,12 +92,12 @@ def processes(count: int) -> Workers:
     def pool() -> Executor:
         return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
 
-    return Workers(pool, count, processes=True)
+    return Workers(pool, count, ends=True)
 
 
-def given(executor: Executor, count: int) -> Workers:
-    """Somebody else's."""
-    return Workers(lambda: executor, count, own=False)
+def given(executor: Executor, count: int, *, ends: bool = False) -> Workers:
+    """Somebody else's; `ends`: of processes that their owner starts anew when they end."""
+    return Workers(lambda: executor, count, own=False, ends=ends)
 
 
 def _begin() -> None:
@@ -138,7 +143,7 @@ def in_batches(
 
 def _submit(study: Study, batch: tuple[int, ...], workers: Workers) -> Future[Any]:
     try:
-        return workers.executor.submit(study.rows, batch, workers.processes)
+        return workers.executor.submit(study.rows, batch, workers.ends)
     except BrokenExecutor as error:
         broken: Future[Any] = Future()
         broken.set_exception(error)
@@ -168,6 +173,7 @@ def _one_by_one(
         if error is None:
             take(future.result()[0])
         else:
-            take([study.lost(member, ENDED if broken else f"{type(error).__name__}: {error}".splitlines()[0])])
+            ended = broken or type(error).__name__ == KILLED
+            take([study.lost(member, ENDED if ended else f"{type(error).__name__}: {error}".splitlines()[0])])
     if broken:
         workers.renew()

@@ -1,35 +1,33 @@
-"""A machine at its work, with and without its autobalancer: levels, remedies that were tried, and how far closed form
-and simulation agree.
-"""
+"""A machine at its work, with and without its autobalancer: levels, and remedies that were tried."""
 
-import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
+from abu_calc.analysis.bouncing import bounces, bouncing
+from abu_calc.analysis.machine import Failure, Run
 from abu_calc.analysis.under_load import Steady, bare, changed, contact_presses, crossing, fitted, runout_of
-from abu_calc.analysis.working import Working, only_contact, working
+from abu_calc.analysis.working import Working, seen, working
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.progress import Progress, silent
-from abu_calc.scenes.durations import free_rates
 from abu_calc.scenes.from_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.budget import accuracy_budget
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.vibration import Levels, handle_levels
+from abu_calc.sizing.vibration import Levels, Vibration, handle_levels
 from abu_calc.units import from_si
-
-AGREES: Final = 0.02
-"""How far closed form and simulation of the same contact may be apart, relative: the averages leave out that balls
-swing twice per turn, and the run may not have settled to the last."""
 
 EXCEEDED: Final = math.sqrt(2)
 """How many times the closed form a run may show, until it is believed instead: 3 dB."""
 
-LONG, LONGEST = 7.0, 6.0
-"""Decay times of the slowest balls that a run to be compared lasts, and the most seconds."""
+LONGEST: Final = 6.0
+"""Seconds after which a start that is louder than the usual one is taken to stay so."""
+
+LOUDER: Final = 1.0
+"""By so many dB a start is another state than the usual one, not the same with what has not died out."""
+LOUD: Final = 10 ** (LOUDER / 20)
 
 What = Literal["runout", "stiffness", "press"]
 
@@ -58,6 +56,11 @@ class Side:
         return self.pulls or (self.run is not None and self.run.parts)
 
     @property
+    def scatter(self) -> float:
+        """How far its level may be off [dB] where it is the mean of chaotic runs."""
+        return 0.0 if self.run is None else self.run.scatter
+
+    @property
     def pulls(self) -> bool:
         """Whether the variable force of the steady motion is above the press [N]."""
         return abs(self.steady.reaction or 0.0) > self.press
@@ -67,32 +70,53 @@ class Side:
 class Work:
     """A machine at its work: without autobalancer, and with it pressed when the balls have settled at idle, or at once.
 
-    `levels` [dB] at the loudest handle, `hasty`: with the autobalancer when pressed at once. A level is None where no
-    way to compute it holds. `rest`: displacement that race and friction leave anyway [m].
+    `settled`, `hasty`: levels [dB] when pressed either way. One is None where no way to compute it holds. `moved`:
+    displacement 0–peak [m] that makes the former; `rest`: what race and friction leave anyway [m].
     """
 
     design: Design
     without: Side
     fitted: Side
     at_once: Side
-    levels: Levels
-    hasty: float | None
+    settled: Vibration
+    hasty: Vibration
+    moved: float | None
     rest: float
+
+    @property
+    def levels(self) -> Levels:
+        """At the loudest handle, pressed when the balls have settled: as one works."""
+        return self.settled.worst
+
+    @property
+    def level_at_once(self) -> float | None:
+        """With the autobalancer at the loudest handle, pressed before the balls have settled."""
+        return self.hasty.worst.after
+
+    @property
+    def stays_loud(self) -> bool:
+        """Whether wheel and work go on bouncing when pressed at once, louder than otherwise: a state of its own."""
+        usual, loud = self.levels.after, self.level_at_once
+        return self.at_once.parts and usual is not None and loud is not None and loud > usual + LOUDER
 
     @property
     def lowered(self) -> bool | None:
         """Whether the autobalancer lowers the level when balls have settled; None where that is not known."""
-        return _below(self.levels.after, self.levels.before)
+        return _below(self.levels.after, self.levels.before, self.fitted.scatter + self.without.scatter)
 
     @property
     def always(self) -> bool | None:
         """Whether it does so when pressed at once, too."""
-        both = self.lowered, _below(self.hasty, self.levels.before)
+        doubt = self.at_once.scatter + self.without.scatter
+        both = self.lowered, _below(self.level_at_once, self.levels.before, doubt)
         return None if None in both else all(both)
 
 
-def _below(after: float | None, before: float | None) -> bool | None:
-    return None if before is None or after is None else after < before
+def _below(after: float | None, before: float | None, doubt: float) -> bool | None:
+    """None also where they are no further apart than chaotic runs scatter [dB]."""
+    if before is None or after is None or (doubt and abs(before - after) <= doubt):
+        return None
+    return after < before
 
 
 @dataclass(frozen=True)
@@ -104,8 +128,11 @@ class Remedy:
     levels: Levels
 
 
-def at_work(design: Design, accuracy: float, progress: Progress = silent) -> Work:
-    """Steady motions and runs; without autobalancer a run where wheel and work part only."""
+def at_work(design: Design, accuracy: float, progress: Progress = silent, hard: Run | Failure | None = None) -> Work:
+    """Steady motions and runs; without autobalancer a run where wheel and work part only.
+
+    `hard`: what came of the scene of grinding from bunched balls, where that was simulated before.
+    """
     runout, case, one = runout_of(design.case), design.case, design.autobalancer
     press = case.contact.press_force if case.contact else math.inf
     budget = accuracy_budget(case, design.imbalance.value, one.requirement, one.balls, one.budget.resting_angles,
@@ -114,32 +141,49 @@ def at_work(design: Design, accuracy: float, progress: Progress = silent) -> Wor
     without, free = Side(bare(design, runout), press=press), Side(fitted(design, runout), press=press)
     if without.parts:
         without = _run(without, grinding_without(design), accuracy, progress)
-    hard = scene_of_design(design, "grinding")
-    usual, at_once = _run(free, _calm(design, hard), accuracy, progress), free
+    usual = _run(free, scene_of_design(design, "grinding", "settled"), accuracy, progress)
+    moved, left, at_once = _displacement(design, without, 0.0), _displacement(design, usual, rest), free
     if contact_presses(case):
-        at_once = _run(free, hard, accuracy, progress)
-    before, after, hasty = (_displacement(design, side, left) for side, left in
-                            ((without, 0.0), (usual, rest), (at_once, rest)))  # fmt: skip
-    levels = handle_levels(case, before, after, one.mass).worst
-    return Work(design, without, usual, at_once, levels, handle_levels(case, before, hasty, one.mass).worst.after, rest)
+        at_once = _at_once(design, free, accuracy, progress, hard)
+        loud = _displacement(design, at_once, rest)
+        if left and loud and loud > LOUD * left and at_once.parts and not at_once.scatter:
+            at_once = _still(design, at_once, accuracy, progress)
+    levels, hasty = (handle_levels(case, moved, found, one.mass) for found in
+                     (left, _displacement(design, at_once, rest)))  # fmt: skip
+    return Work(design, without, usual, at_once, levels, hasty, left, rest)
 
 
-def _calm(design: Design, scene: Scene) -> Scene:
-    """The same scene with balls that have settled at idle."""
-    return replace(scene, races=tuple(replace(race, start_angles=_settled(design)) for race in scene.races))
+def _at_once(design: Design, free: Side, accuracy: float, progress: Progress, hard: Run | Failure | None) -> Side:
+    scene = scene_of_design(design, "grinding")
+    if isinstance(hard, Failure):
+        return _by_statistics(free, scene, accuracy, hard.reason, progress)
+    if hard is not None:
+        return replace(free, run=seen(hard.simulation))
+    return _run(free, scene, accuracy, progress)
 
 
-def _settled(design: Design) -> tuple[float, ...]:
-    """Where the balls stand at idle when they have settled [rad], as well as they can."""
-    idle = replace(design, case=replace(design.case, contact=None))
-    balls = fitted(idle, 0j).balls
-    found = balls.angles if balls else ()
-    return found or tuple(design.autobalancer.budget.resting_angles)
+def _still(design: Design, loud: Side, accuracy: float, progress: Progress) -> Side:
+    """The same start for as long as is simulated at most: whether it stays so loud. What it was where that fails."""
+    scene = replace(scene_of_design(design, "grinding"), duration=LONGEST)
+    later = _run(loud, scene, accuracy, progress)
+    return loud if later.failure else later
 
 
 def _run(side: Side, scene: Scene, accuracy: float, progress: Progress) -> Side:
+    """Where a bouncing motion cannot be computed, its statistics."""
     try:
         return replace(side, run=working(scene, accuracy, progress))
+    except NotTrustworthyError as error:
+        return _by_statistics(side, scene, accuracy, str(error), progress)
+
+
+def _by_statistics(side: Side, scene: Scene, accuracy: float, reason: str, progress: Progress) -> Side:
+    """What a run that failed comes to on average, if wheel and work may bounce; else why it failed."""
+    first = replace(side, failure=reason.splitlines()[0])
+    if not bounces(scene):
+        return first
+    try:
+        return replace(side, run=bouncing(scene, accuracy, progress))
     except NotTrustworthyError as error:
         return replace(side, failure=str(error).splitlines()[0])
 
@@ -165,8 +209,8 @@ def remedies(work: Work, accuracy: float, progress: Progress = silent) -> tuple[
     for what, values in _candidates(work):
         for value in values:
             tried = at_work(_sized(work.design, what, value), accuracy, progress)
-            if tried.always and tried.hasty is not None:
-                worst = max(tried.hasty, tried.levels.after or tried.hasty)
+            if tried.always and tried.level_at_once is not None:
+                worst = max(tried.level_at_once, tried.levels.after or tried.level_at_once)
                 found.append(Remedy(what, value, Levels(tried.levels.before, worst)))
                 break
     return tuple(found)
@@ -229,69 +273,3 @@ def _rounded(value: float, *, down: bool) -> float:
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
     steps = math.floor(value / unit * (1 + 1e-9)) if down else math.ceil(value / unit * (1 - 1e-9))
     return float(f"{steps * unit:.6g}")
-
-
-@dataclass(frozen=True)
-class Agreement:
-    """Relative differences of the simulated contact from the closed form: axis, force, resulting imbalance.
-
-    `apart`: the largest; `failure`: why there is none.
-    """
-
-    axis: float | None = None
-    reaction: float | None = None
-    imbalance: float | None = None
-    failure: str | None = None
-
-    @property
-    def apart(self) -> float | None:
-        """The largest."""
-        return max((each for each in (self.axis, self.reaction, self.imbalance) if each is not None), default=None)
-
-
-def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
-    """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
-
-    None where wheel and work part or balls do not balance: the closed form does not speak of these. A face leaves
-    balls where they stand.
-    """
-    steady = work.fitted.steady
-    if (
-        not contact_presses(work.design.case)
-        or work.fitted.parts
-        or steady.balls is None
-        or steady.balls.places != "balanced"
-        or steady.axis is None
-    ):
-        return None
-    scene = only_contact(_calm(work.design, scene_of_design(work.design, "grinding")))
-    sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
-    rate = min(loaded_rate(work.design, steady.balls.worst), sway)
-    longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
-    scene = replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
-    try:
-        run = working(scene, accuracy, progress)
-    except NotTrustworthyError as error:
-        return Agreement(failure=str(error).splitlines()[0])
-    return compared(steady, run, work.design.autobalancer.static_moment)
-
-
-def loaded_rate(design: Design, stiffness: tuple[complex, complex]) -> float:
-    """Slowest decay rate of the balls under load [1/s]; below zero where they flutter or go away."""
-    drag, inertia = design.case.drag, design.case.inertia_factor
-    return min((drag - abs(cmath.sqrt(drag**2 - 4 * inertia * k).real)) / (2 * inertia) for k in stiffness)
-
-
-def compared(steady: Steady, run: Working, moment: float) -> Agreement:
-    """Differences relative to the larger of what is compared and what the imbalance that the balls carry would cause.
-
-    `moment` Σ m·R_p [kg m].
-    """
-    axis, total = steady.axis or (0j, 0j), steady.imbalance or 0j
-    carried = max(abs(total - steady.own), 0.01 * moment)
-    force = carried * steady.contact.speed**2
-    off = max(abs(found - told) for found, told in zip(run.axis, axis, strict=True))
-    usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
-    told = steady.reaction or 0j
-    pressed = abs(run.reaction - told) / max(abs(told), force) if len(run.force) else None
-    return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)

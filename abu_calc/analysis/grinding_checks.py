@@ -1,6 +1,7 @@
 """What the work of a machine must show for its autobalancer to pass, in `abu grinding`."""
 
-from abu_calc.analysis.grinding import AGREES, Agreement, Work
+from abu_calc.analysis.agreement import AGREES, Agreement
+from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.under_load import leaving
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.formulas.grinding import flutter_drag, loaded_stiffness
@@ -28,13 +29,18 @@ def _lowered(work: Work, remedy: str | None) -> Check:
     if work.lowered is None:
         sides = {"without": before, "with": after}
         missing = " and ".join(side for side, level in sides.items() if level is None)
+        if not missing:
+            why = "with and without the autobalancer are no further apart than runs of chaotic bouncing"
+            return coded("ABU421", "not-done", why, after, before, "dB", remedy or "What keeps the wheel on the work.")
         usual = 'Give the contact a stiffness, contact = "compliant": then a simulation tells how they part.'
         return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
                      remedy or usual)  # fmt: skip
     message = "with the autobalancer against without, pressed to the work when the balls have settled"
+    if work.fitted.scatter or work.without.scatter:
+        message += f"; chaotic bouncing, known to {max(work.fitted.scatter, work.without.scatter):.1f} dB"
     if work.lowered and not work.always:
-        hasty = "not known" if work.hasty is None else f"{work.hasty:.1f} dB"
-        message += f"; pressed at once: {hasty}"
+        hasty = "not known" if work.level_at_once is None else f"{work.level_at_once:.1f} dB"
+        message += f"; pressed at once: {hasty}{', and it stays so' if work.stays_loud else ''}"
     return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
 
 
@@ -117,5 +123,8 @@ def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
                       "A drag nearer to the optimum, or less accuracy (--accuracy)."),)  # fmt: skip
     near = compared.apart <= AGREES
     remedy = None if near else "Damp the suspension, or take another drag: something has not died out in the run."
-    return (coded("ABU425", verdict(True, near), "simulated contact, ideal race, against the closed form",
+    message = "simulated contact, ideal race, against the closed form"
+    if not compared.reached:
+        message += "; balls started there, since from where they stand at idle they do not get there, or not in time"
+    return (coded("ABU425", verdict(True, near and compared.reached), message,
                   100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip

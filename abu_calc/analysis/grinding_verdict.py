@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from abu_calc.analysis.grinding import Remedy, Work
+from abu_calc.analysis.grinding import Remedy, Side, Work
 from abu_calc.units import from_si
 
 
@@ -11,11 +11,16 @@ def in_words(work: Work, tried: Sequence[Remedy]) -> str:
     before, after = work.levels.before, work.levels.after
     if work.lowered is None or before is None or after is None:
         return f"Whether the autobalancer helps under load is not known: {_unknown(work)}.{changes(tried)}"
-    levels = f"{after:.1f} dB with it, {before:.1f} without"
+    levels = f"{_level(after, work.fitted)} dB with it, {_level(before, work.without)} without"
     if work.lowered:
         haste = "" if work.always else f" {_haste(work)}{changes(tried, 'What prevents that') or NOTHING}"
         return f"The autobalancer helps under load: {levels}. {_helps(work)}{haste}"
     return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
+
+
+def _level(value: float, side: Side) -> str:
+    """With what chaotic runs scatter."""
+    return f"{value:.1f} ± {side.scatter:.1f}" if side.scatter else f"{value:.1f}"
 
 
 NOTHING = " Neither a truer wheel, a softer contact nor a harder press was found to change that."
@@ -44,12 +49,13 @@ def _remedy(one: Remedy) -> str:
 
 def _haste(work: Work) -> str:
     """What a start with balls on the heavy side comes to."""
-    if work.hasty is None:
-        return (
-            f"Pressed before the balls have settled: not known, {work.at_once.failure or 'no way to compute it holds'}."
-        )
-    how = "wheel and work keep bouncing, at" if work.at_once.parts else "it comes to"
-    return f"But pressed before the balls have settled {how} {work.hasty:.1f} dB."
+    start, level, run = "pressed before the balls have settled", work.level_at_once, work.at_once.run
+    if level is None:
+        return f"{start[0].upper()}{start[1:]}: not known, {work.at_once.failure or 'no way to compute it holds'}."
+    told = _level(level, work.at_once)
+    if work.stays_loud and run is not None:
+        return f"But {start} wheel and work go on bouncing, at {told} dB: so still after {run.duration:.2g} s."
+    return f"But {start} {'they bounce, at' if work.at_once.parts else 'it comes to'} {told} dB."
 
 
 def _helps(work: Work) -> str:
@@ -94,6 +100,10 @@ def _worse(work: Work) -> str:
 
 
 def _unknown(work: Work) -> str:
+    before, after = work.levels.before, work.levels.after
+    if before is not None and after is not None:
+        return (f"{_level(after, work.fitted)} dB with it and {_level(before, work.without)} without are no further "
+                "apart than the runs of chaotic bouncing")  # fmt: skip
     case, failures = work.design.case, [side.failure for side in (work.without, work.fitted) if side.failure]
     if failures:
         return f"no trustworthy simulation, {failures[0]}"

@@ -15,6 +15,8 @@ stays on the work took SciPy 200 000, events counted in, until two runs agreed; 
 
 BALANCE = "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
 
+SEE = "See ABU701."
+
 JUDGED = "ABU701", "ABU702", "ABU704"
 
 
@@ -27,11 +29,9 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | Non
     if ensemble is None:
         reason = "the balls cannot carry the imbalance side by side"
         return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in JUDGED)
-    return (
-        _balances(design, ensemble, remedy),
-        _settles(design, ensemble, remedy),
-        _none_hangs(ensemble, remedy),
-    )
+    first = _balances(design, ensemble, remedy)
+    told = SEE if first.remedy else remedy
+    return first, _settles(design, ensemble, told), _none_hangs(ensemble, told)
 
 
 def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = None) -> Check:
@@ -139,11 +139,14 @@ def _g_mm(value: float | None) -> float | None:
     return None if value is None else from_si(value, "g_mm")
 
 
-def not_simulated(scene: str, reason: str, *, answered: bool = False) -> Check:
+def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str | None = None) -> Check:
     """The check of a scene whose simulation gave no number to be trusted.
 
-    `answered`: whether many starts of the idle machine gave theirs: then one that did not is no veto.
+    `answered`: whether many starts of the idle machine gave theirs: then one that did not is no veto. `mean`: what a
+    chaotic motion comes to on average, where that is known.
     """
+    if mean is not None:
+        return coded("ABU703", "warn", mean, of=scene, remedy="What keeps the wheel on the work, see abu grinding.")
     status: Grade = "warn" if answered and scene == "idle" else "not-done"
     return coded("ABU703", status, f"no trustworthy simulation: {reason}", of=scene,
                  remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip

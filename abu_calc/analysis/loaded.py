@@ -1,24 +1,36 @@
-"""Levels under load: by steady contact, or by the simulation of grinding where wheel and work part."""
+"""Levels under load in `abu size`: those that `abu grinding` finds of the same design."""
 
-import math
-from collections.abc import Sequence
 from dataclasses import replace
 
-from abu_calc.analysis.machine import Run
+from abu_calc.analysis.grinding import Work, at_work
+from abu_calc.analysis.machine import Failure, Run
+from abu_calc.analysis.under_load import contact_presses
+from abu_calc.errors import NotTrustworthyError
+from abu_calc.progress import Progress, silent
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import Loaded, handle_levels
 
 
-def loaded_levels(design: Design, runs: Sequence[Run]) -> Loaded | None:
-    """What steady contact says of the design; where that is not valid after, what the run of grinding shows.
+def work_of(
+    design: Design, accuracy: float, progress: Progress = silent, hard: Run | Failure | None = None
+) -> Work | Failure | None:
+    """The machine at its work, see `at_work`; None without a contact that presses in the plane: there it idles."""
+    if not contact_presses(design.case):
+        return None
+    try:
+        return at_work(design, accuracy, progress, hard)
+    except NotTrustworthyError as error:
+        return Failure("at work", str(error).splitlines()[0])
 
-    The level after is not known where wheel and work part and no run tells: that of a rigid contact cannot part.
-    """
-    steady, contact = design.loaded, design.case.contact
-    if steady is None or contact is None or not steady.parts_after:
+
+def loaded_levels(design: Design, work: Work | Failure | None) -> Loaded | None:
+    """What steady contact and runs say: pressed when the balls have settled, and at once."""
+    steady = design.loaded
+    if steady is None or work is None:
         return steady
-    run = next((run.simulation for run in runs if run.ledger.scene.name == "grinding"), None)
-    told = run is not None and contact.kind == "compliant"
-    after = math.sqrt(2) * run.response.velocity_rms / design.case.speed if run and told else None
-    levels = handle_levels(design.case, steady.before, after, design.autobalancer.mass)
-    return replace(steady, levels=levels, simulated=told)
+    if isinstance(work, Failure):
+        return replace(steady, levels=handle_levels(design.case, None, None, design.autobalancer.mass))
+    return replace(
+        steady, levels=work.settled, hasty=work.hasty, stays=work.stays_loud, parts_before=work.without.parts,
+        parts_after=work.fitted.parts,
+    )  # fmt: skip

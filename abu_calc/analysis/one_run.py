@@ -1,6 +1,7 @@
 """What one run of a machine says of the limits in its file."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -11,7 +12,7 @@ from abu_calc.checks import Check, coded, overall, verdict
 from abu_calc.scenes.from_design import running_up
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design
-from abu_calc.units import from_si
+from abu_calc.units import from_si, level_from_velocity
 
 HELD: Final = frozenset({"idle", "run-up", "grinding"})
 """Scenes of a machine that is held where its handles are; on a swing arm it is not."""
@@ -40,6 +41,19 @@ def levels_at_places(design: Design, response: Response) -> tuple[PlaceLevel, ..
     case = design.case
     places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
     return tuple(PlaceLevel(name, level_at(design, response, place)) for name, place in places)
+
+
+def loudest(design: Design, response: Response) -> Callable[[float], float]:
+    """Of a velocity of the axis, rms [m/s], the level [dB] at the loudest place where the machine is held.
+
+    On a swing arm, where it is not, that on the axis.
+    """
+
+    def level(velocity: float) -> float:
+        places = levels_at_places(design, replace(response, velocity_rms=velocity))
+        return max((one.level for one in places), default=level_from_velocity(velocity))
+
+    return level
 
 
 def level_at(design: Design, response: Response, place: float) -> float:

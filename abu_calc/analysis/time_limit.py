@@ -4,6 +4,7 @@ import ctypes
 import faulthandler
 import os
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
@@ -34,7 +35,7 @@ def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
     timer.daemon = True
     timer.start()
     if may_end_process:
-        faulthandler.dump_traceback_later(seconds + GRACE, exit=True, file=_nowhere())
+        _end_at(thread, time.monotonic() + seconds + GRACE)
     try:
         yield
     finally:
@@ -43,6 +44,24 @@ def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
             inside = False
         _raise_in(thread, None)  # one that was raised, but did not arrive in time
         if may_end_process:
+            _end_at(thread, None)
+
+
+_ends: dict[int, float] = {}
+_ending: Final = threading.Lock()
+
+
+def _end_at(thread: int, when: float | None) -> None:
+    """The process ends at the first of what its threads ask for: faulthandler has one clock for all of them."""
+    with _ending:
+        if when is None:
+            _ends.pop(thread, None)
+        else:
+            _ends[thread] = when
+        if _ends:
+            left = max(min(_ends.values()) - time.monotonic(), 1e-3)
+            faulthandler.dump_traceback_later(left, exit=True, file=_nowhere())
+        else:
             faulthandler.cancel_dump_traceback_later()
 
 

@@ -9,7 +9,7 @@ from abu_calc.analysis.course import axis_place, total_imbalance
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import chosen
 from abu_calc.analysis.response import SAMPLES_PER_REVOLUTION, amplitude_window
-from abu_calc.analysis.simulate import simulate
+from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
@@ -26,8 +26,9 @@ class Working:
 
     `x`, `y`: largest distance of the axis from its mean place along each axis [m]; `force`: of wheel and work [N] at
     equal steps over whole turns, none where nothing presses in the plane; `profile`: point of the wheel [rad from the
-    imbalance] and mean force there [N]; `velocity` rms [m/s], the larger of both
-    axes; `ball_angles` [rad] in the rotor. `parts`: whether wheel and work part, or a rigid contact pulls.
+    imbalance] and mean force there [N]; `velocity` rms [m/s], the larger of both axes; `duration` [s] of the whole run;
+    `ball_angles` [rad] in the rotor; `path`: the axis from its mean place over the last turn, x and y [m]. `scatter`
+    [dB] of a level that is a mean of chaotic runs. `parts`: whether wheel and work part, or a rigid contact pulls.
     """
 
     axis: tuple[complex, complex]
@@ -38,11 +39,14 @@ class Working:
     force: Array
     profile: tuple[tuple[float, float], ...]
     velocity: float
+    duration: float
     ball_angles: tuple[float, ...]
+    path: Array
     settled: bool
     parts: bool
     error: float
     warnings: tuple[str, ...]
+    scatter: float = 0.0
 
     @property
     def pressure(self) -> complex:
@@ -66,30 +70,52 @@ def working(scene: Scene, accuracy: float, progress: Progress = silent) -> Worki
     Raises NotTrustworthyError where no run reaches the accuracy within the work of `abu size`.
     """
     ledger = chosen(scene, accuracy)
-    full, run = ledger.scene, simulate(ledger.scene, accuracy - ledger.spared, (), WORK, progress=progress)
-    window = amplitude_window(full)
-    steps = min(window.whole, TURNS * SAMPLES_PER_REVOLUTION)
-    times = window.times[-1 - steps :]
-    states = run.trajectory.at(times)
-    place, count = axis_place(full, states), 2 * len(full.support.names)
+    return seen(simulate(ledger.scene, accuracy - ledger.spared, (), WORK, progress=progress))
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a run says besides its states: rms velocity [m/s], ball angles at the end [rad], and how it went."""
+
+    velocity: float
+    ball_angles: tuple[float, ...]
+    settled: bool
+    error: float
+    warnings: tuple[str, ...]
+
+
+def seen(run: Simulation) -> Working:
+    """What the last turns of a simulated scene of grinding show."""
+    window, response = amplitude_window(run.scene), run.response
+    times = window.times[-1 - min(window.whole, TURNS * SAMPLES_PER_REVOLUTION) :]
+    settled = response.settling_time is not None
+    told = Seen(response.velocity_rms, response.ball_angles, settled, run.error_estimate, run.warnings)
+    return read(run.scene, times, run.trajectory.at(times), told)
+
+
+def read(scene: Scene, times: Array, states: Array, told: Seen) -> Working:
+    """From the states at equal steps over whole turns, both ends given."""
+    place, count = axis_place(scene, states), 2 * len(scene.support.names)
     whole = place[:, :-1]
     away = np.abs(whole - whole.mean(axis=1, keepdims=True)).max(axis=1)
-    balls = states[count : count + len(full.ball_masses)]
-    force = _forces(full, times, states)
+    balls = states[count : count + len(scene.ball_masses)]
+    force = _forces(scene, times, states)
     return Working(
-        axis=(_phasor(full, place[0], times), _phasor(full, place[1], times)),
+        axis=(_phasor(scene, place[0], times), _phasor(scene, place[1], times)),
         x=float(away[0]),
         y=float(away[1]),
-        reaction=_phasor(full, force, times) if len(force) else 0j,
-        imbalance=complex(total_imbalance(full, balls)[:-1].mean()),
+        reaction=_phasor(scene, force, times) if len(force) else 0j,
+        imbalance=complex(total_imbalance(scene, balls)[:-1].mean()),
         force=force[:-1],
-        profile=_profile(full, times, force) if len(force) else (),
-        velocity=run.response.velocity_rms,
-        ball_angles=run.response.ball_angles,
-        settled=run.response.settling_time is not None,
+        profile=_profile(scene, times, force) if len(force) else (),
+        velocity=told.velocity,
+        duration=scene.duration,
+        ball_angles=told.ball_angles,
+        path=place[:, -1 - SAMPLES_PER_REVOLUTION :] - whole.mean(axis=1, keepdims=True),
+        settled=told.settled,
         parts=bool(len(force)) and float(force.min()) <= 0,
-        error=run.error_estimate,
-        warnings=run.warnings,
+        error=told.error,
+        warnings=told.warnings,
     )
 
 

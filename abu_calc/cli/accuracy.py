@@ -1,6 +1,6 @@
 """`abu accuracy MACHINE|SCENE`: what accuracy costs in time."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -9,6 +9,10 @@ from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.cli.scene_options import Accuracy, Duration, File, WhichScene, WhichStart
 from abu_calc.report.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.report.figures.figure import Extras
+    from abu_calc.studies.accuracy import AccuracyResult
 
 
 def accuracy(
@@ -40,7 +44,15 @@ def accuracy(
             duration_s=duration_s,
             progress=tell,
         )
-    return Outcome.of(result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result))
+    return Outcome.of(
+        result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _extras(result: "AccuracyResult") -> "Extras":
+    from abu_calc.report.figures.accuracy import accuracy_extras
+
+    return accuracy_extras(result)
 
 
 def register(app: typer.Typer) -> None:

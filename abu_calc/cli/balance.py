@@ -1,11 +1,15 @@
 """`abu balance READINGS`: two-plane balancing of a roll from runs on a rig."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.report.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.report.figures.figure import Extras
+    from abu_calc.studies.balance import BalanceResult
 
 
 def balance(
@@ -18,7 +22,15 @@ def balance(
     from abu_calc.studies.balance import balance as study
 
     result = study(read_readings(readings, set_ or ()))
-    return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
+    return Outcome.of(
+        result, lambda: balance_blocks(result), lambda: balance_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _extras(result: "BalanceResult") -> "Extras":
+    from abu_calc.report.figures.balance import balance_extras
+
+    return balance_extras(result)
 
 
 def register(app: typer.Typer) -> None:

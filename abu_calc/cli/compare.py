@@ -1,7 +1,7 @@
 """`abu compare MACHINE MACHINE …`, `abu compare MACHINE --variant "key=value,key=value" …`: what differs."""
 
 import os
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,6 +10,10 @@ from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.report.figures.figure import Extras
+    from abu_calc.studies.compare import CompareResult
 
 
 def compare(
@@ -40,7 +44,15 @@ def compare(
     read += [variant_of(read[0], variant) for variant in variants or ()]
     with progress(how) as tell:
         result = study(read, accuracy, tell, os.cpu_count() or 1)
-    return Outcome.of(result, lambda: compare_blocks(result), lambda: compare_screen(result))
+    return Outcome.of(
+        result, lambda: compare_blocks(result), lambda: compare_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _extras(result: "CompareResult") -> "Extras":
+    from abu_calc.report.figures.compare import compare_extras
+
+    return compare_extras(result)
 
 
 def register(app: typer.Typer) -> None:

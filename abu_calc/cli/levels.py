@@ -7,7 +7,7 @@ import typer
 from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
-from abu_calc.cli.scene_options import Accuracy
+from abu_calc.cli.scene_options import Accuracy, WhichStart
 from abu_calc.report.outcome import Outcome
 
 
@@ -36,6 +36,7 @@ def levels(
     ] = None,
     minutes: Annotated[float | None, typer.Option("--minutes", metavar="M", help="Of work a day, for A(8).")] = None,
     scene: Annotated[str | None, typer.Option("--scene", help="Of a machine: idle (default) or grinding.")] = None,
+    start: WhichStart = None,
     accuracy: Accuracy = 0.01,
     duration_s: Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")] = None,
 ) -> Outcome:
@@ -51,7 +52,7 @@ def levels(
         if set_:
             raise InputError("for machines and scenes only", place=Place(key="--set"), remedy="Leave it out.")
         given = read_recording(source, quantity, scale, picked)
-        result = study(given, scene, minutes=minutes, from_s=from_s, duration_s=duration_s)
+        result = study(given, scene, start=start, minutes=minutes, from_s=from_s, duration_s=duration_s)
     else:
         with progress(how) as tell:
             result = study(
@@ -62,6 +63,7 @@ def levels(
                 channels=picked,
                 minutes=minutes,
                 from_s=from_s,
+                start=start,
                 accuracy=accuracy,
                 duration_s=duration_s,
                 progress=tell,

@@ -12,7 +12,7 @@ File = Annotated[
 ]
 WhichScene = Annotated[str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}.")]
 WhichStart = Annotated[
-    str | None, typer.Option("--start", help="Balls of a machine: bunched (default), behind, spread, standstill.")
+    str | None, typer.Option("--start", help="Balls: bunched (default), behind, spread, standstill, settled.")
 ]
 Accuracy = Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the results.")]
 Duration = Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")]

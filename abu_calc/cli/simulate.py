@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -12,6 +12,10 @@ from abu_calc.cli.progress import progress
 from abu_calc.cli.scene_options import Accuracy, Duration, File, WhichScene, WhichStart, With, Without
 from abu_calc.errors import InputError
 from abu_calc.report.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.report.figures.figure import Extras
+    from abu_calc.studies.simulate import SimulateResult
 
 SAMPLES: Final = 1001
 
@@ -59,7 +63,9 @@ def simulate(
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )
-    found = Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
+    found = Outcome.of(
+        result, lambda: simulate_blocks(result), lambda: simulate_screen(result), extras=lambda: _extras(result)
+    )
     moved = (Target(trajectory, trajectory_csv(result.motion)),) if trajectory and result.motion else ()
     return replace(found, further=moved)
 
@@ -75,6 +81,12 @@ def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) ->
     check_target(trajectory, force=how.force, suffixes=(".csv",))
     if how.output is not None and how.output.resolve() == trajectory.resolve():
         raise InputError("--output and --trajectory name the same file", found=str(trajectory))
+
+
+def _extras(result: "SimulateResult") -> "Extras":
+    from abu_calc.report.figures.simulate import simulate_extras
+
+    return simulate_extras(result)
 
 
 def register(app: typer.Typer) -> None:

@@ -1,6 +1,6 @@
 """`abu stability MACHINE|SCENE`: is the balanced state stable, and at which speeds does that change?"""
 
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 
@@ -8,6 +8,10 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.scene_options import File
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.report.figures.figure import Extras
+    from abu_calc.studies.stability import StabilityResult
 
 SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
 
@@ -38,7 +42,9 @@ def stability(
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
     result = study(read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings)
-    return Outcome.of(result, lambda: stability_blocks(result), lambda: stability_screen(result))
+    return Outcome.of(
+        result, lambda: stability_blocks(result), lambda: stability_screen(result), extras=lambda: _extras(result)
+    )
 
 
 def _two(text: str) -> tuple[float, float]:
@@ -53,6 +59,12 @@ def _two(text: str) -> tuple[float, float]:
             remedy="Write --speeds 1000:6000.",
         ) from None  # fmt: skip
     return low, high
+
+
+def _extras(result: "StabilityResult") -> "Extras":
+    from abu_calc.report.figures.stability import stability_extras
+
+    return stability_extras(result)
 
 
 def register(app: typer.Typer) -> None:

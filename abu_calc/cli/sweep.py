@@ -69,6 +69,7 @@ def sweep(
     ] = None,
 ) -> Outcome:
     """Many machines like this one: share that meets the limits, percentiles, which value decides."""
+    from abu_calc.report.figures.sweep import sweep_extras
     from abu_calc.report.sweep import sweep_blocks, sweep_screen
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.sweep import sweep as study
@@ -98,7 +99,9 @@ def sweep(
             command=_command(),
             progress=tell,
         )
-    return Outcome.of(result, lambda: sweep_blocks(result), lambda: sweep_screen(result))
+    return Outcome.of(
+        result, lambda: sweep_blocks(result), lambda: sweep_screen(result), extras=lambda: sweep_extras(result)
+    )
 
 
 def _command() -> str:

@@ -3,7 +3,7 @@
 import math
 from typing import Final
 
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph, Picture
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import notices, of_scene, provenance_blocks
 from abu_calc.report.screen import shortened
@@ -41,8 +41,7 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
         *(Paragraph(line) for line in _not_computed(result.points)),
         *(skipped if result.skipped else []),
         Heading("Error against time"),
-        *(Paragraph(line, indent=0) for line in picture(result.points)),
-        Paragraph(", ".join(f"{mark} {name}" for name, mark in MARKS.items()) + "; small letters: everything."),
+        Picture(tuple(picture(result.points)), _legend(), indent=0),
         Heading("Conventions"),
         Paragraph(ABOUT),
         *notices(result),
@@ -128,6 +127,10 @@ def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
         for offset, letter in enumerate(f"1e{decade}"):
             axis[column + offset] = letter
     return [*lines, f"{'error':>8} +{'-' * WIDTH}", f"{'':8}  {''.join(axis).rstrip()} s"]
+
+
+def _legend() -> str:
+    return ", ".join(f"{mark} {name}" for name, mark in MARKS.items()) + "; small letters: everything."
 
 
 def _mark(point: MeasuredPoint) -> str:

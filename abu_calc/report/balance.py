@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from abu_calc.report.balance_drawing import LEGEND, drawing
-from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph, Picture
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, notices, provenance_blocks
 from abu_calc.report.screen import one_screen, verdict_line
@@ -119,7 +119,7 @@ def _rest(plane: PlaneCorrection) -> str:
 
 def _drawn(result: BalanceResult) -> list[Block]:
     lines = drawing(result.left, result.right, result.turns_from_left)
-    return [Paragraph(""), *(Paragraph(line, indent=0) for line in lines), Paragraph(LEGEND)]
+    return [Paragraph(""), Picture(tuple(lines), LEGEND, indent=0)]
 
 
 def _verification(runs: Sequence[Verification]) -> Grid:

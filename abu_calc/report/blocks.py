@@ -28,11 +28,33 @@ class Facts(NamedTuple):
 
 
 class Grid(NamedTuple):
-    """A table with a header; `right` names the columns with numbers."""
+    """A table with a header; `right` names the columns with numbers.
+
+    `kept`: where not all columns stand side by side, there are several tables, each of which begins with so many of the
+    first; 0: it is not parted.
+    """
 
     header: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     right: frozenset[int] = frozenset()
+    kept: int = 0
+
+    def within(self, width: int, margin: int = 2) -> "list[Grid]":
+        """Tables that have room in so many letters, if this one may be parted; `margin`: beside each column."""
+        lines, first = (self.header, *self.rows), range(self.kept)
+        widths = [max(len(line[k]) for line in lines) + margin for k in range(len(self.header))]
+        if not self.kept or sum(widths) <= width:
+            return [self]
+        groups: list[list[int]] = [[]]
+        for k in range(self.kept, len(widths)):
+            if groups[-1] and sum(widths[one] for one in (*first, *groups[-1], k)) > width:
+                groups.append([])
+            groups[-1].append(k)
+        return [self._only((*first, *group)) for group in groups]
+
+    def _only(self, columns: tuple[int, ...]) -> "Grid":
+        header, *rows = (tuple(line[k] for k in columns) for line in (self.header, *self.rows))
+        return Grid(header, tuple(rows), frozenset(new for new, old in enumerate(columns) if old in self.right))
 
 
 class Picture(NamedTuple):

@@ -18,10 +18,7 @@ SECTIONS: Final[dict[Part, str]] = {
     "check": "Checks: grade, value (limit where it differs)",
     "design": "Designs",
 }
-WIDTH: Final = 80
-"""Of a table; of more machines than stand side by side there, each further table begins with the first again."""
 LONGEST_CELL: Final = 20
-MARGIN: Final = 2
 DIGITS: Final = 4
 MOST_DIGITS: Final = 15
 
@@ -48,30 +45,16 @@ def table_blocks(letters: Sequence[str], table: Table, count: int | None = None)
     """So many lines of a table; those with long cells stand below it, one machine after another."""
     lines = table.lines[:count]
     short = [line for line in lines if max(map(len, line[1:])) <= LONGEST_CELL]
-    blocks: list[Block] = [Heading(table.heading), *_grids(letters, short)]
+    blocks: list[Block] = [Heading(table.heading), *_grid(letters, short)]
     for label, *cells in (line for line in lines if line not in short):
         blocks.append(Paragraph(label))
         blocks += [Paragraph(f"{k}  {cell}", indent=4, hang=3) for k, cell in zip(letters, cells, strict=True)]
     return blocks
 
 
-def _grids(letters: Sequence[str], lines: Sequence[Sequence[str]]) -> list[Grid]:
-    """A table, or several where there are more machines than stand side by side, the first one in each."""
-    if not lines:
-        return []
-    label, *widths = (max(len(line[k]) for line in lines) + MARGIN for k in range(len(letters) + 1))
-    groups: list[list[int]] = [[]]
-    for k in range(1, len(letters)):
-        taken = label + widths[0] + sum(widths[one] for one in groups[-1])
-        if groups[-1] and taken + widths[k] > WIDTH:
-            groups.append([])
-        groups[-1].append(k)
-    return [_grid(letters, lines, (0, *group)) for group in groups]
-
-
-def _grid(letters: Sequence[str], lines: Sequence[Sequence[str]], columns: Sequence[int]) -> Grid:
-    cells = tuple((line[0], *(line[1 + k] for k in columns)) for line in lines)
-    return Grid(("", *(letters[k] for k in columns)), cells, frozenset(range(1, len(columns) + 1)))
+def _grid(letters: Sequence[str], lines: Sequence[tuple[str, ...]]) -> list[Grid]:
+    """A table; where the machines do not stand side by side each begins with the first of them."""
+    return [Grid(("", *letters), tuple(lines), frozenset(range(1, len(letters) + 1)), kept=2)] if lines else []
 
 
 def _mark(row_alike: bool, marked: bool) -> str:

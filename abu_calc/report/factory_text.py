@@ -8,7 +8,8 @@ from abu_calc.studies.factory import FactoryLevel, FactoryResult
 
 NOTE = (
     "dB re 5e-8 m/s in the octave, measured beside predicted. With: the median of many starts, … the worst, or what "
-    "the accuracy budget leaves. –: not published, or nothing in the model moves there."
+    "the accuracy budget leaves; loaded: pressed to the work when the balls have settled. –: not published, or nothing "
+    "in the model moves there."
 )
 ONE_SET = (
     "One set of assumptions for all: friction arm 0.002 mm, drag 15 1/s, race eccentricity 0.010 mm, springs of 2.5 "
@@ -47,7 +48,10 @@ def _elsewhere(one: FactoryLevel) -> str:
     """Where the model is louder than in this octave."""
     if one.louder_octave_hz is None:
         return ""
-    return f" The model's loudest octave is that of {one.louder_octave_hz:g} Hz, {_one(one.louder_octave_db)} dB."
+    return (
+        f" Pressed before the balls have settled the model is loudest at {one.louder_octave_hz:g} Hz, "
+        f"{_one(one.louder_octave_db)} dB."
+    )
 
 
 def _cells(one: FactoryLevel) -> tuple[str, ...]:

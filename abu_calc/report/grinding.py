@@ -7,8 +7,9 @@ from abu_calc.report.grinding_wear import wear_blocks
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
 from abu_calc.report.screen import verdict_line
+from abu_calc.report.shown_text import measured_after_blocks
 from abu_calc.studies.grinding import GrindingResult
-from abu_calc.studies.grinding_records import AxisMotion
+from abu_calc.studies.grinding_records import AxisMotion, Simulated
 
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
 MARKS: Final = {True: "pass", False: "fail", None: "not-done"}
@@ -24,6 +25,7 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
         Paragraph(result.verdict, MARKS[result.helps]),
         verdict_line(result),
         numbers_that_matter(result),
+        *measured_after_blocks(result.measured_after),
         *wear_blocks(result),
         *balls_blocks(result),
         *contact_blocks(result),
@@ -44,9 +46,10 @@ def numbers_that_matter(result: GrindingResult) -> Grid:
     """Levels, motions, forces: without autobalancer, its balls fixed, free."""
     axes = result.axis_without, result.axis_fixed, result.axis
     forces = result.reaction_without, result.reaction_fixed, result.reaction
+    after = _db(result.level_after_db, result.simulation)
     rows = [
-        ("level", _db(result.level_before_db), "", _db(result.level_after_db)),
-        ("pressed at once", "", "", _db(result.level_at_once_db)),
+        ("level", _db(result.level_before_db, result.simulation_without), "", after),
+        ("pressed at once", "", "", _db(result.level_at_once_db, result.simulation_at_once)),
         ("axis along the work", *(_um(axis.x_amplitude_mm) for axis in axes)),
         ("axis normal to it", *(_um(axis.y_amplitude_mm) for axis in axes)),
     ]
@@ -189,8 +192,11 @@ def _largest(axis: AxisMotion) -> str:
     return _um(max(both)) if both else ""
 
 
-def _db(level: float | None) -> str:
-    return "not known" if level is None else f"{level:.1f} dB"
+def _db(level: float | None, run: Simulated | None) -> str:
+    """With what it scatters where the run is a mean of chaotic ones."""
+    if level is None:
+        return "not known"
+    return f"{level:.1f} ± {run.scatter_db:.1f} dB" if run and run.scatter_db else f"{level:.1f} dB"
 
 
 def _um(length_mm: float | None) -> str:

@@ -24,16 +24,17 @@ def _short(value: float | None) -> str:
 
 def measured_after_line(one: MeasuredAfter) -> str:
     """Measured, predicted, the difference in words."""
-    measured = f"Measured with the autobalancer, {one.place}: {one.measured}"
+    measured = f"Measured with the autobalancer, idle, {one.place}: {one.measured}"
     if one.unit != "dB":
         measured += f", that is {one.measured_level_db:.1f} dB"
+    loaded = "" if one.predicted_loaded_db is None else f"; {one.predicted_loaded_db:.1f} dB under load"
     if one.predicted_level_db is None or one.difference_db is None:
-        return f"{measured}; no level is predicted."
+        return f"{measured}; no idle level is predicted{loaded}."
     predicted = f"{one.predicted_level_db:.1f} dB"
     if one.unit != "dB" and one.predicted_value is not None:
         predicted += f" ({number(one.predicted_value, 3)} {one.unit} on that instrument)"
     word = "above" if one.difference_db >= 0 else "below"
-    return f"{measured}: {abs(one.difference_db):.1f} dB {word} what is predicted, {predicted}."
+    return f"{measured}: {abs(one.difference_db):.1f} dB {word} what is predicted, {predicted}{loaded}."
 
 
 def measured_after_blocks(one: MeasuredAfter | None) -> list[Block]:

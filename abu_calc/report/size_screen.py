@@ -88,6 +88,7 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
     rows = (
         (f"idle level, {_place(result.vibration)}", _db(result.vibration.level_before_db),
          _db(level.typical) or "not known", _db(level.worst), limit_in_file(limits.get("ABU401"))),
+        *_under_load(result.vibration_loaded),
         ("settling time", "", _seconds(settling.typical) or "none", _seconds(settling.worst),
          limit_in_file(limits.get("ABU702"))),
         ("mass with balls", "", f"{number(one.mass_g, 3)} g", "",
@@ -97,6 +98,16 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
     if level.worst is None and settling.worst is None:
         return Grid((*header[:3], header[4]), tuple((*row[:3], row[4]) for row in rows), frozenset({1, 2}))
     return Grid(header, rows, frozenset({1, 2, 3}))
+
+
+def _under_load(loaded: Vibration | None) -> tuple[tuple[str, ...], ...]:
+    """Pressed when the balls have settled; the worst: at once. A face works as it idles."""
+    if loaded is None or loaded.at_once_stays is None:
+        return ()
+    after, hasty = loaded.level_after_db, loaded.level_at_once_db
+    worse = after is not None and hasty is not None and hasty > after
+    told = (_db(loaded.level_before_db) or "not known", _db(after) or "not known", _db(hasty if worse else after))
+    return (("level under load", *told, "worst: at once" if worse else ""),)
 
 
 def _place(vibration: Vibration) -> str:

@@ -1,14 +1,16 @@
 """The whole report of `abu size`: verdict, checks, warnings, design, then what it rests on."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from abu_calc.report.arm import arm_facts, motion_blocks, printed_otherwise
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
+from abu_calc.report.figures.characters import pictured
+from abu_calc.report.figures.size import size_charts
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
 from abu_calc.report.shown_text import measured_after_blocks, shown_blocks
 from abu_calc.report.size_screen import about, balls, numbers_that_matter, section_picture
-from abu_calc.studies.design_records import Autobalancer, Frequency, StabilityBoundary
+from abu_calc.studies.design_records import Autobalancer, Frequency, StabilityBoundary, Vibration
 from abu_calc.studies.ensemble_records import SettlingOfStart
 from abu_calc.studies.simulated_scene import SimulatedScene
 from abu_calc.studies.size import SizeResult
@@ -34,6 +36,10 @@ ROWS = 15
 
 def size_blocks(result: SizeResult) -> tuple[Block, ...]:
     """The whole report."""
+    return pictured(_blocks(result), size_charts(result))
+
+
+def _blocks(result: SizeResult) -> tuple[Block, ...]:
     return (
         *about(result),
         *numbers_that_matter(result),
@@ -168,20 +174,19 @@ def _above(boundary: StabilityBoundary) -> str:
 
 def _vibration(result: SizeResult) -> list[Block]:
     states = (("idle", result.vibration), ("under load", result.vibration_loaded))
-    rows = tuple(
-        (state, place.name, *map(_tenths, (place.level_before_db, place.level_after_db, place.reduction_db,
-                                           place.effective_mass_kg)))
+    rows: list[tuple[str, ...]] = [
+        (state, place.name, *map(_tenths, (place.level_before_db, place.level_after_db, place.level_at_once_db,
+                                           place.reduction_db, place.effective_mass_kg)))
         for state, vibration in states if vibration
         for place in vibration.handles
-    )  # fmt: skip
-    header = ("", "place", "before, dB", "after, dB", "reduction, dB", "felt mass, kg")
-    blocks: list[Block] = [Heading("Vibration level"), Grid(header, rows, frozenset({2, 3, 4, 5}))]
+    ]  # fmt: skip
+    header: tuple[str, ...] = "", "place", "before, dB", "after, dB", "at once", "reduction", "felt mass, kg"
     loaded = result.vibration_loaded
+    if loaded is None or loaded.level_at_once_db is None:
+        header, *rows = (row[:4] + row[5:] for row in (header, *rows))
+    blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset(range(2, len(header))))]
     if loaded:
-        blocks.append(Paragraph("Under load is information, not a check: it rests on the contact's stiffness."))
-    if loaded and loaded.parts:
-        steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
-        blocks.append(Paragraph(f"Wheel and work part: the level after is that of the simulated grinding; {steady}."))
+        blocks += [Paragraph(text) for text in _under_load(loaded)]
     shown = [
         (f"{place.name}, {state}{when}", one)
         for state, vibration in states if vibration
@@ -189,6 +194,17 @@ def _vibration(result: SizeResult) -> list[Block]:
         for when, one in ((", before", place.shown_before), (", after", place.shown_after)) if one
     ]  # fmt: skip
     return [*blocks, *shown_blocks(shown), *measured_after_blocks(result.measured_after)]
+
+
+def _under_load(loaded: Vibration) -> Iterator[str]:
+    """What the levels under load are."""
+    yield "Under load is information, not a check: it rests on the contact's stiffness."
+    if loaded.level_at_once_db is not None:
+        stays = "; then wheel and work go on bouncing, another state that stays" if loaded.at_once_stays else ""
+        yield f"After: pressed to the work when the balls have settled; at once: pressed before{stays}."
+    if loaded.steady_level_after_db is not None:
+        steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
+        yield f"Wheel and work part: the level after is simulated; {steady}."
 
 
 def _tenths(value: float | None) -> str:

@@ -27,10 +27,15 @@ LIMITS = {
     "meets_settling": "settles in time",
     "meets_limits": "all of them",
 }
-ADVICE = {"tighten": "tighten", "may be loosened": "loosen", "": "leave"}
-TELLS = (
-    "By how much the level that 95 % of the members keep changes among those whose value lies in its better half, and "
-    "in the other; told by the members there are. Loosen: what chance may do is more."
+LOOSE = "may be loosened"
+TIGHTENED, LOOSENED = "What to tighten", "What may be loosened, as tried"
+TIGHTEN = (
+    "By how much the level that 95 % of the members keep changes among those whose value is kept in its better half, "
+    "and in the other; told by the members there are. Chance: of so few members chance may do as much."
+)
+LOOSEN = (
+    "Values that decide next to nothing as they scatter now, each tried alone: {} of the members once more with twice "
+    "the scatter. To loosen: the level that 95 % keep rises by no more than 0.5 dB, and no more of them miss a limit."
 )
 
 
@@ -39,6 +44,7 @@ def sweep_blocks(result: SweepResult) -> tuple[Block, ...]:
     return (
         *_about(result),
         *_limits(result),
+        *_basins(result),
         *_numbers(result),
         *(chart_blocks(result.chart) if result.chart else ()),
         *(block for name in result.sensitivity_by_quantity for block in _decides(result, name, None)),
@@ -54,9 +60,10 @@ def sweep_blocks(result: SweepResult) -> tuple[Block, ...]:
 def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
     """Verdict, shares, numbers, chart or what decides."""
     first = result.sensitivity_of
-    body = [*_limits(result), *_numbers(result)]
+    some = any(one.share < 1 for one in result.basins)
+    body = [*_limits(result), *(_basins(result) if some else ()), *_numbers(result)]
     if result.chart:
-        body += chart_blocks(result.chart)
+        body = [*chart_blocks(result.chart, short=True), *body]
     elif first:
         body += _decides(result, first, MOST)
     body += [*_prices(result, short=True), *_failed(result)]
@@ -68,8 +75,8 @@ def _about(result: SweepResult) -> list[Block]:
     met = result.meets_limits
     low, high = met.confidence_interval
     does = "balance" if result.what == "scene" else "meet the limits"
-    confidence = f"95 % confidence: {_percent(low)} to {_percent(high)}"
-    text = f"{_percent(met.share)} of {met.of} {MEMBERS[result.what]} {does} ({confidence})."
+    confidence = f"95 % confidence: {percent(low)} to {percent(high)}"
+    text = f"{percent(met.share)} of {met.of} {MEMBERS[result.what]} {does} ({confidence})."
     kept = f" Members: {result.store}." if result.store else ""
     varied = many(len(result.varied), "value varies", "values vary")
     return [
@@ -84,13 +91,14 @@ def _mark(result: SweepResult) -> str:
     return result.status if result.status != "pass" else share
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """A share as text; it says 100 % only where it is."""
     return f"{100 * share:.3g} %" if share < 0.995 or share == 1 else f"{100 * share:.2f} %"
 
 
 def _limits(result: SweepResult) -> list[Block]:
     rows = tuple(
-        (LIMITS[name], _percent(one.share), "{} to {}".format(*map(_percent, one.confidence_interval)))
+        (LIMITS[name], percent(one.share), "{} to {}".format(*map(percent, one.confidence_interval)))
         for name, one in result.meets_limits.each.items()
     )
     if len(rows) < 2:
@@ -100,13 +108,13 @@ def _limits(result: SweepResult) -> list[Block]:
 
 def _numbers(result: SweepResult) -> list[Block]:
     rows = tuple(
-        (_words(name), *(_number(value) for value in (one.p05, one.p50, one.p95, one.mean)), unit_of(name))
+        (words_of(name), *(_number(value) for value in (one.p05, one.p50, one.p95, one.mean)), unit_of(name))
         for name, one in result.quantities.items()
     )
     return [Heading("Percentiles"), Grid(("", "5 %", "50 %", "95 %", "mean", ""), rows, frozenset({1, 2, 3, 4}))]
 
 
-def _words(name: str) -> str:
+def words_of(name: str) -> str:
     """A name without its unit, as words."""
     for unit in ("_db", "_s", "_um", "_g_mm", "_mm", "_g"):
         if name.endswith(unit):
@@ -125,8 +133,8 @@ def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
     matter = [one for one in found if one.total >= MATTER][:most]
     left, rest = len(found) - len(matter), result.unexplained.get(name, 0.0)
     tail = [f"{many(left, 'other value')} decide less"] if left else []
-    tail += [f"{_percent(rest)} of the variance is explained by no value or pair of them"] if rest >= MATTER else []
-    head = Heading(f"What decides: {_words(name)}")
+    tail += [f"{percent(rest)} of the variance is explained by no value or pair of them"] if rest >= MATTER else []
+    head = Heading(title_deciding(name))
     body: list[Block] = (
         [Grid(("", "", "alone", "in all"), tuple(map(_row, matter)), frozenset({2, 3}))] if matter else []
     )
@@ -136,25 +144,70 @@ def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
     return [head, *body, *([Paragraph(f"{'; '.join(tail)}.")] if tail else [])]
 
 
+def title_deciding(name: str) -> str:
+    """The heading; of no two numbers does one begin with the other."""
+    return f"{words_of(name).capitalize()}: what decides"
+
+
 def _row(one: Sensitivity) -> tuple[str, ...]:
     return one.key, bar(one.total), f"{one.first_order:.2f}", f"{one.total:.2f}"
 
 
 def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
-    """What to tighten, and what may be loosened."""
-    told = [one for one in result.prices if one.advice] if short else list(result.prices)
-    if not told:
-        return []
-    order = sorted(told, key=lambda one: (one.advice != "tighten", -one.gain_db))
-    grid = Grid(("", "value", "better half", "it", "other"), tuple(map(_price, order)), frozenset({3, 4}))
-    return [Heading("What to tighten, what may be loosened"), *(() if short else (Paragraph(TELLS),)), grid]
+    """What to tighten by the members that lie there, what may be loosened by those that were computed once more."""
+    tight = [one for one in result.prices if one.advice == "tighten" or not short]
+    loose = [one for one in result.prices if one.loosened_of and (one.advice == LOOSE or not short)]
+    blocks: list[Block] = []
+    if tight:
+        rows = tuple(map(_tight, sorted(tight, key=lambda one: (one.advice != "tighten", -one.gain_db))))
+        header = ("value", "kept", "level", "else", *(() if short else ("",)))
+        grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
+        blocks += [Heading(TIGHTENED), *(() if short else (Paragraph(TIGHTEN),)), grid]
+    if loose:
+        rows = tuple(map(_loose, sorted(loose, key=lambda one: (one.advice != LOOSE, one.loosened_db or 0.0))))
+        header = ("value", "tried with", "level", "more fail", *(() if short else ("",)))
+        grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
+        blocks += [Heading(LOOSENED), *(() if short else (_tried(loose[0]),)), grid]
+    return blocks
 
 
-def _price(one: Price) -> tuple[str, ...]:
+def _tight(one: Price) -> tuple[str, ...]:
     """What the level gains within the better half of a value, and what it loses in the other."""
-    side = f"{'to' if one.better == 'lower' else 'from'} {number(one.median)} {unit_of(one.key)}".rstrip()
-    other = "" if one.cost_db is None else f"{one.cost_db:+.1f} dB"
-    return ADVICE[one.advice], one.key, side, f"{-one.gain_db:+.1f} dB", other
+    other = "" if one.cost_db is None else change(one.cost_db)
+    word = "tighten" if one.advice == "tighten" else "chance" if one.within_chance else ""
+    return one.key, side_kept(one), change(-one.gain_db), other, word
+
+
+def side_kept(one: Price) -> str:
+    """Where a value is to be kept."""
+    return f"{'to' if one.better == 'lower' else 'from'} {number(one.median)} {unit_of(one.key)}".rstrip()
+
+
+def _tried(one: Price) -> Paragraph:
+    return Paragraph(LOOSEN.format(one.loosened_of))
+
+
+def _loose(one: Price) -> tuple[str, ...]:
+    """What twice the scatter did."""
+    word = "loosen" if one.advice == LOOSE else "leave"
+    return one.key, one.loosened_to or "", change(one.loosened_db), str(one.loosened_fail), word
+
+
+def change(level: float | None) -> str:
+    """By how much a level changes."""
+    return "none" if level is None else f"{round(level, 1) + 0.0:+.1f} dB"
+
+
+def _basins(result: SweepResult) -> list[Block]:
+    """The share of starts that balance, by the kind of start."""
+    rows = tuple(
+        (one.start, percent(one.share), "{} to {}".format(*map(percent, one.confidence_interval)), str(one.of))
+        for one in result.basins
+    )
+    if len(rows) < 2:
+        return []
+    header = ("start", "share", "95 % confidence", "starts")
+    return [Heading("Starts that balance"), Grid(header, rows, frozenset({1, 2, 3}))]
 
 
 def _failed(result: SweepResult) -> list[Block]:

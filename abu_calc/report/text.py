@@ -84,7 +84,7 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             case Facts(rows):
                 yield _facts(rows, width)
             case Grid():
-                yield _grid(block)
+                yield from map(_grid, block.within(width, MARGIN))
             case Picture(lines, caption, indent):
                 if indent + max(map(len, lines)) <= width:
                     yield "\n".join(" " * indent + line for line in lines), ""

@@ -36,13 +36,14 @@ from abu_calc.validity import Range
 AHEAD = math.radians(20)
 """The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
 
-Start = Literal["bunched", "behind", "spread", "standstill"]
+Start = Literal["bunched", "behind", "spread", "standstill", "settled"]
 
 STARTS: Final[dict[Start, str]] = {
     "bunched": "balls at rest in the race, neighbours touching, their middle 20° ahead of the imbalance",
     "behind": "balls at rest in the race, neighbours touching, their middle 20° behind the imbalance",
     "spread": "balls at rest in the race, evenly round it, the first 20° ahead of the imbalance",
     "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
+    "settled": "balls at rest in the race, evenly fanned where they balance at idle",
 }
 
 SCENES: Final[dict[str, str | None]] = {
@@ -208,6 +209,8 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
     count = design.autobalancer.ball_count
     if start == "spread":
         return tuple(AHEAD + k * 2 * math.pi / count for k in range(count))
+    if start == "settled":
+        return tuple(math.pi + angle for angle in design.autobalancer.budget.resting_angles)
     beta = contact_half_angle(design)
     middle = -AHEAD if start == "behind" else AHEAD
     return tuple(middle + (2 * k - count + 1) * beta for k in range(count))

@@ -58,6 +58,14 @@ def compared_design(design: Design) -> Compared | None:
     budget = accuracy_budget(
         case, design.imbalance.value, one.requirement, one.balls, one.budget.resting_angles, case.speed
     )
-    moved = budget.residual * case.body.transmission(measured_place(case, table.shown)[1], one.mass)
-    known = possible and math.isfinite(moved) and moved > 0
-    return compared(case, displacement_level(moved, case.speed, case.background_level) if known else None)
+    known = possible and math.isfinite(budget.residual)
+    return compared(case, level_where_measured(design, budget.residual if known else None))
+
+
+def level_where_measured(design: Design, moved: float | None) -> float | None:
+    """Level [dB] at the place of [measured_after] of a displacement 0–peak [m] of the wheel; None without either."""
+    case, table = design.case, design.case.table.measured_after
+    if table is None or table.shown is None or not moved:
+        return None
+    there = moved * case.body.transmission(measured_place(case, table.shown)[1], design.autobalancer.mass)
+    return displacement_level(there, case.speed, case.background_level) if there else None

@@ -119,18 +119,19 @@ def _residual(case: Case, imbalance: float, one: Candidate, speed: float) -> flo
 
 @dataclass(frozen=True)
 class Loaded:
-    """Levels under load; `before`: displacement without autobalancer [m], None where it is not known.
+    """Levels under load, pressed to the work when the balls have settled.
 
     `steady`: the loudest levels by steady contact, which hold unless wheel and work part, without or with the
-    autobalancer. `simulated`: whether the level after is that of a simulation.
+    autobalancer. `hasty`: pressed before the balls have settled, where that was simulated; `stays`: whether that is
+    another, louder state that stays.
     """
 
     levels: Vibration
     steady: Levels
-    before: float | None
     parts_before: bool
     parts_after: bool
-    simulated: bool = False
+    hasty: Vibration | None = None
+    stays: bool = False
 
 
 @formula(
@@ -153,7 +154,7 @@ def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: boo
     bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, one.mass, damped=True)
     if bare is None or loaded is None:
         idle = idle_vibration(case, imbalance, one, possible)
-        return Loaded(idle, idle.worst, None, parts_before=False, parts_after=False)
+        return Loaded(idle, idle.worst, parts_before=False, parts_after=False)
     runout, press = cmath.rect(case.runout, math.radians(case.table.wheel.runout_angle_deg)), case.contact.press_force
     before, after = max(map(abs, bare.axis(imbalance, runout))), None
     balancing = loaded.balancing_imbalance(runout)
@@ -166,7 +167,7 @@ def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: boo
     parts_before = abs(bare.normal_force(imbalance, runout)) > press
     parts_after = balanced and abs(loaded.normal_force(balancing, runout)) > press
     valid = handle_levels(case, None if parts_before else before, None if parts_after else after, one.mass)
-    return Loaded(valid, levels.worst, None if parts_before else before, parts_before, parts_after)
+    return Loaded(valid, levels.worst, parts_before, parts_after)
 
 
 def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> Vibration:

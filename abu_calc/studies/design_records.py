@@ -207,11 +207,14 @@ class Vibration(Record):
     """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
 
     `by_speed`: over the speed range; `worst_arrangement`: the highest of the range where friction holds the balls at
-    their worst; none under load. `parts`: under load, whether wheel and work part: then the level after is that of the
-    simulation of grinding, and that of steady contact is not valid.
+    their worst; none under load. Under load the level after is that of a machine pressed to the work when its balls
+    have settled, `level_at_once_db` that of one pressed before. `parts`: whether wheel and work part: then levels are
+    simulated, and that of steady contact is not valid.
     """
 
-    optional: ClassVar[frozenset[str]] = frozenset({"by_speed", "worst_arrangement", "parts", "steady_level_after_db"})
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"by_speed", "worst_arrangement", "parts", "steady_level_after_db", "level_at_once_db", "at_once_stays"}
+    )
 
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
@@ -221,6 +224,8 @@ class Vibration(Record):
     worst_arrangement: SpeedLevel | None = None
     parts: Annotated[bool | None, Quantity("wheel and work part")] = None
     steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
+    level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
+    at_once_stays: Annotated[bool | None, Quantity("pressed at once, wheel and work go on bouncing louder")] = None
 
     @classmethod
     def of(cls, vibration: Levelled, levels: SpeedLevels | None = None, speed: float | None = None) -> Self:
@@ -240,7 +245,12 @@ class Vibration(Record):
         """Under load."""
         found = cls.of(loaded.levels, speed=speed)
         steady = loaded.steady.after if loaded.parts_after else None
-        return replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
+        found = replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
+        if loaded.hasty is None:
+            return found
+        handles = tuple(HandleLevels.of(place, speed, hasty) for place, hasty in
+                        zip(loaded.levels.places, loaded.hasty.places, strict=True))  # fmt: skip
+        return replace(found, handles=handles, level_at_once_db=loaded.hasty.worst.after, at_once_stays=loaded.stays)
 
 
 @record

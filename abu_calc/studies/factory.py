@@ -37,7 +37,9 @@ class FactoryLevel(Record):
         float | None,
         Quantity("outside what was measured", "", 2, "with it, else what it lowers"),
     ]
-    louder_octave_hz: Annotated[float | None, Quantity("louder octave of the model")]
+    louder_octave_hz: Annotated[
+        float | None, Quantity("louder octave of the model", "", 4, "pressed before the balls have settled")
+    ]
     louder_octave_db: Annotated[float | None, Quantity("its level", "L")]
     named: Annotated[str | None, Quantity("named without a number")]
     word: Annotated[str, Quantity("on the difference")]
@@ -67,7 +69,7 @@ class _Predicted:
     fitted: float | None = None
     worst: float | None = None
     louder: tuple[float, float] | None = None
-    """Another octave [Hz] that is the loudest, and its level."""
+    """Another octave [Hz] that is the loudest when pressed before the balls have settled, and its level."""
 
 
 @checked
@@ -91,16 +93,18 @@ def factory(progress: Progress = silent) -> FactoryResult:
 
 
 def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: Progress) -> _Predicted:
-    """Idle the starts of the ensemble, in the octave of the spindle; at work in the plane the simulated octaves."""
+    """Idle the starts of the ensemble, in the octave of the spindle; at work in the plane the simulated octaves.
+
+    Pressed to the work when the balls have settled, as one works; `louder`: pressed before.
+    """
     table = machine.whole()
     own = octave(to_si(table.machine.speed_rpm, "rpm")).nominal
     if row.state == "loaded" and table.grinding is not None and table.grinding.contact != "face":
-        found = levels(machine, "grinding", progress=progress)
-        known = {one.nominal_hz: one.level_db for one in found.octaves if one.level_db is not None}
-        loudest, loaded = max(known, key=known.__getitem__), design.vibration_loaded
-        louder = None if loudest == row.octave else (loudest, known[loudest])
+        usual, hard = (_octaves(machine, start, progress) for start in ("settled", "bunched"))
+        loudest, loaded = max(hard, key=hard.__getitem__), design.vibration_loaded
+        louder = None if loudest == row.octave else (loudest, hard[loudest])
         before = None if loaded is None or own != row.octave else loaded.level_before_db
-        return _Predicted(before, known.get(row.octave), louder=louder)
+        return _Predicted(before, usual.get(row.octave), louder=louder)
     if own != row.octave:
         return _Predicted()
     many = design.ensemble
@@ -108,6 +112,12 @@ def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: 
         return _Predicted(design.vibration.level_before_db, design.vibration.level_after_db)
     told = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
     return _Predicted(design.vibration.level_before_db, many.level_db.typical, max(told, default=None))
+
+
+def _octaves(machine: Machine, start: str, progress: Progress) -> dict[float, float]:
+    """Levels [dB] by octave [Hz] of the machine at its work, pressed with its balls there."""
+    found = levels(machine, "grinding", start=start, progress=progress)
+    return {one.nominal_hz: one.level_db for one in found.octaves if one.level_db is not None}
 
 
 def _row(row: FactoryRow, found: _Predicted) -> FactoryLevel:

@@ -2,10 +2,13 @@
 
 import cmath
 import math
+from collections.abc import Iterator
+from dataclasses import field
 from typing import Annotated, ClassVar
 
 from abu_calc.analysis import contact_facts as facts
 from abu_calc.analysis import grinding as analysis
+from abu_calc.analysis.agreement import agreement
 from abu_calc.analysis.grinding import Side, Work
 from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
 from abu_calc.analysis.grinding_verdict import in_words, shortest
@@ -19,6 +22,7 @@ from abu_calc.formulas.suspension import natural_frequency
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.budget import permitted_displacement
+from abu_calc.sizing.compared import compared_design, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.spec.machine import MachineFile
 from abu_calc.spec.read import Machine
@@ -30,6 +34,7 @@ from abu_calc.studies.grinding_records import (
     Comparison,
     FrictionBand,
     HodographPoint,
+    Orbit,
     Printed,
     ProfilePoint,
     Reaction,
@@ -40,6 +45,7 @@ from abu_calc.studies.grinding_records import (
 )
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
+from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.units import from_si, to_si, wrapped_deg
 
 USABLE = 0.2
@@ -53,6 +59,8 @@ class GrindingResult(Result):
     """A machine at its work; motions as if wheel and work never parted, `simulation` as they are."""
 
     command: ClassVar[str] = "grinding"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"orbits"}
+    optional: ClassVar[frozenset[str]] = frozenset({"measured_after"})
 
     model: GrindingModel
     verdict: Annotated[str, Quantity("verdict")]
@@ -61,6 +69,8 @@ class GrindingResult(Result):
     level_before_db: Annotated[float | None, Quantity("level without autobalancer")]
     level_after_db: Annotated[float | None, Quantity("level with it")]
     level_at_once_db: Annotated[float | None, Quantity("with it, pressed before the balls have settled")]
+    at_once_stays: Annotated[bool, Quantity("pressed at once, wheel and work go on bouncing louder")]
+    measured_after: MeasuredAfter | None
     remedies: tuple[TriedRemedy, ...]
     ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
     ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
@@ -97,6 +107,8 @@ class GrindingResult(Result):
     simulation_at_once: Simulated | None
     simulation_without: Simulated | None
     agreement: Comparison | None
+    orbits: tuple[Orbit, ...] = field(compare=False, repr=False)
+    """How the axis goes round without autobalancer, with fixed and with free balls."""
 
 
 @checked
@@ -112,7 +124,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         design = size_design(tables)
         work = analysis.at_work(design, accuracy, progress)
         tried = () if work.always else analysis.remedies(work, accuracy, progress)
-        compared = analysis.agreement(work, accuracy, progress)
+        compared = agreement(work, accuracy, progress)
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None
@@ -130,7 +142,9 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         contact=design.case.contact.kind if design.case.contact else "",
         level_before_db=work.levels.before,
         level_after_db=work.levels.after,
-        level_at_once_db=work.hasty,
+        level_at_once_db=work.level_at_once,
+        at_once_stays=work.stays_loud,
+        measured_after=MeasuredAfter.of(compared_design(design), level_where_measured(design, work.moved)),
         remedies=tuple(map(TriedRemedy.of, tried)),
         ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
         ball_resultant_angle_deg=None if not resultant else wrapped_deg(cmath.phase(resultant)),
@@ -165,7 +179,19 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),
         simulation_without=None if work.without.run is None else Simulated.of(work.without.run),
         agreement=None if compared is None else Comparison.of(compared),
+        orbits=tuple(_orbits(work, still)),
     )  # fmt: skip
+
+
+def _orbits(work: Work, still: Steady) -> Iterator[Orbit]:
+    """Those that are known."""
+    sides = (("without", work.without.steady, work.without.run), ("balls fixed", still, None),
+             ("with", work.fitted.steady, work.fitted.run))  # fmt: skip
+    for name, steady, run in sides:
+        if (found := Orbit.steady(name, steady)) is not None:
+            yield found
+        if run is not None:
+            yield Orbit.through(name, run.path)
 
 
 def _refuse_idle(tables: MachineFile) -> None:

@@ -3,16 +3,24 @@
 import cmath
 import math
 from collections.abc import Mapping
-from typing import Annotated, Self
+from dataclasses import dataclass
+from typing import Annotated, Final, Self
 
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.analysis.agreement import Agreement
 from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
-from abu_calc.analysis.grinding import Agreement, Remedy
+from abu_calc.analysis.grinding import Remedy
 from abu_calc.analysis.under_load import Steady
 from abu_calc.analysis.wear import Stage, Wear
 from abu_calc.analysis.working import Working
 from abu_calc.sizing.case import Case
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, wrapped_deg
+
+SIDES: Final = 60
+"""Of the polygon that stands for an ellipse."""
 
 
 @record
@@ -27,6 +35,31 @@ class AxisMotion(Record):
         """That of phasors."""
         x, y = (None, None) if axis is None else (from_si(abs(each), "mm") for each in axis)
         return cls(x_amplitude_mm=x, y_amplitude_mm=y)
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """How the axis goes round once: points from its mean place [µm], x along the work, y away from it; `name` says with
+    which balls. `simulated`: with every effect that counts, else as if wheel and work never parted.
+    """
+
+    name: str
+    simulated: bool
+    points_um: tuple[tuple[float, float], ...]
+
+    @classmethod
+    def steady(cls, name: str, steady: Steady) -> Self | None:
+        """The ellipse of phasors; None where balls come to no rest."""
+        if steady.axis is None:
+            return None
+        turn = np.exp(2j * np.pi * np.arange(SIDES + 1) / SIDES)
+        return cls.through(name, np.array([(phasor * turn).real for phasor in steady.axis]), simulated=False)
+
+    @classmethod
+    def through(cls, name: str, path: NDArray[np.float64], *, simulated: bool = True) -> Self:
+        """That of places x, y [m]."""
+        points = (from_si(1.0, "um") * path).T.tolist()
+        return cls(name, simulated, tuple((x, y) for x, y in points))
 
 
 @record
@@ -218,6 +251,8 @@ class Simulated(Record):
     apart: Annotated[float, Quantity("share of the time apart", "", 3, "", percent=True)]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the imbalance")]
     ball_angles_deg: Annotated[tuple[float, ...], Quantity("balls end at", "θ", 5)]
+    duration_s: Annotated[float, Quantity("duration of the run")]
+    scatter_db: Annotated[float, Quantity("level known to", "±", 2, "0 unless it is the mean of chaotic runs")]
 
     @classmethod
     def of(cls, run: Working) -> Self:
@@ -233,6 +268,8 @@ class Simulated(Record):
             apart=run.apart,
             hardest_at_deg=wrapped_deg(cmath.phase(run.pressure)) if presses and run.reaction else None,
             ball_angles_deg=tuple(map(wrapped_deg, run.ball_angles)),
+            duration_s=run.duration,
+            scatter_db=run.scatter,
         )
 
 
@@ -243,11 +280,12 @@ class Comparison(Record):
     axis: Annotated[float | None, Quantity("axis", "", 3)]
     reaction: Annotated[float | None, Quantity("variable force", "", 3)]
     imbalance: Annotated[float | None, Quantity("imbalance", "", 3)]
+    from_idle: Annotated[bool, Quantity("balls get there from where they stand at idle")]
 
     @classmethod
     def of(cls, found: Agreement) -> Self:
         """The same numbers."""
-        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance)
+        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance, from_idle=found.reached)
 
 
 @record

@@ -23,7 +23,7 @@ from abu_calc.analysis.simulated_levels import (
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
 from abu_calc.progress import Progress, silent
-from abu_calc.sizing.compared import Compared, compared, measured_place
+from abu_calc.sizing.compared import compared, compared_design, measured_place
 from abu_calc.sizing.design import Design
 from abu_calc.spec.read import Machine
 from abu_calc.spec.read_recording import is_recording, read_recording
@@ -47,9 +47,6 @@ FOLDED: Final = 1e-3
 USUAL_DB: Final = (60, 140)
 UNSTEADY_DB: Final = 2.0
 """Of two halves of a record, by which they may differ unremarked."""
-ONE_START: Final = (
-    "One start is simulated, balls bunched 20° ahead of the imbalance; others may leave more: abu size runs many."
-)
 
 
 @record
@@ -87,6 +84,7 @@ def levels(
     channels: Sequence[str] = (),
     minutes: float | None = None,
     from_s: float | None = None,
+    start: str | None = None,
     accuracy: float = 0.01,
     duration_s: float | None = None,
     progress: Progress = silent,
@@ -94,8 +92,9 @@ def levels(
     """Levels of a recorded signal (a CSV or WAV file), or of a machine or scene that is simulated.
 
     `quantity`, `scale`, `channels`: how a file is to be taken, see `read_recording`; `from_s`: where its means begin.
-    `scene`: of a machine, idle or grinding; `minutes`: of work a day, for A(8). Raises InputError with file, line and
-    column, NotTrustworthyError where a simulation does not reach the accuracy.
+    `scene`: of a machine, idle or grinding, from the `start` of its balls (bunched); `minutes`: of work a day, for
+    A(8). Raises InputError with file, line and column, NotTrustworthyError where a simulation does not reach the
+    accuracy.
     """
     if minutes is not None:
         MINUTES.check(minutes)
@@ -103,12 +102,12 @@ def levels(
         file = str(source)
         source = read_recording(file, quantity, scale, channels) if is_recording(file) else read_any(file)
     if isinstance(source, Recording):
-        _only_for("a machine", scene=scene, duration_s=duration_s)
+        _only_for("a machine", scene=scene, start=start, duration_s=duration_s)
         return _of_recording(source, minutes, from_s)
     _only_for("a recorded file", quantity=quantity, scale=scale, channels=channels or None, from_s=from_s)
     one_of("scene", scene, SCENES)
     ACCURACY.check(accuracy)
-    return _of_motion(subject_of(source, scene, command="levels"), minutes, accuracy, duration_s, progress)
+    return _of_motion(subject_of(source, scene, start, command="levels"), minutes, accuracy, duration_s, progress)
 
 
 def _only_for(what: str, **given: object) -> None:
@@ -195,12 +194,12 @@ def _of_motion(
     measured = None
     if design is not None:
         records = _with_design(design, places, minutes, idle=subject.scene.name == "idle")
-        measured = _measured(design, at_axis) if subject.scene.name == "idle" else None
+        measured = _measured(design, at_axis, idle=subject.scene.name == "idle")
     return _result(
         subject.title,
         records,
         checks=level_checks(places, minutes),
-        warnings=(*subject.warnings, *run.warnings, *_held_remarks(design)),
+        warnings=(*subject.warnings, *run.warnings, *_held_remarks(design, subject.start)),
         provenance=subject.provenance,
         source="simulation",
         scene=subject.scene.name,
@@ -209,7 +208,7 @@ def _of_motion(
         duration_s=subject.scene.duration,
         averaged_from_s=LAST * subject.scene.duration,
         minutes=minutes,
-        measured_after=MeasuredAfter.of(measured),
+        measured_after=measured,
     )
 
 
@@ -222,19 +221,22 @@ def _with_design(
     return tuple(PlaceLevel.of(one, minutes, before.get(one.name), loads.get(one.name)) for one in places)
 
 
-def _measured(design: Design, at_axis: PlaceLevels) -> Compared | None:
-    """[measured_after] against the simulated level of its place."""
+def _measured(design: Design, at_axis: PlaceLevels, *, idle: bool) -> MeasuredAfter | None:
+    """[measured_after] against the simulated level of its place; at work against what sizing predicts of it idle."""
     table = design.case.table.measured_after
     if table is None or table.shown is None:
         return None
-    return compared(design.case, level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity))
+    found = level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity)
+    if idle:
+        return MeasuredAfter.of(compared(design.case, found))
+    return MeasuredAfter.of(compared_design(design), found)
 
 
-def _held_remarks(design: Design | None) -> Iterator[str]:
+def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
     """What the levels lack."""
     if design is None:
         return
-    yield ONE_START
+    yield f"One start is simulated: {start}. Others may leave more: abu size runs many."
     if design.case.background_level is not None:
         yield (
             f"The background of {design.case.background_level:g} dB is not in these levels: which octaves hold it is "

@@ -38,19 +38,20 @@ class Readings(Record):
 class HandleLevels(Record):
     """Levels at one place where the machine is held."""
 
-    optional: ClassVar[frozenset[str]] = frozenset({"shown_before", "shown_after"})
+    optional: ClassVar[frozenset[str]] = frozenset({"level_at_once_db", "shown_before", "shown_after"})
 
     name: Annotated[str, Quantity("place")]
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
+    level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
     shown_before: Readings | None = None
     shown_after: Readings | None = None
 
     @classmethod
-    def of(cls, place: Place, speed: float | None = None) -> Self:
-        """Of one place; with the speed [rad/s] also as instruments show it."""
+    def of(cls, place: Place, speed: float | None = None, hasty: Place | None = None) -> Self:
+        """Of one place; with the speed [rad/s] also as instruments show it; `hasty`: the same when pressed at once."""
         levels = place.levels
         return cls(
             name=place.name,
@@ -58,6 +59,7 @@ class HandleLevels(Record):
             level_after_db=levels.after,
             reduction_db=levels.reduction,
             effective_mass_kg=place.effective_mass,
+            level_at_once_db=None if hasty is None else hasty.levels.after,
             shown_before=None if speed is None else Readings.of(levels.before, speed),
             shown_after=None if speed is None else Readings.of(levels.after, speed),
         )
@@ -65,7 +67,12 @@ class HandleLevels(Record):
 
 @record
 class MeasuredAfter(Record):
-    """What was measured with the autobalancer, idle, beside what is predicted of the same place."""
+    """What was measured with the autobalancer, idle, beside what is predicted of the same place.
+
+    `predicted_loaded_db`: what is predicted there under load, in reports of the machine at its work.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset({"predicted_loaded_db"})
 
     place: Annotated[str, Quantity("measured at")]
     measured: Annotated[str, Quantity("as measured")]
@@ -74,10 +81,11 @@ class MeasuredAfter(Record):
     difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3)]
     predicted_value: Annotated[float | None, Quantity("predicted, as the instrument shows it")]
     unit: Annotated[str, Quantity("unit of that value")]
+    predicted_loaded_db: Annotated[float | None, Quantity("predicted under load", "L")] = None
 
     @classmethod
-    def of(cls, one: Compared | None) -> Self | None:
-        """None without a measured value."""
+    def of(cls, one: Compared | None, loaded: float | None = None) -> Self | None:
+        """None without a measured value; `loaded`: level [dB] that is predicted under load."""
         if one is None:
             return None
         predicted = one.predicted
@@ -89,4 +97,5 @@ class MeasuredAfter(Record):
             difference_db=one.difference,
             predicted_value=as_shown(one.shown, predicted, one.speed) if predicted else None,
             unit=UNITS[one.shown.key],
+            predicted_loaded_db=loaded,
         )

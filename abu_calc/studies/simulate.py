@@ -6,17 +6,18 @@ from typing import Annotated, ClassVar, Final
 
 from abu_calc.analysis.audit import Audit
 from abu_calc.analysis.audit import audit as with_all_effects
-from abu_calc.analysis.one_run import level_at, levels_at_places, one_run_checks
+from abu_calc.analysis.one_run import level_at, levels_at_places, loudest, one_run_checks
 from abu_calc.analysis.response import Response
 from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.progress import Progress, silent
-from abu_calc.sizing.compared import Compared, compared, measured_place
+from abu_calc.sizing.compared import compared, compared_design, measured_place
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.motion import Motion, equally_spaced
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Result
+from abu_calc.studies.rotor_view import RotorView
 from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SimulatedLevel, SimulatedScene
@@ -30,7 +31,7 @@ class SimulateResult(SimulatedScene, Result):
     """One scene that was simulated; beside what is printed, how it moved."""
 
     command: ClassVar[str] = "simulate"
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "run"}
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"description", "start", "motion", "view", "run"}
     optional: ClassVar[frozenset[str]] = SimulatedScene.optional | {"handles", "measured_after"}
 
     model: SceneModel
@@ -46,6 +47,8 @@ class SimulateResult(SimulatedScene, Result):
     """How it starts, in words."""
     motion: Motion | None = field(compare=False, repr=False)
     """Axis and balls at the times asked for; None where none were."""
+    view: RotorView | None = field(compare=False, repr=False)
+    """The way from start to rest, thinned; None of too long a run."""
     run: Simulation = field(compare=False, repr=False)
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
@@ -92,13 +95,21 @@ def simulate(
         model=SceneModel.of(run.scene),
         level_at=_level_at(subject, run.response),
         handles=_handles(subject, run.response),
-        measured_after=MeasuredAfter.of(_measured(subject, run.response)),
+        measured_after=_measured(subject, run.response),
         provenance=subject.provenance,
         description=in_words(run.scene),
         start=subject.start,
         motion=Motion.of(run, times) if len(times) else None,
+        view=_view(subject, run),
         run=run,
     )
+
+
+def _view(subject: Subject, run: Simulation) -> RotorView | None:
+    """With levels as the limits of a machine's file are for."""
+    if subject.design is None:
+        return RotorView.of(run)
+    return RotorView.of(run, loudest(subject.design, run.response))
 
 
 def _limits(subject: Subject, run: Simulation, spared: float, duration_s: float | None) -> tuple[Check, ...]:
@@ -118,15 +129,21 @@ def _level_at(subject: Subject, response: Response) -> str:
     return "axis" if response.final.tilt is None else "axis, centre of mass"
 
 
-def _measured(subject: Subject, response: Response) -> Compared | None:
-    """[measured_after] of a machine, held against the level of the idle scene at its place."""
+def _measured(subject: Subject, response: Response) -> MeasuredAfter | None:
+    """[measured_after] of a machine, held against the level of the idle scene at its place.
+
+    At work against the idle level that sizing predicts, with that of the run under load beside it.
+    """
     design = subject.design
-    if design is None or response.scene != "idle":
+    if design is None or response.scene not in ("idle", "grinding"):
         return None
     table = design.case.table.measured_after
     if table is None or table.shown is None:
         return None
-    return compared(design.case, level_at(design, response, measured_place(design.case, table.shown)[1]))
+    level = level_at(design, response, measured_place(design.case, table.shown)[1])
+    if response.scene == "idle":
+        return MeasuredAfter.of(compared(design.case, level))
+    return MeasuredAfter.of(compared_design(design), level)
 
 
 def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...] | None:

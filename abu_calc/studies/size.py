@@ -1,12 +1,14 @@
 """A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
+from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
-from abu_calc.analysis.loaded import loaded_levels
+from abu_calc.analysis.loaded import loaded_levels, work_of
 from abu_calc.analysis.machine import Failure, Run, simulated
+from abu_calc.analysis.one_run import loudest
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
@@ -15,7 +17,7 @@ from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, threads
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
-from abu_calc.sizing.compared import compared_design
+from abu_calc.sizing.compared import compared_design, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.spec.read import Machine
 from abu_calc.studies.arguments import checked
@@ -98,6 +100,7 @@ def size(
             tried = proven(sized, accuracy=accuracy, progress=progress, workers=side_by_side)
         design = tried.design
         runs, failures = simulated(design, accuracy, progress)
+        work = work_of(design, accuracy, progress, _grinding(runs, failures))
         region = true_region(design)
     arm, moved = _arm(design, failures, accuracy, progress)
     held = {one.code: one for one in arm.checks} if arm else {}
@@ -108,14 +111,14 @@ def size(
     checks += tuple(held.values())
     checks += region.check, *ensemble_checks(design, tried.ensemble, tried.remedy)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
-    checks += tuple(not_simulated(failure.scene, failure.reason, answered=answered) for failure in failures)
+    checks += tuple(not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
-    need, loaded = design.autobalancer.requirement, loaded_levels(design, runs)
+    need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
         checks=checks,
-        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks),
+        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work)),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
@@ -134,7 +137,9 @@ def size(
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=Vibration.of(design.idle, design.speed_levels, design.case.speed),
         vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded, design.case.speed),
-        measured_after=MeasuredAfter.of(compared_design(design)),
+        measured_after=MeasuredAfter.of(
+            compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
+        ),
         ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
         simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
@@ -144,8 +149,45 @@ def size(
             DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
             for line in design.drawing
         ),
-        idle_run=next((RotorView.of(run.simulation) for run in runs if run.ledger.scene.name == "idle"), None),
+        idle_run=next((_idle_view(design, run) for run in runs if run.ledger.scene.name == "idle"), None),
     )
+
+
+def _idle_view(design: Design, run: Run) -> RotorView | None:
+    """With levels as the limit of the file is for."""
+    return RotorView.of(run.simulation, loudest(design, run.simulation.response))
+
+
+def _grinding(runs: Sequence[Run], failures: Sequence[Failure]) -> Run | Failure | None:
+    """What came of the scene of grinding."""
+    found: list[Run | Failure] = [run for run in runs if run.ledger.scene.name == "grinding"]
+    found += [failure for failure in failures if failure.scene == "grinding"]
+    return next(iter(found), None)
+
+
+def _mean(failure: Failure, work: Work | Failure | None) -> str | None:
+    """What the scene of grinding comes to on average, where it is chaotic and that is known."""
+    if failure.scene != "grinding" or not isinstance(work, Work) or not work.at_once.scatter:
+        return None
+    return f"chaotic bouncing, {work.level_at_once:.1f} ± {work.at_once.scatter:.1f} dB on average"
+
+
+def _under_load(work: Work | Failure | None) -> Iterator[str]:
+    """What a reader must know of the levels under load."""
+    if isinstance(work, Failure):
+        yield f"Levels under load are not known: {work.reason}."
+        return
+    if work is None:
+        return
+    sides = [side for side in (work.without, work.fitted, work.at_once) if side.scatter]
+    scatter = max((side.scatter for side in sides), default=0.0)
+    yield from dict.fromkeys(f"grinding: {text}, known to {scatter:.1f} dB" for side in sides if side.run
+                             for text in side.run.warnings)  # fmt: skip
+    if work.stays_loud:
+        yield (
+            f"Pressed to the work before the balls have settled, wheel and work go on bouncing, at "
+            f"{work.level_at_once:.1f} dB: abu grinding tells what prevents it."
+        )
 
 
 def _arm(

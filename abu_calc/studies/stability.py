@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Final, NamedTuple
 
 from abu_calc.checks import Check, verdict
 from abu_calc.dynamics.balanced.arrangements import ARRANGEMENTS, Arrangement
-from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries
+from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries, growth_over
 from abu_calc.dynamics.balanced.crossings import crossings_of
 from abu_calc.dynamics.balanced.stability import Stability, critical_damping
 from abu_calc.dynamics.balanced.stability import stability as judged
@@ -33,6 +33,9 @@ SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
 SLOWEST, FASTEST = 0.1, 2.0
 """Of the scene's own speed: where crossings are looked for unless a range is given."""
 
+SPEEDS_SHOWN: Final = 81
+"""Over a range of speeds, at which the growth rate is told."""
+
 Pairs = tuple[tuple[float, float], ...]
 
 
@@ -46,12 +49,20 @@ class Crossing(Record):
 
 
 @record
+class GrowthAt(Record):
+    """How fast the slowest-dying disturbance grows, or below zero dies out, at a speed."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    growth_rate_per_s: Annotated[float, Quantity("growth rate of a disturbance", "max Re λ")]
+
+
+@record
 class StabilityResult(Result):
     """The balanced state of a scene at its speed; complex numbers as real and imaginary part."""
 
     command: ClassVar[str] = "stability"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
-    optional: ClassVar[frozenset[str]] = frozenset({"arm_advice", "swing_arm", "arm_motion"})
+    optional: ClassVar[frozenset[str]] = frozenset({"arm_advice", "swing_arm", "arm_motion", "growth_by_speed"})
 
     model: SceneModel
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
@@ -71,6 +82,8 @@ class StabilityResult(Result):
     arm_advice: Annotated[str | None, Quantity("what to change on the arm")] = None
     swing_arm: SwingArm | None = None
     arm_motion: ArmMotion | None = None
+    growth_by_speed: tuple[GrowthAt, ...] | None = None
+    """Over the speeds asked for, of the arrangement that is worst at each."""
     searched_rpm: tuple[float, float] | None
     """The range of speeds that boundaries were looked for in."""
 
@@ -126,6 +139,7 @@ def stability(
         arm_advice=arm.advice,
         swing_arm=arm.bounds,
         arm_motion=arm.motion,
+        growth_by_speed=None if limits is None or speeds_rpm is None else _growth(subject, speeds_rpm, limits, way),
         searched_rpm=speeds_rpm,
     )
 
@@ -166,6 +180,19 @@ def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
 def _limits(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Boundary, ...]:
     low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
     return boundaries(subject.scene, low, high, subject.half_angle, way)
+
+
+def _growth(
+    subject: Subject, speeds_rpm: tuple[float, float], limits: tuple[Boundary, ...], way: Arrangement
+) -> tuple[GrowthAt, ...]:
+    """Evenly over the range, and where stability changes."""
+    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    even = (low + (high - low) * step / (SPEEDS_SHOWN - 1) for step in range(SPEEDS_SHOWN))
+    speeds = sorted({*even, *(one.speed for one in limits)})
+    return tuple(
+        GrowthAt(speed_rpm=from_si(speed, "rpm"), growth_rate_per_s=rate)
+        for speed, rate in growth_over(subject.scene, speeds, subject.half_angle, way)
+    )
 
 
 def _crossings(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Crossing, ...]:

@@ -1,6 +1,6 @@
 """Many machines like one: how many meet the limits, and which value decides."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, Final
@@ -15,14 +15,16 @@ from abu_calc.studies.arguments import checked
 from abu_calc.studies.result import Provenance
 from abu_calc.studies.size import WORKERS
 from abu_calc.studies.sweeping import answers
+from abu_calc.studies.sweeping import prices as worth
 from abu_calc.studies.sweeping.asked import Asked, asked
 from abu_calc.studies.sweeping.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, Column
+from abu_calc.studies.sweeping.loosening import Compute, Trials, loosened
 from abu_calc.studies.sweeping.members import Study
 from abu_calc.studies.sweeping.plan import Plan, planned
-from abu_calc.studies.sweeping.records import Failed, MeetsLimits
+from abu_calc.studies.sweeping.records import Failed, MeetsLimits, Percentiles
 from abu_calc.studies.sweeping.result import Kept, Members, SweepResult, Varied
 from abu_calc.studies.sweeping.store import Store, study_of
-from abu_calc.studies.sweeping.who import compute, described, versions
+from abu_calc.studies.sweeping.who import Take, compute, described, once_more, versions
 
 ROUGH: Final = 256
 """Rows of Saltelli's design below which indices may be off by a tenth and more."""
@@ -80,7 +82,16 @@ def sweep(
         _computed(plan, database, machine, workers, executor, command, progress)
         members = Members(file, columns, database.runs, kept)
         progress("sweep: reading the answers")
-        return _answered(plan, ask, database, machine, members, path)
+
+        def again(study: Trials, numbers: Iterator[int], take: Take) -> None:
+            count = len(study.studies) * len(study.members)
+            once_more(study, numbers, take, count, workers, executor, progress)
+
+        return _answered(plan, ask, database, machine, members, path, again)
+    except BaseException as ended:
+        if not isinstance(ended, Exception):  # Ctrl-C or a signal
+            ended.add_note(f"{database.done} of {database.runs} members")
+        raise
     finally:
         database.close()
 
@@ -153,17 +164,14 @@ def _computed(
     run = store.begun(facts)
     try:
         compute(plan.study, store, workers, executor, progress)
-    except BaseException as ended:
-        if not isinstance(ended, Exception):  # Ctrl-C or a signal
-            ended.add_note(f"{store.done} of {store.runs} members")
-        raise
     finally:
         store.ended(run)
 
 
 def _answered(
-    plan: Plan, ask: Asked, store: Store, source: Machine | SceneDescription, members: Members, path: Path | None
-) -> SweepResult:
+    plan: Plan, ask: Asked, store: Store, source: Machine | SceneDescription, members: Members, path: Path | None,
+    again: Compute,
+) -> SweepResult:  # fmt: skip
     study, sample = plan.study, plan.study.sample
     failed = answers.failed(store)
     if failed.members >= store.runs:
@@ -174,11 +182,15 @@ def _answered(
     first = next(iter(by_name), None)
     ranked = by_name[first] if first else ()
     drawn = sample.scheme if any(not one.variation.listed for one in sample.factors) else "listed values"
+    halves = worth.halves(store, sample, study.what, ranked)
+    idle = [one.row.key for one in reversed(halves) if one.idle]
+    tried = loosened(study, store, idle, again)
+    quantities = answers.spreads(store, study.what)
     tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
     return SweepResult(
         title=getattr(tables, "name", Path(source.file).name),
         checks=(_numbers(failed, store.runs), _share(met, ask.least_share)),
-        warnings=(*source.warnings, *plan.warnings, *_warnings(plan, store)),
+        warnings=(*source.warnings, *plan.warnings, *_warnings(plan, store, quantities)),
         provenance=Provenance.of(source),
         what=study.what,
         runs=store.runs,
@@ -186,13 +198,15 @@ def _answered(
         sampling=drawn,
         varied=tuple(Varied(key=one.key, how=one.variation.text) for one in sample.factors),
         failed=failed,
-        quantities=answers.spreads(store, study.what),
+        quantities=quantities,
+        distributions=answers.distributions(store, study.what, _limits(plan)),
         meets_limits=met,
+        basins=answers.basins(store),
         sensitivity_of=first,
         sensitivity=ranked,
         sensitivity_by_quantity=by_name,
         unexplained=unexplained,
-        prices=answers.prices(store, sample, study.what, ranked),
+        prices=worth.prices(halves, tried),
         chart=None if plan.grid is None else answers.chart(store, sample, study.what, plan.grid),
         store=None if path is None else str(path),
         members=members,
@@ -231,7 +245,19 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
     return coded("ABU822", status, message, 100 * met.share, 100 * least, "%", remedy, "least")  # type: ignore[arg-type]
 
 
-def _warnings(plan: Plan, store: Store) -> list[str]:
+def _limits(plan: Plan) -> dict[str, float]:
+    """Of the numbers that the file limits."""
+    if plan.design is None:
+        return {}
+    limits = plan.design.case.table.limits
+    level, settling = limits.vibration_level_db, limits.settling_time_s
+    return {
+        "level_db": level, "level_after_db": level, "worst_level_db": level, "settling_time_s": settling,
+        "worst_settling_time_s": settling,
+    }  # fmt: skip
+
+
+def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:
     """What the answers rest on, where that is little."""
     found = []
     failing = [check.code for check in plan.design.checks if check.status == "fail"] if plan.design else []
@@ -241,14 +267,13 @@ def _warnings(plan: Plan, store: Store) -> list[str]:
     if 0 < rows < ROUGH:
         found.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
     if plan.study.what != "design":
-        settling = answers.spread(store, "settling_time_s")
         never = next(
             store.ask(
                 "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
                 (store.drawn,),
             )
         )[0]
-        if never and settling.mean is None:
+        if never and quantities["settling_time_s"].mean is None:
             found.append(
                 f"{never} members never settle: they count as later than all others, and settling has no mean."
             )

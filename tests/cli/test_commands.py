@@ -71,11 +71,15 @@ def test_levels_of_the_straight_machine_are_as_published(designs: dict[str, dict
 
 
 def test_under_load_the_level_does_not_contradict_the_simulation(designs: dict[str, dict]) -> None:
-    """Wheel and work part, by 49 N of variation on 45 N: one level, that of the simulation of grinding."""
+    """Wheel and work part, by 49 N of variation on 45 N: bunched balls leave what the simulation of grinding shows, and
+    go on so; settled ones, as one works, leave less.
+    """
     result = designs["avtovaz-707-222"]["result"]
     grinding = next(scene for scene in result["simulation"] if scene["scene"] == "grinding")
-    assert result["vibration_loaded"]["parts"]
-    assert result["vibration_loaded"]["level_after_db"] == pytest.approx(grinding["level_db"])
+    loaded = result["vibration_loaded"]
+    assert loaded["parts"] and loaded["at_once_stays"]
+    assert loaded["level_at_once_db"] == pytest.approx(grinding["level_db"], abs=0.1)
+    assert loaded["level_after_db"] < loaded["level_before_db"] < loaded["level_at_once_db"]
 
 
 @pytest.mark.parametrize(

@@ -319,7 +319,17 @@ def test_arm_carries_the_autobalancer_but_not_its_balls(designs):
     assert cutting.start_position == pytest.approx((design.swing_arm.pressed_angle,), rel=1e-12)
 
 
-@pytest.mark.parametrize("start", STARTS)
+def test_settled_balls_balance(designs):
+    """They start where they carry the imbalance, idle and pressed to the work."""
+    for scene in ("idle", "grinding"):
+        found = scene_of_design(design_of(designs, "avtovaz-707-222"), scene, "settled")
+        carried = sum(
+            moment * np.exp(1j * angle) for moment, angle in zip(found.static_moments, found.start_angles, strict=True)
+        )
+        assert abs(carried + found.imbalance) < 0.01 * found.imbalance
+
+
+@pytest.mark.parametrize("start", [start for start in STARTS if start != "settled"])
 def test_starts_of_the_balls(designs, start):
     design = design_of(designs, "avtovaz-707-222")
     race = scene_of_design(design, "idle", start).races[0]

@@ -132,13 +132,30 @@ def test_what_does_not_go_together_is_refused(settings: tuple[str, ...], word: s
 def test_every_report_of_levels_has_it_beside_the_prediction(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     mean = 5e-8 * (10 ** (102 / 20) + 10 ** (103 / 20)) / 2
-    for command in ("size", "simulate", "levels"):
+    for command in ("size", "simulate", "levels", "grinding"):
         seen, document = once(command, "avtovaz-707-222"), once(command, "avtovaz-707-222", "--json").document
-        assert "Measured with the autobalancer, wheel plane: 102, 103 dB" in seen.out, command
+        assert "Measured with the autobalancer, idle, wheel plane: 102, 103 dB" in seen.out, command
         found = document["result"]["measured_after"]
         assert found["measured_level_db"] == pytest.approx(20 * math.log10(mean / 5e-8), abs=1e-9)
         difference = found["measured_level_db"] - found["predicted_level_db"]
         assert found["difference_db"] == pytest.approx(difference, abs=1e-9)
+        at_work = "predicted_loaded_db" in found
+        assert at_work == (command in ("size", "grinding"))
+        assert not at_work or found["predicted_loaded_db"] == pytest.approx(loaded_level(), abs=1e-6)
+
+
+def loaded_level() -> float:
+    return float(once("grinding", "avtovaz-707-222", "--json").document["result"]["level_after_db"])
+
+
+@pytest.mark.slow
+def test_a_scene_at_work_has_it_too() -> None:
+    """Beside the idle prediction of sizing its own level under load."""
+    for command in ("simulate", "levels"):
+        result = once(command, "avtovaz-707-222", "--scene", "grinding", "--json").document["result"]
+        found = result["measured_after"]
+        assert found["predicted_level_db"] == pytest.approx(100.7, abs=0.1)
+        assert found["predicted_loaded_db"] == pytest.approx(result["level_db"], abs=1e-6), command
 
 
 def test_levels_of_a_design_are_told_as_instruments_show_them() -> None:

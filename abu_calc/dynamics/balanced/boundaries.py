@@ -35,20 +35,48 @@ def boundaries(
     where `stability` knows no answer.
     """
     check_range(low, high)
+    excess, still = _excess_of_scene(scene, half_angle, arrangement)
+    if still:
+        return limits_of(still, scene, low, high, coarse=coarse)
+    return () if excess is None else _on_grid(excess, scene, low, high, coarse=coarse)
+
+
+def growth_over(
+    scene: Scene, speeds: Sequence[float], half_angle: float = 0.0, arrangement: Arrangement = "worst"
+) -> tuple[tuple[float, float], ...]:
+    """The growth rate [1/s] of the slowest-dying disturbance at each of these speeds [rad/s] at which there is a state
+    of rest, of the arrangement that is worst there; none where `boundaries` looks for none. Raises as that does.
+    """
+    excess, still = _excess_of_scene(scene, half_angle, arrangement)
+    if excess is None:
+        return ()
+    rates = ((speed, (excess(speed) - MARGIN) * speed) for speed in speeds)
+    nowhere = 1.0 - MARGIN
+    return tuple(one for one in rates if still or one[1] != nowhere * one[0])
+
+
+def _excess_of_scene(
+    scene: Scene, half_angle: float, arrangement: Arrangement
+) -> tuple[Callable[[float], float] | None, tuple[Motion, ...]]:
+    """Of a speed: the largest growth rate per radian beyond what is taken for none; and the motions about a still axis.
+
+    Without a state of rest at a speed 1; none where nothing is looked for.
+    """
     state, found = judged(scene, half_angle, arrangement)
     if state == "arm alone" and scene.ball_masses:
-        return ()
+        return None, ()
     moves = bool(found[0].motion) if found else bool(scene.ball_masses) and not still_axis(scene)
     if not found and not moves:
-        return ()
+        return None, ()
     if moves:
 
         def excess(speed: float) -> float:
             there = judged(_at(scene, speed), half_angle, arrangement)[1]
             return excess_of(there, speed) if there else 1.0
 
-        return _on_grid(excess, scene, low, high, coarse=coarse)
-    return limits_of(quick(found), scene, low, high, coarse=coarse)
+        return excess, ()
+    still = quick(found)
+    return lambda speed: excess_of(still, speed), still
 
 
 def limits_of(

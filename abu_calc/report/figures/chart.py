@@ -2,17 +2,21 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from abu_calc.report.numbers import number
 
+FIELD: Final = 354 / 204
+"""Width over height of a plot's field."""
+
 
 class Axis(NamedTuple):
-    """What is shown along it, with its unit, and from where to where."""
+    """What is shown along it, with its unit, and from where to where; `log`: in decades."""
 
     name: str
     low: float
     high: float
+    log: bool = False
 
     @classmethod
     def around(cls, name: str, values: Iterable[float], *, zero: bool = False) -> "Axis":
@@ -22,9 +26,19 @@ class Axis(NamedTuple):
         margin = 0.08 * ((high - low) or abs(high) or 1.0)
         return cls(name, 0.0 if zero else low - margin, high + margin)
 
+    @classmethod
+    def decades(cls, name: str, values: Iterable[float]) -> "Axis":
+        """A logarithmic axis over whole decades that hold all values, which are above zero."""
+        found = list(values)
+        low, high = math.floor(math.log10(min(found))), math.ceil(math.log10(max(found)))
+        return cls(name, 10.0**low, 10.0 ** max(high, low + 1), log=True)
+
     @property
     def ticks(self) -> list[float]:
-        """Some five round numbers."""
+        """Some five round numbers; decades, of many every second or third."""
+        if self.log:
+            first, last = round(math.log10(self.low)), round(math.log10(self.high))
+            return [10.0**power for power in range(first, last + 1, -(-(last - first) // 7))]
         rough = (self.high - self.low) / 5
         power = 10.0 ** math.floor(math.log10(rough))
         step = next(power * part for part in (1, 2, 5, 10) if power * part >= rough)
@@ -32,11 +46,21 @@ class Axis(NamedTuple):
 
     def share(self, value: float) -> float:
         """How far along."""
+        if self.log:
+            return math.log(value / self.low) / math.log(self.high / self.low)
         return (value - self.low) / (self.high - self.low)
 
 
+def alike(across: str, up: str, values: Iterable[tuple[float, float]]) -> tuple[Axis, Axis]:
+    """Two axes of one scale, the origin in their middle."""
+    reach = 1.1 * max(max(abs(x) / FIELD, abs(y)) for x, y in values) or 1.0
+    return Axis(across, -FIELD * reach, FIELD * reach), Axis(up, -reach, reach)
+
+
 class Point(NamedTuple):
-    """A point with a word beside it; `series` chooses color and shape (1 round, 2 hollow square, 3 hollow lozenge)."""
+    """A point with a word beside it; `series` (1 to 8) chooses color and shape: 1 round, 2 hollow square, 3 hollow
+    lozenge, 4 hollow triangle, 5 to 8 the same shapes and colors, filled where those are hollow.
+    """
 
     x: float
     y: float
@@ -45,7 +69,7 @@ class Point(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A course; `name` stands in the legend, `series` chooses color and dashes."""
+    """A course; `name` stands in the legend where there are several, `series` (1 to 8) chooses color and dashes."""
 
     points: Sequence[tuple[float, float]]
     name: str = ""
@@ -53,12 +77,14 @@ class Line(NamedTuple):
 
 
 class Bar(NamedTuple):
-    """A length, its name and its value as text; `series` as of points."""
+    """A length from `start`, its name and its value as text; `series` as of points, `span`: where its end may lie."""
 
     name: str
     value: float
     told: str
     series: int = 1
+    start: float = 0.0
+    span: tuple[float, float] | None = None
 
 
 class Plot(NamedTuple):
@@ -73,6 +99,12 @@ class Plot(NamedTuple):
     limit: tuple[float, str] | None = None
     bands: Sequence[tuple[float, float]] = ()
 
+    @property
+    def legend(self) -> Sequence[Line]:
+        """Lines that need their names told, one for each name: there is more than one name."""
+        named = {line.name: line for line in self.lines if line.name}
+        return tuple(named.values()) if len(named) > 1 else ()
+
 
 class Bars(NamedTuple):
     """Lengths below one another, each under its name, with the limit across them all.
@@ -85,6 +117,22 @@ class Bars(NamedTuple):
     axis: Axis
     rows: Sequence[Bar]
     limit: tuple[float, str] | None = None
+
+
+class Cells(NamedTuple):
+    """A field of cells over two lists of values, the first row lowest; a cell grows with its class, 0 to 4.
+
+    `classes[row][column]`: None where nothing is known; `words`: what each class means.
+    """
+
+    title: str
+    told: str
+    across: str
+    up: str
+    columns: Sequence[str]
+    rows: Sequence[str]
+    classes: Sequence[Sequence[int | None]]
+    words: Sequence[tuple[int | None, str]]
 
 
 def db(value: float) -> str:

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 from abu_calc.report.blocks import Block
 from abu_calc.report.drawing.shapes import Drawing
-from abu_calc.report.figures.chart import Bars, Plot
+from abu_calc.report.figures.chart import Bars, Cells, Plot
 from abu_calc.report.figures.motion import Motion
 
-Shown = Plot | Bars | Drawing | Motion
+Shown = Plot | Bars | Cells | Drawing | Motion
 
 
 class Figure(NamedTuple):

@@ -1,26 +1,67 @@
-"""The balls on their way from start to rest, and the imbalance that is left meanwhile."""
+"""The balls on their way from start to rest, and imbalance, level and speed meanwhile."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
-from abu_calc.report.figures.chart import Axis, Line, Plot
+from abu_calc.report.figures.chart import Axis, Line, Plot, Point, db
 
 if TYPE_CHECKING:
-    from abu_calc.studies.design_records import Autobalancer
-    from abu_calc.studies.rotor_view import RotorView
+    from abu_calc.studies.rotor_view import Array, RotorView
+
+SMALLEST: Final = 0.05
+"""Radius of a ball as drawn, over that of its circle: of smaller ones, and of those whose size is not known."""
 
 
 class Motion(NamedTuple):
-    """A run as seen in the rotor, and the race in which the balls move."""
+    """A run as seen in the rotor; races of several planes lie over one another."""
 
     view: "RotorView"
-    race: "Autobalancer"
+
+    @property
+    def balls_mm(self) -> tuple[float, ...]:
+        """Radii of the balls as they are drawn."""
+        view = self.view
+        both = zip(view.ball_radii_mm, view.pitch_radii_mm, strict=True)
+        return tuple(max(ball, SMALLEST * pitch) for ball, pitch in both)
+
+    @property
+    def race_mm(self) -> float:
+        """The radius of the largest race as it is drawn."""
+        return max((sum(one) for one in zip(self.balls_mm, self.view.pitch_radii_mm, strict=True)), default=1.0)
 
 
 def settling(view: "RotorView", limit: float | None) -> Plot:
     """Imbalance left against time."""
-    course = list(zip(view.t_s.tolist(), view.residual_g_mm.tolist(), strict=True))
-    across = Axis("time [s]", 0.0, course[-1][0])
-    up = Axis.around("imbalance left [g·mm]", [*(rest for _, rest in course), limit or 0.0], zero=True)
     bound = None if limit is None else (limit, f"permitted {limit:.4g} g·mm")
-    told = f"From {course[0][1]:.3g} g·mm at the start to {course[-1][1]:.3g} g·mm at {course[-1][0]:.3g} s"
-    return Plot("Imbalance left against time", told, across, up, (Line(course),), (), bound)
+    course, told = _course(view, view.residual_g_mm, "{:.3g} g·mm")
+    up = Axis.around("imbalance left [g·mm]", [*(rest for _, rest in course), limit or 0.0], zero=True)
+    return Plot("Imbalance left against time", told, _time(view), up, (Line(course),), (), bound)
+
+
+def level(view: "RotorView", limit: float | None, measured: float | None = None) -> Plot:
+    """Level against time, and what was measured in the end."""
+    bound = None if limit is None else (limit, f"limit {db(limit)}")
+    course, told = _course(view, view.level_db, "{:.1f} dB")
+    up = Axis.around(
+        "velocity level [dB]", [*(one for _, one in course), *(one for one in (limit, measured) if one is not None)]
+    )
+    points = () if measured is None else (Point(course[-1][0], measured, "measured", 3),)
+    told += "" if measured is None else f"; measured {db(measured)}"
+    return Plot("Level against time", told, _time(view), up, (Line(course),), points, bound)
+
+
+def run_up(view: "RotorView", speed: "Array") -> Plot:
+    """Speed of the rotor against time."""
+    course, told = _course(view, speed, "{:.0f} rpm")
+    up = Axis.around("speed of the rotor [rpm]", (one for _, one in course), zero=True)
+    return Plot("Run-up", told, _time(view), up, (Line(course),))
+
+
+def _time(view: "RotorView") -> Axis:
+    return Axis("time [s]", 0.0, float(view.t_s[-1]))
+
+
+def _course(view: "RotorView", values: "Array", form: str) -> tuple[list[tuple[float, float]], str]:
+    """Points, and how it begins and ends in words."""
+    course = list(zip(view.t_s.tolist(), values.tolist(), strict=True))
+    first, last = (form.format(value) for value in (course[0][1], course[-1][1]))
+    return course, f"From {first} at the start to {last} at {course[-1][0]:.3g} s"

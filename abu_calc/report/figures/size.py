@@ -33,6 +33,11 @@ def size_extras(result: SizeResult) -> Extras:
     return Extras(figures, explanation_blocks(result)[1:])
 
 
+def size_charts(result: SizeResult) -> tuple[Figure, ...]:
+    """Those that a terminal has room for."""
+    return (*_over_speed(result), *_settling(result), *_candidates(result))
+
+
 def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
     scale = next((one for one in SCALES if one * outer <= ROOM), SCALES[-1])
@@ -130,7 +135,7 @@ def _settling(result: SizeResult) -> Iterator[Figure]:
         "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
         "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
     )
-    yield Figure("motion", "Simulation: idle", Motion(result.idle_run, result.autobalancer), caption)
+    yield Figure("motion", "Simulation: idle", Motion(result.idle_run), caption)
     caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
     yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
 

@@ -2,11 +2,14 @@
 
 import re
 from collections.abc import Iterable, Iterator
+from typing import Final
 
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 from abu_calc.report.page.words import text
 from abu_calc.report.text import BEFORE_UNIT, STYLES, TIE, WORDS
 
+WIDEST: Final = 92
+"""Letters that stand side by side on paper."""
 CODE = re.compile(r"`([^`]+)`")
 
 
@@ -24,7 +27,7 @@ def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[st
             case Facts(rows):
                 yield _facts(rows, title)
             case Grid():
-                yield _grid(block, title)
+                yield from (_grid(one, title) for one in block.within(WIDEST))
             case Picture(lines, caption):
                 drawn = text("\n".join(lines)).replace("\\n", "\n")
                 yield (
@@ -36,7 +39,7 @@ def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[st
 def paragraph(words: str, mark: str | None = None) -> str:
     """Running text; what is a command stands as code."""
     kind = f' class="{text(mark)}"' if mark in STYLES else ""
-    coded = CODE.sub(r"<code>\1</code>", text(words))
+    coded = CODE.sub(r"<code>\1</code>", _cell(words))
     return f"<p{kind}>{coded}</p>"
 
 

@@ -1,9 +1,9 @@
 """Charts as inline SVG; told apart by shape and word, not by color alone."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from abu_calc.report.figures.chart import Axis, Bar, Bars, Plot, Point
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot, Point
 from abu_calc.report.page.words import text
 
 WIDE: Final = 420.0
@@ -15,6 +15,13 @@ ROW: Final = 35.0
 MARGIN: Final = 8.0
 VALUES: Final = 74.0
 """What the values beside bars take."""
+LETTER: Final = 6.8
+"""What a letter takes, about."""
+SAMPLE: Final = 34.0
+"""What a piece of line takes in a legend."""
+FILLED: Final = (1, 6, 7, 8)
+"""Series whose points are."""
+LEGEND_ROW: Final = 18.0
 
 
 def plot(name: str, one: Plot) -> str:
@@ -38,7 +45,29 @@ def plot(name: str, one: Plot) -> str:
             yield f'<path class="line s{line.series}" d="M{path}"/>'
         yield from (_point(one, *at(one.x, one.y), right) for one in one.points)
 
-    return _svg(name, one, HIGH, (*_axes(one.across, one.up), *marks()))
+    entries = list(_entries(one.legend))
+    high = max((y for *_, y in entries), default=HIGH - 8) + 8
+    marked = {each.series for each in one.points if not each.word}
+    legend = (part for each in entries for part in _entry(*each, marked=each[0].series in marked))
+    return svg(name, one, high, (*_axes(one.across, one.up), *marks(), *legend))
+
+
+def _entries(lines: Sequence[Line]) -> Iterator[tuple[Line, float, float]]:
+    """Lines of a legend, and where each stands: beside one another below the chart, as far as there is room."""
+    x, y = MARGIN, HIGH + 10
+    for line in lines:
+        wide = SAMPLE + LETTER * len(line.name) + 14
+        if x > MARGIN and x + wide > WIDE:
+            x, y = MARGIN, y + LEGEND_ROW
+        yield line, x, y
+        x += wide
+
+
+def _entry(line: Line, x: float, y: float, *, marked: bool) -> Iterator[str]:
+    yield f'<path class="line s{line.series}" d="M{x:.1f} {y - 4:.1f}h{SAMPLE - 6:.1f}"/>'
+    if marked:
+        yield _mark(line.series, x + (SAMPLE - 6) / 2, y - 4)
+    yield f'<text x="{x + SAMPLE:.1f}" y="{y:.1f}">{text(line.name)}</text>'
 
 
 def bars(name: str, chart: Bars) -> str:
@@ -52,7 +81,7 @@ def bars(name: str, chart: Bars) -> str:
     def marks() -> Iterator[str]:
         for tick in axis.ticks:
             yield f'<path class="grid" d="M{at(tick):.1f} {TOP}V{low}"/>'
-            yield f'<text class="soft" x="{at(tick):.1f}" y="{low + 15}" text-anchor="middle">{_tick(tick)}</text>'
+            yield f'<text class="soft" x="{at(tick):.1f}" y="{low + 17}" text-anchor="middle">{_tick(tick)}</text>'
         yield f'<text x="{MARGIN}" y="{low + 33}">{text(axis.name)}</text>'
         if limit:
             x = at(limit[0])
@@ -63,13 +92,15 @@ def bars(name: str, chart: Bars) -> str:
             y = TOP + ROW * index
             yield f'<text x="{MARGIN}" y="{y + 13}">{text(one.name)}</text>'
             yield (
-                _length(one, at(0.0), at(one.value), y + 19)
+                _length(one, at(one.start), at(one.value), y + 19)
                 if axis.low <= 0
                 else _point(Point(one.value, 0.0, "", one.series), at(one.value), y + 25, right)
             )
+            if one.span:
+                yield _span(at(one.span[0]), at(one.span[1]), y + 24.5)
             yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
 
-    return _svg(name, chart, low + BELOW - 4, marks())
+    return svg(name, chart, low + BELOW - 4, marks())
 
 
 def _length(one: Bar, start: float, end: float, y: float) -> str:
@@ -77,7 +108,13 @@ def _length(one: Bar, start: float, end: float, y: float) -> str:
     return f'<rect class="f{one.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
 
 
-def _svg(name: str, one: Plot | Bars, high: float, parts: Iterable[str]) -> str:
+def _span(low: float, high: float, y: float) -> str:
+    """A line with an end at either side."""
+    return f'<path class="span" d="M{low:.1f} {y - 4:.1f}v8m0 -4H{high:.1f}m0 -4v8"/>'
+
+
+def svg(name: str, one: Plot | Bars | Cells, high: float, parts: Iterable[str]) -> str:
+    """The element, with its title and text alternative."""
     named = f"chart-{name}"
     return "\n".join((
         f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
@@ -92,11 +129,13 @@ def _axes(across: Axis, up: Axis) -> Iterator[str]:
     for tick in across.ticks:
         x = LEFT + across.share(tick) * (right - LEFT)
         yield f'<path class="grid" d="M{x:.1f} {TOP}V{low}"/>'
-        yield f'<text class="soft" x="{x:.1f}" y="{low + 15}" text-anchor="middle">{_tick(tick)}</text>'
+        told = _tick(tick, log=across.log)
+        x = min(x, WIDE - 2 - LETTER * len(told) / 2)
+        yield f'<text class="soft" x="{x:.1f}" y="{low + 17}" text-anchor="middle">{told}</text>'
     for tick in up.ticks:
         y = low - up.share(tick) * (low - TOP)
         yield f'<path class="grid" d="M{LEFT} {y:.1f}H{right}"/>'
-        yield f'<text class="soft" x="{LEFT - 5}" y="{y + 4:.1f}" text-anchor="end">{_tick(tick)}</text>'
+        yield f'<text class="soft" x="{LEFT - 5}" y="{y + 4:.1f}" text-anchor="end">{_tick(tick, log=up.log)}</text>'
     yield f'<path class="axis" d="M{LEFT} {TOP}V{low}H{right}"/>'
     yield f'<text x="{right}" y="{low + 33}" text-anchor="end">{text(across.name)}</text>'
     yield f'<text x="2" y="13">{text(up.name)}</text>'
@@ -104,18 +143,27 @@ def _axes(across: Axis, up: Axis) -> Iterator[str]:
 
 def _point(one: Point, x: float, y: float, right: float) -> str:
     """The word stands on the side where there is room."""
-    if one.series == 1:
-        drawn = f'<circle class="f1" cx="{x:.1f}" cy="{y:.1f}" r="5"/>'
-    elif one.series == 2:
-        drawn = f'<rect class="hollow s2" x="{x - 4.5:.1f}" y="{y - 4.5:.1f}" width="9" height="9"/>'
-    else:
-        drawn = f'<path class="hollow s3" d="M{x - 6:.1f} {y:.1f}l6 -6 6 6 -6 6z"/>'
+    drawn = _mark(one.series, x, y)
     if not one.word:
         return drawn
-    left = x + 9 + 6.4 * len(one.word) > right
+    left = x + 9 + LETTER * len(one.word) > right
     place = f'x="{x - 9 if left else x + 9:.1f}" y="{y + 4:.1f}" text-anchor="{"end" if left else "start"}"'
     return f"{drawn}<text {place}>{text(one.word)}</text>"
 
 
-def _tick(value: float) -> str:
-    return f"{value:.6g}" if abs(value) > 1e-9 else "0"
+def _mark(series: int, x: float, y: float) -> str:
+    """Round, square, lozenge, triangle: the first round one and the last three filled, the others hollow."""
+    kind = f"f{series}" if series in FILLED else f"hollow s{series}"
+    match (series - 1) % 4:
+        case 0:
+            return f'<circle class="{kind}" cx="{x:.1f}" cy="{y:.1f}" r="5"/>'
+        case 1:
+            return f'<rect class="{kind}" x="{x - 4.5:.1f}" y="{y - 4.5:.1f}" width="9" height="9"/>'
+        case 2:
+            return f'<path class="{kind}" d="M{x - 6:.1f} {y:.1f}l6 -6 6 6 -6 6z"/>'
+        case _:
+            return f'<path class="{kind}" d="M{x - 5.5:.1f} {y + 4:.1f}h11l-5.5 -10z"/>'
+
+
+def _tick(value: float, *, log: bool = False) -> str:
+    return f"{value:.6g}" if log or abs(value) > 1e-9 else "0"

@@ -41,6 +41,7 @@ def page(outcome: "Outcome") -> str:
         (f"<header><h1>{text(title)}</h1>",),
         elements(_below(head), title),
         ("</header>", _contents(named), '<main id="main" tabindex="-1">'),
+        ("<section>", *map(figure, figures_of(head, extras.figures)), "</section>"),
         _sections(front, extras.figures),
         (_opened("Figures"), *map(figure, rest), "</section>") if rest else (),
         _note(extras.note),

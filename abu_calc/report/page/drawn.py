@@ -4,9 +4,10 @@ from typing import Final, NamedTuple
 
 from abu_calc.report.drawing.shapes import Drawing
 from abu_calc.report.drawing.svg import svg_figure
-from abu_calc.report.figures.chart import Bars, Plot
+from abu_calc.report.figures.chart import Bars, Cells, Plot
 from abu_calc.report.figures.figure import Figure
 from abu_calc.report.figures.motion import Motion
+from abu_calc.report.page.cells_svg import cells
 from abu_calc.report.page.chart_svg import bars, plot
 from abu_calc.report.page.player import player
 from abu_calc.report.page.words import text
@@ -43,6 +44,8 @@ def _drawn(one: Figure) -> tuple[_Room, str]:
             return _Room(520.0), plot(one.name, chart)
         case Bars() as chart:
             return _Room(520.0), bars(one.name, chart)
+        case Cells() as chart:
+            return _Room(520.0), cells(one.name, chart)
         case Motion() as motion:
             return _Room(640.0), player(motion)
         case Drawing() as drawing:

@@ -3,7 +3,7 @@ const play = document.getElementById("motion-play"), time = document.getElementB
 const pace = document.getElementById("motion-pace"), told = document.getElementById("motion-told");
 const last = data.t[data.t.length - 1], side = 320, turn = Math.PI / 180;
 const reach = 1.15 * Math.max(1e-9, ...data.x.map((x, k) => Math.hypot(x, data.y[k])));
-let now = 0, playing = false, before = 0, printing = false;
+let now = 0, playing = false, before = 0, printing = false, kept = 0;
 
 function colour(name) {
   const paper = { ink: "#000", soft: "#444", line: "#bbb", c1: "#0072b2", c2: "#b84a00", fail: "#a40e26" };
@@ -39,9 +39,9 @@ function draw() {
   pen.lineTo(side / 2 + far * Math.cos(angle), middle - far * Math.sin(angle));
   pen.stroke();
   circle(side / 2 + far * Math.cos(angle), middle - far * Math.sin(angle), 5, colour("fail"));
-  data.balls.forEach((row) => {
-    const at = row[k] * turn, pitch = data.pitch * scale;
-    circle(side / 2 + pitch * Math.cos(at), middle - pitch * Math.sin(at), data.ball * scale, colour("c1"), colour("ink"));
+  data.balls.forEach((row, ball) => {
+    const at = row[k] * turn, pitch = data.pitch[ball] * scale;
+    circle(side / 2 + pitch * Math.cos(at), middle - pitch * Math.sin(at), data.ball[ball] * scale, colour("c1"), colour("ink"));
   });
   write("axis, circle " + Number(reach.toPrecision(2)) + " µm", 1.5 * side, 16, "soft");
   circle(1.5 * side, middle, 118, null, colour("line"));
@@ -86,6 +86,6 @@ canvas.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
-addEventListener("beforeprint", () => { printing = true; draw(); });
-addEventListener("afterprint", () => { printing = false; draw(); });
+addEventListener("beforeprint", () => { run(false); printing = true; kept = now; set(last); });
+addEventListener("afterprint", () => { printing = false; set(kept); });
 draw();

@@ -15,7 +15,7 @@ USUAL = "0.2"
 
 def player(motion: Motion) -> str:
     """The element, with its data and its script."""
-    view, one = motion
+    view = motion.view
     end = float(view.t_s[-1])
     options = "".join(
         f'<option value="{value}"{" selected" if value == USUAL else ""}>{text(name)}</option>'
@@ -25,8 +25,8 @@ def player(motion: Motion) -> str:
     data = {
         "t": _rounded(view.t_s, 6), "x": _rounded(view.x_um, 3), "y": _rounded(view.y_um, 3),
         "balls": [_rounded(row, 2) for row in view.ball_angles_deg], "rest": _rounded(view.residual_g_mm, 4),
-        "imbalance": view.imbalance_angle_deg, "race": one.race_radius_mm, "pitch": one.pitch_radius_mm,
-        "ball": one.ball_diameter_mm / 2,
+        "imbalance": view.imbalance_angle_deg, "race": motion.race_mm, "pitch": list(view.pitch_radii_mm),
+        "ball": list(motion.balls_mm),
     }  # fmt: skip
     return (
         f'<div class="player"><canvas id="motion" width="640" height="310" tabindex="0" role="img" '

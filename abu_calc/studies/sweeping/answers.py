@@ -1,21 +1,22 @@
 """What the members of a store say together. Read from the store in parts: memory does not grow with their number."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
 
 from abu_calc.analysis.sampling import BLOCK, Sample, block
 from abu_calc.analysis.sensitivity import Fit, Indices, saltelli
-from abu_calc.studies.sweeping.columns import DECIDING, FLAGS, MEETS, QUANTITIES, What
+from abu_calc.studies.sweeping.columns import BALANCES, DECIDING, FLAGS, MEETS, QUANTITIES, What
 from abu_calc.studies.sweeping.records import (
+    Basin,
     Chart,
+    Distribution,
     Failed,
     Failure,
     MeetsLimits,
     Percentiles,
-    Price,
     Sensitivity,
     Share,
 )
@@ -24,14 +25,13 @@ from abu_calc.studies.sweeping.store import Store, quoted
 REASONS: Final = 20
 """That are listed."""
 CONFIDENCE: Final = 0.95
-FIRST: Final = 0.02
-"""A value whose total index is below decides nothing."""
-LEAST: Final = 40
-"""Members in each half for a price to be told."""
+SHARES: Final = (0.0, 0.01, 0.02, *(k / 20 for k in range(1, 20)), 0.98, 0.99, 1.0)
+"""Of members, for which a distribution is told."""
+START: Final = "start.kind"
 ANSWERED: Final = "reason IS NULL"
 
 
-def _there(store: Store) -> str:
+def there(store: Store) -> str:
     """Members with answers that were drawn each for itself."""
     return f"{ANSWERED} AND member < {store.drawn}"
 
@@ -51,26 +51,45 @@ def spreads(store: Store, what: What) -> dict[str, Percentiles]:
 
 def spread(store: Store, name: str) -> Percentiles:
     """Percentiles as NumPy has them; one that is null (never, or nothing) comes after all numbers."""
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
     column = quoted(name)
-    numbers, mean = next(store.ask(f"SELECT COUNT({column}), AVG({column}) FROM members WHERE {_there(store)}"))
-    p05, p50, p95 = (percentile(store, name, share, count) for share in (0.05, 0.5, 0.95))
+    query = f"SELECT COUNT(*), COUNT({column}), AVG({column}) FROM members WHERE {there(store)}"
+    count, numbers, mean = next(store.ask(query))
+    p05, p50, p95 = percentiles(store, name, (0.05, 0.5, 0.95), there(store))
     return Percentiles(p05=p05, p50=p50, p95=p95, mean=mean if numbers == count and count else None)
 
 
-def percentile(store: Store, name: str, share: float, count: int, where: str | None = None) -> float | None:
-    """Between the two members about it; None where one of them is none."""
+def distributions(store: Store, what: What, limits: Mapping[str, float]) -> dict[str, Distribution]:
+    """Of each quantity that is not the same for all."""
+    found = {one.name: percentiles(store, one.name, SHARES, there(store)) for one in QUANTITIES[what]}
+    percent = tuple(round(100 * share, 1) for share in SHARES)
+    return {
+        name: Distribution(percent=percent, values=values, limit=limits.get(name))
+        for name, values in found.items()
+        if values[0] is not None and values[0] != values[-1]
+    }
+
+
+def percentiles(store: Store, name: str, shares: Sequence[float], where: str) -> tuple[float | None, ...]:
+    """Each between the two members about it, None where one of them is none; the members are put in order once."""
+    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
     if not count:
+        return (None,) * len(shares)
+    places = [share * (count - 1) for share in shares]
+    wanted = sorted({k for place in places for k in (math.floor(place), math.ceil(place))})
+    column = quoted(name)
+    query = (
+        f"SELECT k, v FROM (SELECT {column} AS v, ROW_NUMBER() OVER (ORDER BY {column} IS NULL, {column}) - 1 AS k "
+        f"FROM members WHERE {where}) WHERE k IN ({', '.join(map(str, wanted))})"
+    )
+    values = dict(store.ask(query))
+    return tuple(_between(values, place) for place in places)
+
+
+def _between(values: Mapping[int, float | None], place: float) -> float | None:
+    low, high = values[math.floor(place)], values[math.ceil(place)]
+    if low is None or high is None:
         return None
-    place = share * (count - 1)
-    first = math.floor(place)
-    where = where or _there(store)
-    query = f"SELECT {quoted(name)} FROM members WHERE {where} ORDER BY {quoted(name)} IS NULL, {quoted(name)}"
-    values = [row[0] for row in store.ask(f"{query} LIMIT 2 OFFSET {first}")]
-    low, high = values[0], values[-1]
-    if low is None or (high is None and place > first):
-        return None
-    return float(low) if place == first else float(low + (place - first) * (high - low))
+    return float(low + (place - math.floor(place)) * (high - low))
 
 
 def meets(store: Store, what: What) -> MeetsLimits:
@@ -81,14 +100,28 @@ def meets(store: Store, what: What) -> MeetsLimits:
 
 
 def _share(store: Store, name: str) -> Share:
-    from scipy.stats import binomtest
-
     met, count = next(
         store.ask(f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE member < {store.drawn}")
     )
-    interval = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
-    return Share(
-        share=met / count, confidence_interval=(float(interval.low), float(interval.high)), met=int(met), of=int(count)
+    return Share(share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
+
+
+def _interval(met: int, count: int) -> tuple[float, float]:
+    from scipy.stats import binomtest
+
+    found = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
+    return float(found.low), float(found.high)
+
+
+def basins(store: Store) -> tuple[Basin, ...]:
+    """The share of starts that balance, of each kind of start; members without an answer count as not balancing."""
+    if START not in store.names:
+        return ()
+    kind, flag = quoted(START), quoted(BALANCES.name)
+    query = f"SELECT {kind}, COALESCE(SUM({flag}), 0), COUNT(*) FROM members WHERE member < {store.drawn} GROUP BY 1"
+    return tuple(
+        Basin(start=name, share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
+        for name, met, count in store.ask(query)
     )
 
 
@@ -150,61 +183,23 @@ def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
             yield table[0].astype(np.int64), table[1:]
 
 
-def prices(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Price, ...]:
-    """For each value of the file that is a number: the level that 95 % keep if it stays within its better half."""
-    name = DECIDING[what]
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
-    whole = percentile(store, name, 0.95, count)
-    if whole is None:
-        return ()
-    drawn = {one.key for one in sample.factors if one.path and one.variation.numbers}
-    found = (_price(store, name, row, whole) for row in ranked if row.key in drawn)
-    return tuple(price for price in found if price is not None)
-
-
-def _price(store: Store, name: str, row: Sensitivity, whole: float) -> Price | None:
-    key = quoted(row.key)
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {_there(store)}"))[0]
-    middle = percentile(store, row.key, 0.5, count)
-    if middle is None or count < 2 * LEAST:
-        return None
-    halves = []
-    for side, sign in (("lower", "<="), ("upper", ">")):
-        where = f"{_there(store)} AND {key} {sign} {middle!r}"
-        many = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
-        level = percentile(store, name, 0.95, many, where)
-        if level is not None and many >= LEAST:
-            halves.append((level, side, many, where))
-    if not halves:
-        return None
-    (level, better, many, where), worse = min(halves), max(halves)[0] if len(halves) > 1 else None
-    # By the binomial law of how many of a half lie below its own 95 % level.
-    off = 1.96 * math.sqrt(0.05 * 0.95 / many)
-    upper = percentile(store, name, min(0.95 + off, 1.0), many, where)
-    chance = upper is None or whole <= upper
-    advice = "may be loosened" if row.total < FIRST and chance else "" if chance else "tighten"
-    cost = None if worse is None else worse - whole
-    return Price(
-        key=row.key, better=better, median=middle, gain_db=whole - level, cost_db=cost, within_chance=chance,
-        advice=advice,
-    )  # fmt: skip
-
-
 def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Chart:
     """Shares over two keys, the first across."""
     across, upward = (next(one for one in sample.factors if one.key == key).variation.values for key in grid)
     flag = FLAGS[what][0].name
-    level = quoted(DECIDING[what])
-    query = (
-        f"SELECT {quoted(grid[0])}, {quoted(grid[1])}, AVG({quoted(flag)}), AVG({level}) FROM members "
-        f"WHERE {_there(store)} GROUP BY 1, 2"
-    )
+    # A member without an answer counts as not met; a cell without any has no share.
+    met = (f"CASE WHEN COUNT({name}) THEN 1.0 * SUM({name}) / COUNT(*) END" for name in map(quoted, (flag, MEETS.name)))
+    columns = f"{', '.join(map(quoted, grid))}, {', '.join(met)}, AVG({quoted(DECIDING[what])})"
+    query = f"SELECT {columns} FROM members WHERE member < {store.drawn} GROUP BY 1, 2"
     found: dict[tuple[object, object], tuple[float | None, ...]] = {
         (x, y): (*cell,) for x, y, *cell in store.ask(query)
     }
 
+    def field(part: int) -> tuple[tuple[float | None, ...], ...]:
+        return tuple(tuple(cell(one, other, part) for one in x) for other in y)
+
     def cell(x: object, y: object, part: int) -> float | None:
-        return found.get((x, y), (None, None))[part]
+        return found.get((x, y), (None, None, None))[part]
 
     x, y = (tuple(_plain(value) for value in values) for values in (across, upward))
     return Chart(
@@ -213,8 +208,9 @@ def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Ch
         x=x,
         y=y,
         of=flag,
-        shares=tuple(tuple(cell(one, other, 0) for one in x) for other in y),
-        levels_db=tuple(tuple(cell(one, other, 1) for one in x) for other in y),
+        shares=field(0),
+        meets=field(1) if len(FLAGS[what]) > 2 else None,
+        levels_db=field(2),
     )
 
 

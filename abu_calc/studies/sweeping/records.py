@@ -16,6 +16,28 @@ class Percentiles(Record):
 
 
 @record
+class Distribution(Record):
+    """The value that a number keeps in so many of the members: its percentiles from the least to the greatest."""
+
+    percent: Annotated[tuple[float, ...], Quantity("share of members", "", 4, "in hundredths, ascending")]
+    values: Annotated[
+        tuple[float | None, ...], Quantity("at most", "", 4, "in the unit of the number; null: later or more than any")
+    ]
+    limit: Annotated[float | None, Quantity("limit", "", 4, "of the file, which it must not exceed")]
+
+
+@record
+class Basin(Record):
+    """Of the starts of one kind the share that balances."""
+
+    start: Annotated[str, Quantity("start")]
+    share: Annotated[float, Quantity("balances", "", 4, "", percent=True)]
+    confidence_interval: Annotated[tuple[float, float], Quantity("95 % confidence", "", 4, "", percent=True)]
+    met: Annotated[int, Quantity("that balance")]
+    of: Annotated[int, Quantity("members")]
+
+
+@record
 class Share(Record):
     """Of all members; one without an answer counts as not met."""
 
@@ -68,7 +90,8 @@ class Sensitivity(Record):
 class Price(Record):
     """What one value is worth: the level that 95 % of members keep if it stays in its better half, or its worse one.
 
-    Told by the members that lie there.
+    Told by the members that lie there. `loosened_db`: what it rises by where the scatter is doubled, of members that
+    were computed once more for that; `loosened_fail`: how many more of them miss a limit than before.
     """
 
     key: Annotated[str, Quantity("value")]
@@ -77,7 +100,11 @@ class Price(Record):
     gain_db: Annotated[float, Quantity("the better half lowers it by", "", 2)]
     cost_db: Annotated[float | None, Quantity("the worse half raises it by", "", 2)]
     within_chance: Annotated[bool, Quantity("no more than chance may do")]
-    advice: Annotated[str, Quantity("advice")]
+    loosened_to: Annotated[str | None, Quantity("tried with", "", 4, "twice the scatter")] = None
+    loosened_db: Annotated[float | None, Quantity("twice the scatter raises it by", "", 2)] = None
+    loosened_fail: Annotated[int | None, Quantity("more that miss a limit")] = None
+    loosened_of: Annotated[int | None, Quantity("members computed once more")] = None
+    advice: Annotated[str, Quantity("advice", "", 4, "tighten, may be loosened, or nothing")]
 
 
 @record
@@ -90,4 +117,7 @@ class Chart(Record):
     y: Annotated[tuple[float | str, ...], Quantity("values upward")]
     of: Annotated[str, Quantity("what is shared")]
     shares: Annotated[tuple[tuple[float | None, ...], ...], Quantity("shares", "", 3, "null: no member gave an answer")]
+    meets: Annotated[
+        tuple[tuple[float | None, ...], ...] | None, Quantity("shares that meet all limits", "", 3, "null: as `shares`")
+    ]
     levels_db: Annotated[tuple[tuple[float | None, ...], ...] | None, Quantity("mean levels")]

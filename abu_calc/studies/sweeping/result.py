@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.result import Result
 from abu_calc.studies.sweeping.columns import Column
-from abu_calc.studies.sweeping.records import Chart, Failed, MeetsLimits, Percentiles, Price, Sensitivity
+from abu_calc.studies.sweeping.records import (
+    Basin,
+    Chart,
+    Distribution,
+    Failed,
+    MeetsLimits,
+    Percentiles,
+    Price,
+    Sensitivity,
+)
 from abu_calc.studies.sweeping.store import Store
 
 
@@ -76,7 +85,9 @@ class SweepResult(Result):
     varied: tuple[Varied, ...]
     failed: Failed
     quantities: Annotated[dict[str, Percentiles], Quantity("percentiles")]
+    distributions: Annotated[dict[str, Distribution], Quantity("distributions")]
     meets_limits: MeetsLimits
+    basins: tuple[Basin, ...]
     sensitivity_of: Annotated[str | None, Quantity("number whose sensitivity stands first")]
     sensitivity: tuple[Sensitivity, ...]
     sensitivity_by_quantity: Annotated[dict[str, tuple[Sensitivity, ...]], Quantity("sensitivities by number")]

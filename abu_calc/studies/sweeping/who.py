@@ -2,6 +2,7 @@
 
 import os
 import platform
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from importlib.metadata import PackageNotFoundError, version
 from itertools import islice
@@ -9,10 +10,13 @@ from time import perf_counter
 from typing import Any, Final
 
 from abu_calc.analysis.batches import Row, given, here, in_batches, processes
+from abu_calc.analysis.batches import Study as Computed
 from abu_calc.progress import Progress
 from abu_calc.studies.sweeping.members import Study
 from abu_calc.studies.sweeping.store import Store
 from abu_calc.version import __version__
+
+Take = Callable[[list[Row]], None]
 
 SOON: Final = 6.0
 """Seconds of work that are left, below which starting processes is not worth the while."""
@@ -39,11 +43,25 @@ def described(workers: int | None, executor: Executor | None) -> str:
 
 def compute(study: Study, store: Store, workers: int | None, executor: Executor | None, progress: Progress) -> None:
     """Puts the missing members into the store as they come."""
-    told = _Told(store, progress)
-    missing = store.missing()
+    told = _Told(store.put, store.done, store.runs, progress, "sweep: {} of {} members")
+    _computed(study, store.missing(), told, workers, executor)
+
+
+def once_more(
+    study: Computed, numbers: Iterator[int], take: Take, count: int, workers: int | None, executor: Executor | None,
+    progress: Progress,
+) -> None:  # fmt: skip
+    """Members beside those of the store."""
+    told = _Told(take, 0, count, progress, "sweep: what may be loosened, {} of {}")
+    _computed(study, numbers, told, workers, executor)
+
+
+def _computed(
+    study: Computed, missing: Iterator[int], told: "_Told", workers: int | None, executor: Executor | None
+) -> None:
     if executor is not None:
         count = getattr(executor, "_max_workers", None) or _cluster_size(executor) or os.cpu_count() or 1
-        in_batches(study, missing, given(executor, count), told)
+        in_batches(study, missing, given(executor, count, ends=_is_ours_to_end(executor)), told)
         return
     if workers is None or workers < 2:
         in_batches(study, missing, here(), told)
@@ -53,7 +71,7 @@ def compute(study: Study, store: Store, workers: int | None, executor: Executor 
     for member in first:  # the last one shows what one takes when all is compiled
         begun = perf_counter()
         in_batches(study, iter([member]), here(), told)
-    left = (store.runs - told.done) * (perf_counter() - begun)
+    left = (told.of - told.done) * (perf_counter() - begun)
     who = here() if left < SOON else processes(workers)
     try:
         in_batches(study, missing, who, told)
@@ -67,21 +85,30 @@ def _cluster_size(executor: Executor) -> int | None:
     return sum(client.nthreads().values()) if client is not None else None
 
 
-class _Told:
-    """Takes rows: into the store, and says how far it is."""
+def _is_ours_to_end(executor: Executor) -> bool:
+    """Whether who computes is a process of a Dask cluster that is started anew when it ends."""
+    client: Any = getattr(executor, "_client", None)
+    if client is None:
+        return False
+    workers = client.scheduler_info(n_workers=-1)["workers"].values()
+    return bool(workers) and all(one.get("nanny") for one in workers)
 
-    def __init__(self, store: Store, progress: Progress) -> None:
-        self.store, self.progress = store, progress
-        self.before = self.done = store.done
+
+class _Told:
+    """Takes rows: where they are kept, and says how far it is."""
+
+    def __init__(self, take: Take, done: int, of: int, progress: Progress, words: str) -> None:
+        self.take, self.of, self.progress, self.words = take, of, progress, words
+        self.before = self.done = done
         self.begun = perf_counter()
 
     def __call__(self, rows: list[Row]) -> None:
-        self.store.put(rows)
+        self.take(rows)
         self.done += len(rows)
         passed = perf_counter() - self.begun
         rate = (self.done - self.before) / max(passed, 1e-9)
-        left = (self.store.runs - self.done) / max(rate, 1e-9)
-        self.progress(f"sweep: {self.done} of {self.store.runs} members, {rate:.3g} a second, {duration(left)} left")
+        left = (self.of - self.done) / max(rate, 1e-9)
+        self.progress(f"{self.words.format(self.done, self.of)}, {rate:.3g} a second, {duration(left)} left")
 
 
 def duration(seconds: float) -> str:

@@ -1,0 +1,83 @@
+"""What `abu compare` shows: the main numbers of each machine as bars."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Final, NamedTuple
+
+from abu_calc.report.figures.chart import Axis, Bar, Bars
+from abu_calc.report.figures.figure import Extras, Figure
+from abu_calc.report.numbers import number
+from abu_calc.spec.text import is_number
+from abu_calc.studies.compare import CompareResult
+from abu_calc.studies.side_by_side import Difference
+
+
+class _Compared(NamedTuple):
+    """A figure: paths of designs with what they are called, and a check whose limit is drawn."""
+
+    name: str
+    title: str
+    axis: str
+    paths: dict[str, str]
+    caption: str
+    code: str = ""
+
+
+FIGURES: Final = (
+    _Compared(
+        "levels", "Levels of the machines", "velocity level, idle [dB]",
+        {"vibration.level_before_db": "before", "vibration.level_after_db": "after"},
+        "Velocity level without (square) and with (round) the autobalancer, 0 dB = 5e-8 m/s rms: lower is better.",
+        "ABU401",
+    ),
+    _Compared(
+        "residual", "Residuals of the machines", "residual, 0–peak [µm]", {"accuracy_budget.residual_um": ""},
+        "What the balls leave at the wheel, expected: shorter is better.",
+    ),
+    _Compared(
+        "mass", "Masses of the autobalancers", "mass with balls [g]", {"autobalancer.mass_g": ""},
+        "What each autobalancer adds to its machine.",
+    ),
+    _Compared(
+        "settling", "Settling times of the machines", "settling time [s]",
+        {"ensemble.settling_time_s.typical": "median", "ensemble.settling_time_s.worst": "worst"},
+        "How long the balls take over many starts, median and worst; a machine without a bar does not always settle.",
+        "ABU702",
+    ),
+)  # fmt: skip
+
+
+def compare_extras(result: CompareResult) -> Extras:
+    """Figures of what more than one machine has."""
+    rows = {row.path: row for row in (*result.differences, *result.alike) if row.part == "design"}
+    return Extras(tuple(figure for one in FIGURES for figure in _figure(result, one, rows)))
+
+
+def _figure(result: CompareResult, one: _Compared, rows: dict[str, Difference]) -> Iterator[Figure]:
+    unit = one.axis.partition("[")[2].rstrip("]")
+    words = list(one.paths.values())
+    bars = [
+        Bar(f"{file.letter}  {file.title}{f', {words[k]}' if words[k] else ''}", value, _told(value, unit),
+            2 if words[k] == "before" else 3 if words[k] == "worst" else 1)
+        for index, file in enumerate(result.files)
+        for k, path in enumerate(one.paths)
+        if path in rows and is_number(value := rows[path].values[index])
+    ]  # fmt: skip
+    if len(bars) < 2:
+        return
+    limit = _limit(result, one.code, unit)
+    values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]
+    axis = Axis.around(one.axis, values) if unit == "dB" else Axis(one.axis, 0.0, max(values) or 1.0)
+    told = "; ".join(f"{bar.name} {bar.told}" for bar in bars) + (f"; {limit[1]}" if limit else "")
+    yield Figure(one.name, result.title, Bars(one.title, told, axis, bars, limit), one.caption)
+
+
+def _told(value: Any, unit: str) -> str:
+    return f"{value:.1f} dB" if unit == "dB" else f"{number(value, 3)} {unit}"
+
+
+def _limit(result: CompareResult, code: str, unit: str) -> tuple[float, str] | None:
+    """Where all machines have the same."""
+    limits: Sequence[float | None] = list({check.limit for check in result.checks if check.code == code})
+    if len(limits) != 1 or limits[0] is None:
+        return None
+    return limits[0], f"limit {number(limits[0])} {unit}"

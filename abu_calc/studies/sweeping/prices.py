@@ -1,0 +1,85 @@
+"""What to tighten, and what may be loosened, each with what it does to the level that 95 % of members keep."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, NamedTuple
+
+from abu_calc.analysis.sampling import Sample
+from abu_calc.studies.sweeping.answers import percentiles, there
+from abu_calc.studies.sweeping.columns import DECIDING, What
+from abu_calc.studies.sweeping.loosening import Loosened
+from abu_calc.studies.sweeping.records import Price, Sensitivity
+from abu_calc.studies.sweeping.store import Store, quoted
+
+FIRST: Final = 0.02
+"""A value whose total index is below decides nothing."""
+LEAST: Final = 40
+"""Members in each half for a price to be told."""
+KEPT: Final = 0.95
+"""Share of members whose level is told."""
+LITTLE: Final = 0.5
+"""What the level may rise by, and a value may still be loosened [dB]."""
+
+
+class Halves(NamedTuple):
+    """The members by one value: what the level is in its better and its other half."""
+
+    row: Sensitivity
+    better: str
+    median: float
+    gain: float
+    cost: float | None
+    within_chance: bool
+
+    @property
+    def idle(self) -> bool:
+        """Whether it decides nothing as it is, so that more scatter is worth a trial."""
+        return self.within_chance and self.row.total < FIRST
+
+
+def halves(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Halves, ...]:
+    """For each value of the file that is drawn as a number."""
+    (whole,) = percentiles(store, DECIDING[what], (KEPT,), there(store))
+    if whole is None:
+        return ()
+    drawn = {one.key for one in sample.factors if one.path and one.variation.numbers}
+    found = (_halves(store, DECIDING[what], row, whole) for row in ranked if row.key in drawn)
+    return tuple(one for one in found if one is not None)
+
+
+def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves | None:
+    key = quoted(row.key)
+    (middle,) = percentiles(store, row.key, (0.5,), there(store))
+    if middle is None:
+        return None
+    sides = []
+    for side, sign in (("lower", "<="), ("upper", ">")):
+        where = f"{there(store)} AND {key} {sign} {middle!r}"
+        many = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
+        # By the binomial law of how many of a half lie below its own 95 % level.
+        off = 1.96 * math.sqrt(KEPT * (1 - KEPT) / max(many, 1))
+        level, highest = percentiles(store, name, (KEPT, min(KEPT + off, 1.0)), where)
+        if level is not None and many >= LEAST:
+            sides.append((level, side, highest))
+    if not sides:
+        return None
+    (level, better, highest), worse = min(sides), max(sides)[0] if len(sides) > 1 else None
+    cost = None if worse is None else worse - whole
+    return Halves(row, better, middle, whole - level, cost, highest is None or whole <= highest)
+
+
+def prices(found: Sequence[Halves], tried: Mapping[str, Loosened]) -> tuple[Price, ...]:
+    """With the advice that follows: of loosening after it was tried only."""
+    return tuple(_price(one, tried.get(one.row.key)) for one in found)
+
+
+def _price(one: Halves, tried: Loosened | None) -> Price:
+    loosen = tried is not None and tried.rise is not None and tried.rise <= LITTLE and tried.fail <= 0
+    loosened: dict[str, Any] = {} if tried is None else {
+        "loosened_to": tried.way, "loosened_db": tried.rise, "loosened_fail": tried.fail, "loosened_of": tried.members,
+    }  # fmt: skip
+    return Price(
+        key=one.row.key, better=one.better, median=one.median, gain_db=one.gain, cost_db=one.cost,
+        within_chance=one.within_chance, **loosened,
+        advice="may be loosened" if loosen else "" if one.within_chance else "tighten",
+    )  # fmt: skip
