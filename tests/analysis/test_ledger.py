@@ -82,7 +82,7 @@ def test_what_is_left_out_for_being_light_takes_its_part_of_the_accuracy() -> No
 
 
 # whether weights are honest
-@pytest.mark.parametrize("speed", [300.0, 600.0, 1500.0])
+@pytest.mark.parametrize("speed", [300.0, 600.0, pytest.param(1500.0, marks=pytest.mark.slow)])
 def test_gravity_weighs_what_it_changes(speed: float) -> None:
     """Balls swing by a = g/(J R_p Ω²) once per turn; the axis, at 2Ω, by up to Σ m R_p a/2 over M.
 
