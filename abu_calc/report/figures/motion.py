@@ -1,6 +1,6 @@
 """The balls on their way from start to rest, and imbalance, level and speed meanwhile."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -16,9 +16,11 @@ SERIES: Final = 8
 
 
 class Motion(NamedTuple):
-    """A run as seen in the rotor; races of several planes lie over one another."""
+    """A run as seen in the rotor; races of several planes lie over one another. `others`: by what they are called."""
 
     view: "RotorView"
+    name: str = ""
+    others: Sequence[tuple[str, "RotorView"]] = ()
 
     @property
     def balls_mm(self) -> tuple[float, ...]:
@@ -69,6 +71,17 @@ def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Li
     jumps = [k for k in range(1, len(points)) if abs(points[k][1] - points[k - 1][1]) > 180.0]
     for start, end in pairwise((0, *jumps, len(points))):
         yield Line(points[start:end], f"ball {index}", (index - 1) % SERIES + 1)
+
+
+def caught(view: "RotorView", speed: "Array") -> Plot:
+    """Speed of the rotor and imbalance left against time, both of their largest."""
+    courses = ((speed, "speed", "{:.0f} rpm"), (view.residual_g_mm, "imbalance left", "{:.3g} g·mm"))
+    lines, told = [], []
+    for series, (values, name, form) in enumerate(courses, 1):
+        most = float(values.max()) or 1.0
+        lines.append(Line(_course(view, 100 * values / most, form)[0], f"{name}, of {form.format(most)}", series))
+        told.append(f"{name}: {_course(view, values, form)[1]}")
+    return Plot("Run-up", "; ".join(told), _time(view), Axis("share of the largest [%]", 0.0, 105.0), lines)
 
 
 def run_up(view: "RotorView", speed: "Array") -> Plot:
