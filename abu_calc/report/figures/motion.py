@@ -56,17 +56,20 @@ def level(view: "RotorView", limit: float | None, measured: float | None = None)
 
 
 def angles(view: "RotorView") -> Plot:
-    """Where the balls stand, from the imbalance, against time: the still picture of a motion."""
-    turned = (view.ball_angles_deg - view.imbalance_angle_deg + 180.0) % 360.0 - 180.0
+    """Where the balls stand, from the imbalance, against time: the still picture of a motion.
+
+    From 0 to 360°, so that balls about the place opposite the imbalance, where they gather, do not jump.
+    """
+    turned = (view.ball_angles_deg - view.imbalance_angle_deg) % 360.0
     lines = [line for index, row in enumerate(turned) for line in _without_jumps(view, row, index + 1)]
     last = ", ".join(f"{value:.0f}°" for value in turned[:, -1])
     told = f"The balls end at {last} from the imbalance" if len(turned) else "There are no balls"
-    up = Axis("angle of the balls from the imbalance [°]", -180.0, 180.0)
+    up = Axis("angle of the balls from the imbalance [°]", 0.0, 360.0)
     return Plot("Angles of the balls", told, _time(view), up, lines)
 
 
 def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Line]:
-    """A course in pieces: behind 180° it goes on at -180°."""
+    """A course in pieces: behind 360° it goes on at 0°."""
     points = list(zip(view.t_s.tolist(), angle.tolist(), strict=True))
     jumps = [k for k in range(1, len(points)) if abs(points[k][1] - points[k - 1][1]) > 180.0]
     for start, end in pairwise((0, *jumps, len(points))):

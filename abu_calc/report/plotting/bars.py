@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.report.figures.chart import Bar, Bars, Cells
-from abu_calc.report.plotting.plots import mark, paper, tick, words
+from abu_calc.report.plotting.plots import TITLE, mark, paper, tick, words
 from abu_calc.report.plotting.style import color_of, colors
 
 if TYPE_CHECKING:
@@ -16,8 +16,10 @@ AROUND: Final = 1.0
 """Inches: of a row, and of what is above and below all of them."""
 LABELS: Final = 10
 """The most values that are written along an axis of cells."""
-CELL: Final = 0.28
-PARTS: Final = (0.3, 0.4, 0.62, 0.82, 1.0)
+CELLS: Final = 0.28, 0.55
+"""Side of a cell, at least and at most; all of them beside one another take FIELD where they may."""
+FIELD: Final = 4.5
+PARTS: Final = (0.3, 0.4, 0.6, 0.78, 0.96)
 """Of a cell that is filled, by class; class 0 is a ring."""
 
 
@@ -27,7 +29,7 @@ def barred(one: Bars) -> "Figure":
 
     figure = Figure((WIDE, AROUND + ROW * max(len(one.rows), 2)), layout="constrained")
     axes, color = figure.add_subplot(), colors()
-    axes.set_title(words(one.title), pad=16 if one.limit else 6)
+    axes.set_title(words(one.title, TITLE), pad=16 if one.limit else 6)
     axes.set_xlim(one.axis.low, one.axis.high)
     axes.set_ylim(len(one.rows) - 0.35, -0.75)
     axes.set_xticks(one.axis.ticks, [tick(value) for value in one.axis.ticks])
@@ -74,17 +76,21 @@ def celled(one: Cells) -> "Figure":
     from matplotlib.figure import Figure
 
     columns, rows = len(one.columns), len(one.rows)
-    size = max(WIDE, min(CELL * columns + 1.2, 10.0)), max(2.4, min(CELL * rows, 8.0) + 1.4)
+    side = max(CELLS[0], min(CELLS[1], FIELD / columns))
+    size = max(WIDE, min(side * columns + 1.2, 10.0)), max(2.4, min(side * rows, 8.0) + 1.7)
     figure = Figure(size, layout="constrained")
     axes = figure.add_subplot()
-    axes.set_title(words(one.title))
+    axes.set_title(words(one.title, TITLE), pad=20)
+    axes.annotate(
+        words(one.up), (0, 1), (0, 5), xycoords="axes fraction", textcoords="offset points", ha="left", va="bottom"
+    )
     axes.set_xlim(-0.5, columns - 0.5)
     axes.set_ylim(-0.5, rows - 0.5)
     axes.set_aspect("equal", anchor="W")
-    for which, names, name in (("x", one.columns, one.across), ("y", one.rows, one.up)):
+    for which, names in (("x", one.columns), ("y", one.rows)):
         some = range(0, len(names), -(-len(names) // LABELS))
         getattr(axes, f"set_{which}ticks")(some, [words(names[k]) for k in some])
-        getattr(axes, f"set_{which}label")(words(name))
+    axes.set_xlabel(words(one.across), loc="left")
     axes.tick_params(labelcolor=colors()["soft"], length=2)
     for row, classes in enumerate(one.classes):
         for column, kind in enumerate(classes):

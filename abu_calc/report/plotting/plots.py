@@ -1,5 +1,6 @@
 """Charts on axes of matplotlib."""
 
+from textwrap import fill
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from abu_calc.escapes import escaped, shortened
@@ -12,17 +13,20 @@ if TYPE_CHECKING:
 
 SIZE: Final = (6.2, 4.0)
 """Inches."""
+HIGH: Final = 46
+"""Signs of a line beside the field."""
 LONGEST: Final = 84
-"""Signs of a text that has a line of its own."""
+TITLE: Final = 66
+"""Signs of a text that has a line of its own, and of one in larger letters."""
 FILLED: Final = (1, 6, 7, 8)
 """Series whose points are."""
 LETTER: Final = 0.0135
 """What a letter takes, as a share of the field's width, about."""
 
 
-def words(text: str) -> str:
+def words(text: str, most: int = LONGEST) -> str:
     """A text as figures may hold it."""
-    return shortened(escaped(text), LONGEST)
+    return shortened(escaped(text), most)
 
 
 def plotted(one: Plot) -> "Figure":
@@ -31,7 +35,7 @@ def plotted(one: Plot) -> "Figure":
 
     figure = Figure(SIZE, layout="constrained")
     axes = figure.add_subplot()
-    axes.set_title(words(one.title))
+    axes.set_title(words(one.title, TITLE))
     _along(axes, one.across, "x")
     _along(axes, one.up, "y")
     axes.grid(color=colors()["line"], linewidth=0.6)
@@ -88,7 +92,7 @@ def _along(axes: "Axes", axis: Axis, which: Literal["x", "y"]) -> None:
         getattr(axes, f"{which}axis").set_minor_locator(_none())
     getattr(axes, f"set_{which}lim")(axis.low, axis.high)
     getattr(axes, f"set_{which}ticks")(axis.ticks, [tick(value, log=axis.log) for value in axis.ticks])
-    getattr(axes, f"set_{which}label")(words(axis.name))
+    getattr(axes, f"set_{which}label")(words(axis.name) if which == "x" else fill(words(axis.name), HIGH))
     axes.tick_params(axis=which, labelcolor=colors()["soft"])
 
 
