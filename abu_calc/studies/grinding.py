@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar
 
 from abu_calc.analysis import contact_facts as facts
 from abu_calc.analysis import grinding as analysis
+from abu_calc.analysis.agreement import agreement
 from abu_calc.analysis.grinding import Side, Work
 from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
 from abu_calc.analysis.grinding_verdict import in_words, shortest
@@ -123,7 +124,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         design = size_design(tables)
         work = analysis.at_work(design, accuracy, progress)
         tried = () if work.always else analysis.remedies(work, accuracy, progress)
-        compared = analysis.agreement(work, accuracy, progress)
+        compared = agreement(work, accuracy, progress)
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None

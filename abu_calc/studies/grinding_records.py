@@ -9,8 +9,9 @@ from typing import Annotated, Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.analysis.agreement import Agreement
 from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
-from abu_calc.analysis.grinding import Agreement, Remedy
+from abu_calc.analysis.grinding import Remedy
 from abu_calc.analysis.under_load import Steady
 from abu_calc.analysis.wear import Stage, Wear
 from abu_calc.analysis.working import Working
@@ -279,11 +280,12 @@ class Comparison(Record):
     axis: Annotated[float | None, Quantity("axis", "", 3)]
     reaction: Annotated[float | None, Quantity("variable force", "", 3)]
     imbalance: Annotated[float | None, Quantity("imbalance", "", 3)]
+    from_idle: Annotated[bool, Quantity("balls get there from where they stand at idle")]
 
     @classmethod
     def of(cls, found: Agreement) -> Self:
         """The same numbers."""
-        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance)
+        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance, from_idle=found.reached)
 
 
 @record

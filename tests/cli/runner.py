@@ -50,9 +50,13 @@ EXTRAS = ("heyoka", "llvmlite")
 
 
 def without_extras(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As where they are not installed. They compile for each number of balls, for longer than short runs take."""
+    """As where they are not installed, on one processor; what is patched holds in this process alone.
+
+    They compile for each number of balls, and processes start, for longer than short runs take.
+    """
     found = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in EXTRAS else found(name))
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
 
 
 def _refuse(name: str) -> None:

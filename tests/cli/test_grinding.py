@@ -114,6 +114,7 @@ def test_golden_machine(sense: int) -> None:
     assert 15 < off < 35  # that of the resultant; Θ₁ and Θ₂ are off by up to 31°
     assert found.status == "fail"
     assert result["helps"] is False
+    assert result["agreement"].pop("from_idle") is True
     assert max(result["agreement"].values()) < 0.02
 
 

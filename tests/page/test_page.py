@@ -5,7 +5,6 @@ import math
 import re
 import shlex
 from collections.abc import Iterator
-from functools import cache
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
@@ -14,36 +13,18 @@ import pytest
 
 from abu_calc.report.figures.chart import Axis, Bar, Bars, Line, Plot, Point
 from abu_calc.report.page.chart_svg import bars, plot
-from tests.cli.runner import abu
+from tests.cli.runner import abu, once
+from tests.page.pages import ALSO, COMMANDS, PAGES
 from tests.page.reader import read
 
-COMMANDS = {
-    "size": ("size", "avtovaz-707-222", "--set", "autobalancer.capacity_margin=1.3"),
-    "check-fit": ("check-fit", "mmg-3200k-knife-shaft"),
-    "balance": ("balance", "sapropel-screw-rig"),
-    "stability": ("stability", "avtovaz-707-222", "--arrangement", "fan"),
-    "simulate": ("simulate", "avtovaz-707-222", "--duration", "0.3"),
-}
+MOVING = ("motion", "settling", "level", "run-up", "orbit")
+"""Figures of motions begin so."""
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w])")
 
 
-@pytest.fixture(scope="module")
-def written(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The text of a command's page, and its JSON document."""
-    folder = tmp_path_factory.mktemp("pages")
-
-    @cache
-    def made(name: str) -> tuple[str, dict[str, Any]]:
-        seen = abu(*COMMANDS[name], "--json", "--output", str(folder / f"{name}.html"))
-        assert seen.status in (0, 1), seen.err
-        return (folder / f"{name}.html").read_text(encoding="utf-8"), seen.document
-
-    return made
-
-
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", PAGES)
 def test_page_is_well_formed_and_asks_no_network(name: str, written: Any) -> None:
-    text, document = written(name)
+    text, document, _ = written(name)
     page = read(text)
     assert page.faults == []
     assert not re.search(r"https?:|//\w", re.sub(r"<script>.*?</script>", "", text, flags=re.DOTALL))
@@ -57,24 +38,46 @@ def test_page_is_well_formed_and_asks_no_network(name: str, written: Any) -> Non
     assert title.startswith({"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}[document["status"]])
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", PAGES)
 def test_each_number_in_tables_is_one_of_the_document(name: str, written: Any) -> None:
-    text, document = written(name)
-    held = list(_leaves(document))
+    text, document, _ = written(name)
+    cells = read(text).cells
+    found = [token for cell in cells for token in NUMBER.findall(cell)]
+    assert len(found) > 10
+    assert _unknown(found, name, document) == []
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_each_number_that_a_figure_tells_is_one_of_the_document(name: str, written: Any) -> None:
+    """But of motions: their samples are in no document."""
+    text, document, _ = written(name)
+    told = re.findall(r'<desc id="chart-([\w-]+)-d">(.*?)</desc>', text)
+    assert told or name == "compare-seats"
+    found = [token for which, words in told if not which.startswith(MOVING) for token in NUMBER.findall(words)]
+    assert _unknown(found, name, document, rounded=True) == []
+
+
+def _unknown(found: list[str], name: str, document: dict[str, Any], *, rounded: bool = False) -> list[str]:
+    """Those that are neither a number of the document nor stand in its words."""
+    held = [
+        one
+        for each in (document, *(once(*of, "--json").document for of in ALSO.get(name, ())))
+        for one in _leaves(each)
+    ]
     numbers = [float(one) for one in held if isinstance(one, (int, float)) and not isinstance(one, bool)]
     # Of a complex number tables have the angle, the document its parts.
     numbers += [math.degrees(math.atan2(after, before)) for before, after in pairwise(numbers)]
     words = " ".join(one for one in held if isinstance(one, str))
-    cells = read(text).cells
-    found = [token for cell in cells for token in NUMBER.findall(cell)]
-    assert len(found) > 10
-    assert [one for one in found if not _known(one, numbers) and one not in words] == []
+    return [one for one in found if not _known(one, numbers, rounded=rounded) and one not in words]
 
 
-def _known(token: str, numbers: list[float]) -> bool:
-    """Whether a number of the document, as it is or in hundredths, is this one to the digits shown."""
+def _known(token: str, numbers: list[float], *, rounded: bool) -> bool:
+    """Whether a number of the document, as it is or in hundredths, is this one to the digits shown.
+
+    `rounded`: to three digits, as figures have it, where it is larger.
+    """
     value, digits = float(token), len(token.partition("e")[0].partition(".")[2])
-    room = max(0.5 * 10.0**-digits, 0.5e-3 * abs(value) if not digits else 0) * 1.000001
+    room = max(0.5 * 10.0**-digits, (5e-3 if rounded else 0.5e-3) * abs(value) if not digits else 0) * 1.000001
     if "e" in token:
         room *= 10.0 ** int(token.partition("e")[2])
     parts = 1.0, 100.0, 1000.0, 1e6
@@ -92,7 +95,7 @@ def _leaves(value: Any) -> Iterator[Any]:
 
 
 def test_size_has_its_figures_with_captions_and_alternatives(written: Any) -> None:
-    text, document = written("size")
+    text, document, _ = written("size")
     page = read(text)
     figures = [attributes for tag, attributes in page.tags if tag == "svg"]
     assert len(figures) >= 6
@@ -109,7 +112,7 @@ def test_size_has_its_figures_with_captions_and_alternatives(written: Any) -> No
 
 
 def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
-    text, document = written("size")
+    text, document, _ = written("size")
     words = " ".join(data for _, data in read(text).texts)
     assert "Calculation note" in words
     assert "Range:" in words
@@ -120,7 +123,7 @@ def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
 
 @pytest.mark.parametrize("name", ["size", "simulate", "stability", "check-fit"])
 def test_command_on_the_page_gives_the_same_result(name: str, written: Any) -> None:
-    text, document = written(name)
+    text, document, _ = written(name)
     command = next(words for tag, words in read(text).texts if tag == "pre" and words.startswith("abu "))
     again = shlex.split(command)
     assert again == ["abu", *COMMANDS[name]]

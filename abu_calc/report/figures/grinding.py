@@ -27,6 +27,8 @@ def grinding_extras(result: GrindingResult) -> Extras:
         *_levels(result), *_wear(result), *_orbits(result), *_hodograph(result), *_response(result), *_force(result),
         *_profile(result),
     )  # fmt: skip
+    if result.profile is None:  # a face presses by nothing in the plane: over angles and speeds all is the same
+        figures = tuple(one for one in figures if one.name in ("levels", "orbit-simulated"))
     return Extras(figures, tuple(step_blocks(STEPS["grinding"], _numbers(result))))
 
 
@@ -175,7 +177,7 @@ def _plotted(
         return
     xs, ys = [x for x, _ in found], [*(y for _, y in found), *(one.y for one in marks), *([limit[0]] if limit else [])]
     horizontal = Axis(across, min(xs), max(xs)) if max(xs) > min(xs) else Axis.around(across, xs)
-    told = "; ".join(f"{line.name}: {_ends(line)}" for line in lines)
+    told = "; ".join(f"{line.name}: {_extremes(line)}" for line in lines)
     vertical = Axis.around(up, [0.0, *ys], zero=min(ys) >= 0)
     yield Figure(name, section, Plot(title, told, horizontal, vertical, lines, marks, limit), caption)
 
@@ -186,9 +188,9 @@ def _unbroken(name: str, series: int, course: Course) -> Iterator[Line]:
             yield Line([(x, y) for x, y in part if y is not None], name, series)
 
 
-def _ends(line: Line) -> str:
-    (first, before), (last, after) = line.points[0], line.points[-1]
-    return f"{number(before, 3)} at {number(first)}, {number(after, 3)} at {number(last)}"
+def _extremes(line: Line) -> str:
+    least, most = (chosen(line.points, key=lambda one: one[1]) for chosen in (min, max))
+    return ", ".join(f"{word} {number(y, 3)} at {number(x)}" for word, (x, y) in (("least", least), ("most", most)))
 
 
 def _um(length_mm: float | None) -> float | None:

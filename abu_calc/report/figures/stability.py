@@ -72,7 +72,7 @@ def _eigenvalues(result: StabilityResult) -> Iterator[Figure]:
     across = Axis.around("real part [1/s]", [0.0, *(re for re, _ in values)])
     up = Axis.around("imaginary part [1/s]", [0.0, *(im for _, im in values)])
     edge = Line(((0.0, up.low), (0.0, up.high)), "edge of stability", 2)
-    told = "; ".join(f"{number(re, 5)} ± {number(im, 5)}i" if im else number(re, 5) for re, im in values if im >= 0)
+    told = _in_words(values)
     chart = Plot("Eigenvalues", told, across, up, (edge,), [Point(*one) for one in values])
     caption = (
         "Eigenvalues of small motions about the balanced state at the speed judged: left of the dashed line they die "
@@ -86,7 +86,7 @@ def _multipliers(result: StabilityResult) -> Iterator[Figure]:
     if not values:
         return
     across, up = alike("real part", "imaginary part", [*RIM, *values])
-    told = "; ".join(f"{number(re, 5)} ± {number(im, 5)}i" if im else number(re, 5) for re, im in values if im >= 0)
+    told = _in_words(values)
     rim = Line(RIM, "edge of stability", 2)
     chart = Plot("Floquet multipliers", told, across, up, (rim,), [Point(*one) for one in values])
     caption = (
@@ -94,6 +94,13 @@ def _multipliers(result: StabilityResult) -> Iterator[Figure]:
         "middle the faster."
     )
     yield Figure("multipliers", "Floquet multipliers", chart, caption)
+
+
+def _in_words(values: Sequence[tuple[float, float]]) -> str:
+    """One of a number and its conjugate."""
+    return "; ".join(
+        f"{number(re, 5)}, imaginary part ± {number(im, 5)}" if im else number(re, 5) for re, im in values if im >= 0
+    )
 
 
 def _numbers(result: StabilityResult) -> tuple[str, ...]:

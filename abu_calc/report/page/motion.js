@@ -2,7 +2,7 @@ const canvas = document.getElementById("motion"), pen = canvas.getContext("2d");
 const play = document.getElementById("motion-play"), time = document.getElementById("motion-time");
 const pace = document.getElementById("motion-pace"), told = document.getElementById("motion-told");
 const start = document.getElementById("motion-start"), side = 320, turn = Math.PI / 180;
-let run, last, reach, now = 0, playing = false, before = 0, printing = false;
+let run, last, reach, now = 0, playing = false, before = 0, printing = false, kept = 0;
 
 function choose(one) {
   run = one;
@@ -95,6 +95,6 @@ canvas.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
-addEventListener("beforeprint", () => { printing = true; draw(); });
-addEventListener("afterprint", () => { printing = false; draw(); });
+addEventListener("beforeprint", () => { keepPlaying(false); printing = true; kept = now; set(last); });
+addEventListener("afterprint", () => { printing = false; set(kept); });
 choose(data.runs[0]);

@@ -1,0 +1,30 @@
+"""The commands whose pages are looked at."""
+
+import pytest
+
+COMMANDS = {
+    "size": ("size", "avtovaz-707-222", "--set", "autobalancer.capacity_margin=1.3"),
+    "check-fit": ("check-fit", "mmg-3200k-knife-shaft"),
+    "balance": ("balance", "sapropel-screw-rig"),
+    "stability": ("stability", "avtovaz-707-222", "--speeds", "500:8000", "--arrangement", "fan", "--crossings"),
+    "simulate": ("simulate", "avtovaz-707-222", "--duration", "0.3"),
+    "compare-seats": ("compare", "mmg-3200k-knife-shaft", "--variant", "bearing.0.shaft_fit=m6"),
+    "run-up": ("simulate", "avtovaz-707-222", "--scene", "run-up", "--set", "run_up.time_s=0.4"),
+    "arm": ("stability", "swing-arm-grinder", "--speeds", "500:8000"),
+    "compare": ("compare", "avtovaz-707-222", "msh-230", "avtovaz-707-305"),
+    "grinding": ("grinding", "avtovaz-707-222"),
+    "face": ("grinding", "msh-230"),
+    "accuracy": ("accuracy", "avtovaz-707-222", "--budget", "4"),
+    "sweep": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "12"),
+    "arm-size": ("size", "swing-arm-grinder"),
+}
+"""By the names that tests call them."""
+QUICK = ("size", "check-fit", "balance", "stability", "simulate", "compare-seats")
+"""Those that every run of the tests looks at."""
+PAGES = [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in COMMANDS]
+"""All of them, as parameters."""
+ALSO = {
+    "compare-seats": [("check-fit", "mmg-3200k-knife-shaft")],
+    "compare": [("size", "avtovaz-707-222"), ("size", "msh-230"), ("size", "avtovaz-707-305")],
+}
+"""What pages show beside their own document: a comparison lists what all have alike."""
