@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from abu_calc.analysis.course import axis_place, settling_times, total_imbalance
 from abu_calc.analysis.response import axis_velocity
-from abu_calc.analysis.simulate import Simulation
 from abu_calc.dynamics.race import balls_of
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.units import from_si, level_from_velocity
 
 Array = NDArray[np.float64]
@@ -45,12 +45,11 @@ class RotorView:
     ball_radii_mm: tuple[float, ...]
 
     @classmethod
-    def of(cls, run: Simulation, level: Level = level_from_velocity) -> Self | None:
-        """Of a run; None of one so long that its beginning is not held."""
-        scene = run.scene
+    def of(cls, scene: Scene, run: Trajectory, level: Level = level_from_velocity, most: int = MOST) -> Self | None:
+        """Of a run, in at most so many samples; None of one so long that its beginning is not held."""
         times = settling_times(scene)
         try:
-            states = run.trajectory.at(times)
+            states = run.at(times)
         except ValueError:
             return None
         turn, speed = scene.rotor.turning(times, states, scene.speed)
@@ -62,7 +61,7 @@ class RotorView:
         squares = _over_a_turn(axis_velocity(scene, states) ** 2, times, turn)[:, inner]
         times, turn, states = times[inner], turn[inner], states[:, inner]
         # Denser at the start, where all moves.
-        index = np.unique(((len(times) - 1) * np.linspace(0, 1, MOST) ** 2).round().astype(np.intp))
+        index = np.unique(((len(times) - 1) * np.linspace(0, 1, most) ** 2).round().astype(np.intp))
         seen = (from_si(1.0, "um") * (swinging[0] + 1j * swinging[1]) * np.exp(-1j * turn))[index]
         angles = _angles(scene, states[:, index])
         changes = bool(scene.rotor.states) or scene.start_speed != scene.speed
