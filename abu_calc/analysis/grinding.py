@@ -1,8 +1,5 @@
-"""A machine at its work, with and without its autobalancer: levels, remedies that were tried, and how far closed form
-and simulation agree.
-"""
+"""A machine at its work, with and without its autobalancer: levels, and remedies that were tried."""
 
-import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -11,11 +8,10 @@ from typing import Final, Literal
 from abu_calc.analysis.bouncing import bounces, bouncing
 from abu_calc.analysis.machine import Failure, Run
 from abu_calc.analysis.under_load import Steady, bare, changed, contact_presses, crossing, fitted, runout_of
-from abu_calc.analysis.working import Working, only_contact, seen, working
+from abu_calc.analysis.working import Working, seen, working
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.progress import Progress, silent
-from abu_calc.scenes.durations import free_rates
 from abu_calc.scenes.from_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.budget import accuracy_budget
@@ -23,15 +19,11 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import Levels, Vibration, handle_levels
 from abu_calc.units import from_si
 
-AGREES: Final = 0.02
-"""How far closed form and simulation of the same contact may be apart, relative: the averages leave out that balls
-swing twice per turn, and the run may not have settled to the last."""
-
 EXCEEDED: Final = math.sqrt(2)
 """How many times the closed form a run may show, until it is believed instead: 3 dB."""
 
-LONG, LONGEST = 7.0, 6.0
-"""Decay times of the slowest balls that a run to be compared lasts, and the most seconds."""
+LONGEST: Final = 6.0
+"""Seconds after which a start that is louder than the usual one is taken to stay so."""
 
 LOUDER: Final = 1.0
 """By so many dB a start is another state than the usual one, not the same with what has not died out."""
@@ -281,69 +273,3 @@ def _rounded(value: float, *, down: bool) -> float:
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
     steps = math.floor(value / unit * (1 + 1e-9)) if down else math.ceil(value / unit * (1 - 1e-9))
     return float(f"{steps * unit:.6g}")
-
-
-@dataclass(frozen=True)
-class Agreement:
-    """Relative differences of the simulated contact from the closed form: axis, force, resulting imbalance.
-
-    `apart`: the largest; `failure`: why there is none.
-    """
-
-    axis: float | None = None
-    reaction: float | None = None
-    imbalance: float | None = None
-    failure: str | None = None
-
-    @property
-    def apart(self) -> float | None:
-        """The largest."""
-        return max((each for each in (self.axis, self.reaction, self.imbalance) if each is not None), default=None)
-
-
-def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
-    """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
-
-    None where wheel and work part or balls do not balance: the closed form does not speak of these. A face leaves
-    balls where they stand.
-    """
-    steady = work.fitted.steady
-    if (
-        not contact_presses(work.design.case)
-        or work.fitted.parts
-        or steady.balls is None
-        or steady.balls.places != "balanced"
-        or steady.axis is None
-    ):
-        return None
-    scene = only_contact(scene_of_design(work.design, "grinding", "settled"))
-    sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
-    rate = min(loaded_rate(work.design, steady.balls.worst), sway)
-    longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
-    scene = replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
-    try:
-        run = working(scene, accuracy, progress)
-    except NotTrustworthyError as error:
-        return Agreement(failure=str(error).splitlines()[0])
-    return compared(steady, run, work.design.autobalancer.static_moment)
-
-
-def loaded_rate(design: Design, stiffness: tuple[complex, complex]) -> float:
-    """Slowest decay rate of the balls under load [1/s]; below zero where they flutter or go away."""
-    drag, inertia = design.case.drag, design.case.inertia_factor
-    return min((drag - abs(cmath.sqrt(drag**2 - 4 * inertia * k).real)) / (2 * inertia) for k in stiffness)
-
-
-def compared(steady: Steady, run: Working, moment: float) -> Agreement:
-    """Differences relative to the larger of what is compared and what the imbalance that the balls carry would cause.
-
-    `moment` Σ m·R_p [kg m].
-    """
-    axis, total = steady.axis or (0j, 0j), steady.imbalance or 0j
-    carried = max(abs(total - steady.own), 0.01 * moment)
-    force = carried * steady.contact.speed**2
-    off = max(abs(found - told) for found, told in zip(run.axis, axis, strict=True))
-    usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
-    told = steady.reaction or 0j
-    pressed = abs(run.reaction - told) / max(abs(told), force) if len(run.force) else None
-    return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)

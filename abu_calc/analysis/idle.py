@@ -15,6 +15,8 @@ stays on the work took SciPy 200 000, events counted in, until two runs agreed; 
 
 BALANCE = "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
 
+SEE = "See ABU701."
+
 JUDGED = "ABU701", "ABU702", "ABU704"
 
 
@@ -27,11 +29,9 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | Non
     if ensemble is None:
         reason = "the balls cannot carry the imbalance side by side"
         return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in JUDGED)
-    return (
-        _balances(design, ensemble, remedy),
-        _settles(design, ensemble, remedy),
-        _none_hangs(ensemble, remedy),
-    )
+    first = _balances(design, ensemble, remedy)
+    told = SEE if first.remedy else remedy
+    return first, _settles(design, ensemble, told), _none_hangs(ensemble, told)
 
 
 def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = None) -> Check:

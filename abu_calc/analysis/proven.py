@@ -5,13 +5,14 @@ from dataclasses import dataclass
 from abu_calc.analysis.ensemble import Ensemble, simulate_members
 from abu_calc.analysis.remedies import passes, remedy
 from abu_calc.parallel import Workers
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, silent, within
 from abu_calc.sizing import instead
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design
 
-MOST_OTHERS, MOST_WORK = 3, 600_000
-"""Candidates that are tried when the best one does not pass, and evaluations beyond which nothing more is tried."""
+MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5
+"""Candidates that are tried when the best one does not pass, evaluations beyond which nothing more is tried, and the
+share of these that remedies may take in any case."""
 
 
 @dataclass(frozen=True)
@@ -41,13 +42,13 @@ def proven(
         if spent > MOST_WORK:
             break
         other = instead(design, one, "does not balance from every start")
-        progress(f"idle: {_words(one)} instead")
-        found = simulate_members(other, accuracy, silent, workers)
+        found = simulate_members(other, accuracy, within(progress, f"{_words(one)} instead"), workers)
         spent += found.work
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
             return Proven(other, found, warnings=(text,))
-    return Proven(design, first, remedy(design, first, MOST_WORK - spent, accuracy, progress, workers))
+    left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
+    return Proven(design, first, remedy(design, first, left, accuracy, progress, workers))
 
 
 def _carries(design: Design) -> bool:

@@ -1,14 +1,16 @@
 """What would make a design pass from every start: small changes of its machine, each tried before it is named."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from abu_calc.analysis.ensemble import Ensemble, simulate_members
 from abu_calc.formulas.suspension import Springs
 from abu_calc.parallel import Workers
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, within
+from abu_calc.scenes.members import Dip
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp
+from abu_calc.units import from_si, to_si
 
 OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
@@ -17,6 +19,22 @@ MOST_DRAGS, NEAR = 5, 1.2
 
 FASTER, DAMPED = 0.5, 2.0
 """Of the run-up's time, and of the suspension's damping."""
+
+BEFORE = 2
+"""Drags that are tried before what leaves the oil as it is."""
+
+BELOW, PAUSE, LEAST = 2 / 3, 2.0, 0.05
+"""Of the speed at which balls hang, to which the rotor is slowed; for how long [s]; and the least speed, of the
+rotor's, at which they hang turning."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """What is changed, in words; the machine then, and the dips of the speed with each of which it must pass."""
+
+    name: str
+    design: Design
+    dips: tuple[Dip | None, ...] = (None,)
 
 
 def remedy(
@@ -27,33 +45,67 @@ def remedy(
     `first`: the starts of the design as it is; `most`: evaluations that all trials may take, None where it is none.
     """
     tried = []
-    for name, other in changes(design, first):
+    for change in changes(design, first):
         if most <= 0:
             break
-        progress(f"idle: with {name}")
-        found = simulate_members(other, accuracy, silent, workers, (1.0,))
-        if passes(other, found):
-            return f"Tried: with {name} all {found.members} starts pass."
-        tried.append(name)
-        most -= found.work
-    if not tried:
-        return None
-    return f"Tried without success: {'; '.join(tried)}. Not tried: a pause at a lower speed after the run-up."
+        for dip in change.dips:
+            told = within(progress, f"with {change.name}")
+            found = simulate_members(change.design, accuracy, told, workers, (1.0,), dip=dip)
+            most -= found.work
+            if not passes(change.design, found):
+                break
+        else:
+            return f"Tried: with {change.name} all {found.members} starts pass."
+        tried.append(change.name)
+    return f"Tried without success: {'; '.join(tried)}." if tried else None
 
 
-def changes(design: Design, first: Ensemble) -> Iterator[tuple[str, Design]]:
-    """Another drag, a faster run-up where run-ups alone fail, springs with more damping."""
+def changes(design: Design, first: Ensemble) -> Iterator[Change]:
+    """Another drag, a dip of the speed where balls hang, a faster run-up where run-ups alone fail, more damping."""
     case, table = design.case, design.case.table
-    for drag in other_drags(case.drag, only_more=bool(first.hanging)):
-        yield f"autobalancer.rolling_drag_per_s = {drag:.3g}", replace(design, case=replace(case, drag=drag))
+    drags = other_drags(case.drag, only_more=bool(first.hanging))
+    with_drags = [
+        Change(f"autobalancer.rolling_drag_per_s = {drag:.3g}", replace(design, case=replace(case, drag=drag)))
+        for drag in drags
+    ]
+    yield from with_drags[:BEFORE]
+    if dips := _dips(design, first):
+        yield Change(_words(dips[0]), design, dips)
     if table.run_up and not table.motor and all(one.member.run_up for one in first.given if not one.balanced):
         time = FASTER * table.run_up.time_s
         faster = table.model_copy(update={"run_up": RunUp(time_s=time)})
-        yield f"run_up.time_s = {time:.3g}", replace(design, case=replace(case, table=faster))
+        yield Change(f"run_up.time_s = {time:.3g}", replace(design, case=replace(case, table=faster)))
     if isinstance(case.suspension, Springs):
         x, y = (DAMPED * one for one in case.suspension.damping)
         held = replace(case.suspension, damping=(x, y))
-        yield "suspension.damping_ratios twice as large", replace(design, case=replace(case, suspension=held))
+        damped = replace(design, case=replace(case, suspension=held))
+        yield Change("suspension.damping_ratios twice as large", damped)
+    yield from with_drags[BEFORE:]
+
+
+def _dips(design: Design, first: Ensemble) -> tuple[Dip, ...]:
+    """To below the speed at which balls hang, where they come to rest in their race, and up as in a run-up or sooner.
+
+    Above that speed they go on hanging, the better the nearer the rotor is to it. None for a motor, which sets its own
+    pace, and for balls that hardly turn.
+    """
+    table, speed = design.case.table, design.case.speed
+    caught = min(((1 - one.slip) * speed for one in first.given if one.hanging), default=0.0)
+    if table.motor or caught < LEAST * speed:
+        return ()
+    given = table.run_up or RunUp()
+    low = float(f"{from_si(BELOW * caught, 'rpm'):.2g}")
+    share = 1 - to_si(low, "rpm") / speed
+    return tuple(
+        Dip(to_si(low, "rpm"), share * given.run_down_s, PAUSE, sooner * share * given.time_s)
+        for sooner in (1.0, FASTER)
+    )
+
+
+def _words(dip: Dip) -> str:
+    """The slowest rise of those that are tried."""
+    low = from_si(dip.low, "rpm")
+    return f"a pause of {dip.pause:g} s at {low:.0f} rpm after the run-up (up again in {dip.rise:.1g} s)"
 
 
 def other_drags(given: float, *, only_more: bool) -> list[float]:

@@ -35,10 +35,10 @@ def check_fit(
     short = None if explain else lambda: _screen(result)
     return Outcome.of(
         result,
-        lambda: _blocks(source, result, explain),
+        lambda: _blocks(result, explain),
         short,
         lambda: _drawings(result),
-        lambda: _extras(source, result),
+        lambda: _extras(result),
     )
 
 
@@ -48,20 +48,20 @@ def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
     return check_fit_screen(result)
 
 
-def _blocks(source: "Machine", result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:
+def _blocks(result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:
     from abu_calc.report.fit_report import check_fit_blocks
 
-    return (*check_fit_blocks(result), *(_note(source, result) if explain else ()))
+    return (*check_fit_blocks(result), *(_note(result) if explain else ()))
 
 
-def _note(source: "Machine", result: "CheckFitResult") -> tuple[Block, ...]:
+def _note(result: "CheckFitResult") -> tuple[Block, ...]:
     """Every formula with the numbers of each bearing."""
     from abu_calc.report.explain import step_blocks
     from abu_calc.report.fit_numbers import seat_numbers
     from abu_calc.report.steps import STEPS
     from abu_calc.studies.seat_model import bearing_models
 
-    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(source), result.seats)))
+    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(result), result.seats)))
 
 
 def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
@@ -70,11 +70,11 @@ def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
     return seat_sheets(result)
 
 
-def _extras(source: "Machine", result: "CheckFitResult") -> "Extras":
+def _extras(result: "CheckFitResult") -> "Extras":
     from abu_calc.report.figures.check_fit import check_fit_figures
     from abu_calc.report.figures.figure import Extras
 
-    return Extras(tuple(check_fit_figures(result)), _note(source, result))
+    return Extras(tuple(check_fit_figures(result)), _note(result))
 
 
 def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":

@@ -1,9 +1,10 @@
 """Which field to write on the drawing: by the makers' catalogue, the grip, the stress and the clearance left."""
 
 from collections.abc import Callable, Iterable
+from functools import cache, lru_cache
 from typing import Final, NamedTuple
 
-from abu_calc.fits.creep import creep
+from abu_calc.fits.creep import holds_at_start
 from abu_calc.fits.joint import Joint
 from abu_calc.fits.words import of_all
 from abu_calc.standards.limits import Seat, tolerance_classes
@@ -70,7 +71,9 @@ def neighbours(best: Joint, start: Start, jams: Callable[[Joint], str | None]) -
     found = []
     for way in (looser, tighter):
         why = ((one, _why_not(one, start) or jams(one)) for one in way)
-        found += [Rejected(one.tolerance_class, reason) for one, reason in why if reason][:1]
+        # The first alone is asked for: what the others leave of the clearance is not integrated.
+        first = next((Rejected(one.tolerance_class, reason) for one, reason in why if reason), None)
+        found += [first] if first else []
     return tuple(found)
 
 
@@ -97,7 +100,7 @@ def _first(joints: Iterable[Joint], start: Start) -> Joint | None:
 
 
 def _will_do(joint: Joint, start: Start) -> bool:
-    return joint.holds and creep(joint, *start).holds_at_start is not False
+    return joint.holds and holds_at_start(joint, *start) is not False
 
 
 def _why_not(joint: Joint, start: Start) -> str | None:
@@ -108,27 +111,34 @@ def _why_not(joint: Joint, start: Start) -> str | None:
         return f"creeps ({mean:.3g} µm in the mean, {needed:.3g} needed), {of_all(joint.short)} fall short"
     if joint.stress == "fail":
         return f"overstressed, {from_si(joint.tightest, 'um'):.3g} µm at most, {joint.stress_limit.by}"
-    if creep(joint, *start).holds_at_start is False:
+    if holds_at_start(joint, *start) is False:
         return "slips under the starting torque"
     if not joint.must_grip and joint.clearance_probability < LOOSE_ENOUGH:
         return f"holds the ring fast, {of_all(joint.clearance_probability)} are loose"
     return None
 
 
-def _by_mean(joint: Joint) -> list[Joint]:
+def _by_mean(joint: Joint) -> tuple[Joint, ...]:
     """Every tabulated class, from loose to tight."""
+    return _classes(joint.with_class(tolerance_classes(joint.seat)[0]))
+
+
+@lru_cache(maxsize=4)
+def _classes(joint: Joint) -> tuple[Joint, ...]:
+    """The same joints for all who ask of one seat, so that what they work out is worked out once."""
     joints = (joint.with_class(name) for name in tolerance_classes(joint.seat))
-    return sorted(joints, key=lambda one: (one.mean, one.interference.smallest))
+    return tuple(sorted(joints, key=lambda one: (one.mean, one.interference.smallest)))
 
 
-def _like(joint: Joint) -> list[Joint]:
+def _like(joint: Joint) -> tuple[Joint, ...]:
     """Classes of the grade, from loose to tight; beyond the tightest those of the next coarser grades."""
     grade = int(_grade(joint.tolerance_class))
     every = _by_mean(joint)
     own = [one for one in every if int(_grade(one.tolerance_class)) == grade]
     top = max(one.mean for one in own)
-    return own + [one for one in every if int(_grade(one.tolerance_class)) > grade and one.mean > top]
+    return (*own, *(one for one in every if int(_grade(one.tolerance_class)) > grade and one.mean > top))
 
 
+@cache
 def _grade(tolerance_class: str) -> str:
     return tolerance_class.lstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")

@@ -52,8 +52,8 @@ class Mounting:
         """Share of bearings of a group that keep less than a clearance [m]."""
         start = Interval(*radial_clearance(group, self.bore))
         middle, sigma = (start.smallest + start.largest) / 2, (start.largest - start.smallest) / 6
-        level = clearance + self.warmth - middle
-        return sum(share * 0.5 * math.erfc(-(level + taken) / (sigma * math.sqrt(2))) for taken, share in self.law)
+        level, scale = clearance + self.warmth - middle, sigma * math.sqrt(2)
+        return sum([share * 0.5 * math.erfc(-(level + taken) / scale) for taken, share in self.law])
 
     def keeps(self, group: str) -> bool:
         """Whether all but 0.135 % of the bearings of a group keep clearance."""
@@ -73,13 +73,13 @@ class Mounting:
 
 @formula(
     "Clearance that a bearing keeps",
-    "initial − change of both raceways − α·(d₁+D₁)/2·ΔT",
+    "initial − change of both raceways − α·(d_i+d_e)/2·ΔT",
     "m",
     where=(
-        "The raceways change by the raceway change at the interference less smoothing and less what warmth takes from "
-        "the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the probable one "
-        "are the 0.135 % and 99.865 % ends of initial − Σ rate·max(interference, 0), integrated over the three normal "
-        "laws. ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways."
+        "The raceways change by the raceway change at the interference less smoothing and less what warmth takes "
+        "from the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the "
+        "probable one are the 0.135 % and 99.865 % ends of initial − Σ rate·max(interference, 0), integrated over "
+        "the three normal laws."
     ),
     checked=("deep groove ball bearings",),
     assumed="rings as plain tubes; sizes and clearance independent, normal, half a field = 3σ",
@@ -133,7 +133,7 @@ def _growth(joint: Joint) -> _Law:
 
 
 def _together(one: _Law, other: _Law) -> _Law:
-    return tuple((a + b, p * q) for a, p in one for b, q in other if p * q > 1e-10)
+    return tuple([(a + b, p * q) for a, p in one for b, q in other if p * q > 1e-10])
 
 
 def _where(rising: Callable[[float], float], level: float, low: float, high: float) -> float:

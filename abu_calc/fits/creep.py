@@ -27,12 +27,9 @@ class Creep(NamedTuple):
 
 @formula(
     "Torque at which a pressed ring slips on its seat",
-    "μ·p·π·d·b·d/2",
+    "μ_s·p·π·d·b_s·d/2",
     "N·m",
-    where=(
-        "μ friction coefficient (0.12 steel on steel, dry or lightly oiled, assumed), p pressure [Pa], d diameter and "
-        "b length of the seat [m]."
-    ),
+    where=("μ_s is 0.12 for steel on steel, dry or lightly oiled (assumed)."),
     checked=(SEAT_FRICTION,),
     assumed="even pressure",
     source="Coulomb friction on a cylinder",
@@ -55,11 +52,8 @@ def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep
 
     It holds where the smallest does, may creep where only the mean does.
     """
-    torques = _torques(joint, friction)
-    starts = None
-    if joint.must_grip and torques is not None and starting_torque is not None:
-        starts = torques[0] >= starting_torque
-    least, probable = torques or (None, None)
+    least, probable = _torques(joint, friction) or (None, None)
+    starts = holds_at_start(joint, friction, starting_torque)
     if not joint.must_grip:
         why = f"its load is fixed in direction; {of_all(joint.clearance_probability)} are loose"
         return Creep("needs no grip", why, None, least, probable, None)
@@ -67,6 +61,14 @@ def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep
         return Creep("not known", "load or length of the seat are not given", None, least, probable, starts)
     why = f"{of_all(joint.short)} have less than its {joint.ring.load} load asks for"
     return Creep(_VERDICTS[joint.grip], why, joint.short, least, probable, starts)
+
+
+def holds_at_start(joint: Joint, friction: float, starting_torque: float | None) -> bool | None:
+    """Whether the friction at the least interference outweighs the starting torque; None: not asked, or not known."""
+    if starting_torque is None or not joint.must_grip:
+        return None
+    torques = _torques(joint, friction)
+    return None if torques is None else torques[0] >= starting_torque
 
 
 def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:

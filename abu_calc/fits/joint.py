@@ -88,7 +88,7 @@ class Joint:
         """Limits of the shaft or housing."""
         return self.measured or part_limits(self.seat, self.tolerance_class, self.diameter)
 
-    @property
+    @cached_property
     def male_and_female(self) -> tuple[Limits, Limits]:
         """Limits of the part inside and of the part around it."""
         return (self.part, self.ring_limits) if self.seat == "shaft" else (self.ring_limits, self.part)
@@ -98,7 +98,7 @@ class Joint:
         """Theoretical interference."""
         return theoretical_interference(*self.male_and_female)
 
-    @property
+    @cached_property
     def mean(self) -> float:
         """Interference [m] of the middles of both fields."""
         male, female = self.male_and_female
@@ -120,7 +120,7 @@ class Joint:
         if self.radial_load is None or self.length is None:
             return ()
         return (
-            Bound(creep_interference(self.radial_load, self.length, self.factor), "13·R·k/b (Afanasiev 2015)"),
+            Bound(creep_interference(self.radial_load, self.length, self.factor), "13·F_r·k_B/b_s (Afanasiev 2015)"),
             Bound(load_loss(self.radial_load, self.diameter, self.ring.width), "0.08·√(d·F_r/B) (bearing catalogues)"),
         )
 
@@ -135,7 +135,7 @@ class Joint:
         larger = max(self.criteria, key=lambda bound: bound.value)
         return Bound(larger.value + sum(max(loss.value, 0.0) for loss in self.losses), larger.by)
 
-    @property
+    @cached_property
     def stress_limit(self) -> Bound:
         """Largest interference that the ring and the part bear, by their hoop stresses."""
         ring = Bound(PERMITTED_RING_STRESS / self.stress_rate, "hoop stress 400 MPa of the ring (Lamé)")
@@ -169,7 +169,7 @@ class Joint:
         """Share of pairs with less interference than the ring needs; None where that is not known."""
         return None if self.required is None else probability_below(self.required.value, *self.male_and_female)
 
-    @property
+    @cached_property
     def grip(self) -> Grade:
         """Whether the ring holds: pass by the loosest pair, warn by the mean, else fail; not-done without a load.
 

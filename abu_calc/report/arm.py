@@ -19,7 +19,7 @@ LEGEND: Final = (
 )
 TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is next to nothing against the arm's inertia."
 NO_TONGUE: Final = (
-    "At ω₀/i the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
+    "At ω₀/j the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
     "unstable. It grows about 2ω₀ alone."
 )
 """Printed otherwise in Kovalenko 2010."""

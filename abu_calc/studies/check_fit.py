@@ -18,8 +18,11 @@ class CheckFitResult(Result):
     """The seats of every bearing, in the order of the file: the shaft's, then the housing's."""
 
     command: ClassVar[str] = "check-fit"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"judged"}
 
     seats: tuple[SeatResult, ...]
+    judged: tuple[BearingSeats, ...]
+    """The same in SI, by bearing."""
 
     @classmethod
     def json_type(cls) -> Any:
@@ -48,6 +51,7 @@ def check_fit(machine: Machine) -> CheckFitResult:
             provenance, defaults=tuple(one for one in provenance.defaults if one[0].startswith("bearing["))
         ),
         seats=tuple(seat for bearing in judged for seat in seat_results(bearing)),
+        judged=judged,
     )
 
 

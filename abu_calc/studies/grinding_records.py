@@ -9,8 +9,9 @@ from typing import Annotated, Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.analysis.agreement import Agreement
 from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
-from abu_calc.analysis.grinding import Agreement, Remedy
+from abu_calc.analysis.grinding import Remedy
 from abu_calc.analysis.under_load import Steady
 from abu_calc.analysis.wear import Stage, Wear
 from abu_calc.analysis.working import Working
@@ -93,7 +94,7 @@ class Printed(Record):
 
     resultant_g_mm: Annotated[float, Quantity("imbalance of the balls, printed formula", "|V|")]
     resultant_angle_deg: Annotated[float, Quantity("its angle", "arg V")]
-    ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "Θ", 5)]
+    ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "θ", 5)]
     error_deg: Annotated[float | None, Quantity("the printed formula is off by")]
     open_g_mm: Annotated[float | None, Quantity("imbalance it would leave of what is to be carried")]
 
@@ -105,9 +106,9 @@ class WearStage(Record):
     depth_um: Annotated[float, Quantity("worn off")]
     time_min: Annotated[float | None, Quantity("after")]
     runout_mm: Annotated[float, Quantity("runout", "ε")]
-    runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ₀")]
+    runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ_ε")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance of the wheel", "m₀e")]
-    variable_force_N: Annotated[float, Quantity("variable force", "|H|")]
+    variable_force_N: Annotated[float, Quantity("variable force", "|F_H|")]
 
     @classmethod
     def of(cls, stage: Stage, pace: float | None) -> Self:
@@ -128,9 +129,9 @@ class WearCourse(Record):
 
     centres: Annotated[bool, Quantity("wear centres the wheel")]
     runout_rate: Annotated[
-        float, Quantity("change of the runout per depth worn off", "dε/ds", 4, "as if wheel and work never parted")
+        float, Quantity("change of the runout per depth worn off", "dε/ds_w", 4, "as if wheel and work never parted")
     ]
-    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
+    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|F_H|")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
     ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
     depth_um: Annotated[float | None, Quantity("worn off until then")]
@@ -171,7 +172,7 @@ class FrictionBand(Record):
     typical_um: Annotated[float, Quantity("friction holds the axis off by, typically")]
     worst_um: Annotated[float | None, Quantity("at the worst")]
     threshold_um: Annotated[float, Quantity("shaken out by more than", "k_r·R_p/r")]
-    axial_um: Annotated[float, Quantity("shaking across the race, by axial runout", "a_z")]
+    axial_um: Annotated[float, Quantity("shaking across the race, by axial runout", "a_s")]
     axial_shakes: Annotated[bool, Quantity("axial runout shakes it out")]
     whirl_um: Annotated[float | None, Quantity("shaking along the race, by runout in the plane", "|X − iY|/2")]
     whirl_shakes: Annotated[bool, Quantity("runout in the plane shakes it out")]
@@ -197,7 +198,7 @@ class FrictionBand(Record):
 class HodographPoint(Record):
     """Axis with the runout at another angle from the imbalance."""
 
-    runout_angle_deg: Annotated[float, Quantity("runout from the imbalance", "φ₀")]
+    runout_angle_deg: Annotated[float, Quantity("runout from the imbalance", "φ_ε")]
     without: AxisMotion
     fitted: AxisMotion
 
@@ -279,11 +280,12 @@ class Comparison(Record):
     axis: Annotated[float | None, Quantity("axis", "", 3)]
     reaction: Annotated[float | None, Quantity("variable force", "", 3)]
     imbalance: Annotated[float | None, Quantity("imbalance", "", 3)]
+    from_idle: Annotated[bool, Quantity("balls get there from where they stand at idle")]
 
     @classmethod
     def of(cls, found: Agreement) -> Self:
         """The same numbers."""
-        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance)
+        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance, from_idle=found.reached)
 
 
 @record

@@ -47,11 +47,12 @@ class Record:
     """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
 
     def __init__(self, **values: object) -> None:
-        for field in fields(self):
+        known = _fields(type(self))
+        for field in known:
             if field.name not in values:
                 values[field.name] = _default(type(self), field)
-        if len(values) > len(fields(self)):
-            unknown = values.keys() - {field.name for field in fields(self)}
+        if len(values) > len(known):
+            unknown = values.keys() - {field.name for field in known}
             raise TypeError(f"{type(self).__name__} has no fields {', '.join(sorted(unknown))}")
         self.__dict__.update(values)
 
@@ -77,12 +78,18 @@ class Record:
     @classmethod
     def entries(cls) -> tuple[str, ...]:
         """Names of the fields that are entries of the result, in order."""
-        return tuple(field.name for field in fields(cls) if field.name not in cls.left_out)
+        return tuple(field.name for field in _fields(cls) if field.name not in cls.left_out)
 
     def to_dict(self) -> dict[str, Any]:
         """The entries as JSON has them."""
         values = ((name, getattr(self, name)) for name in self.entries())
         return {name: as_plain(value) for name, value in values if value is not None or name not in self.optional}
+
+
+def _fields(kind: type[Record]) -> "tuple[Field[Any], ...]":
+    if kind not in _FIELDS:
+        _FIELDS[kind] = fields(kind)
+    return _FIELDS[kind]
 
 
 def _default(kind: type[Record], field: "Field[object]") -> object:
@@ -95,6 +102,8 @@ def _default(kind: type[Record], field: "Field[object]") -> object:
 
 def as_plain(value: object) -> Any:
     """Records as dictionaries, tuples as lists, whatever they hold."""
+    if value is None or isinstance(value, (str, int, float)):
+        return value
     if isinstance(value, Record):
         return value.to_dict()
     if isinstance(value, Mapping):
@@ -133,4 +142,5 @@ def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
 
 
 _QUANTITIES: Final[dict[type[Record], Mapping[str, Quantity]]] = {}
+_FIELDS: "Final[dict[type[Record], tuple[Field[Any], ...]]]" = {}
 """Read from the types once."""

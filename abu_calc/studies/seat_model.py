@@ -8,13 +8,12 @@ from abu_calc.fits.intensity import SHOCK_FACTOR
 from abu_calc.fits.pairing import warm_parts
 from abu_calc.fits.seats import BearingSeats, SeatFit
 from abu_calc.fits.stress import inner_ring_diameter
-from abu_calc.studies.check_fit import judged_seats
 from abu_calc.studies.quantity import Record, record
 from abu_calc.studies.seat_parts import Pair, um, um_pair
 from abu_calc.units import from_si
 
 if TYPE_CHECKING:
-    from abu_calc.spec.read import Machine
+    from abu_calc.studies.check_fit import CheckFitResult
 
 
 @record
@@ -175,6 +174,6 @@ class BearingModel(Record):
         return from_si(self.shaft_bore_m, "mm")
 
 
-def bearing_models(machine: "Machine") -> tuple[BearingModel, ...]:
-    """What the seats of every bearing were judged with; raises as `check_fit` does."""
-    return tuple(map(BearingModel.of, judged_seats(machine)))
+def bearing_models(result: "CheckFitResult") -> tuple[BearingModel, ...]:
+    """What the seats of every bearing were judged with."""
+    return tuple(map(BearingModel.of, result.judged))

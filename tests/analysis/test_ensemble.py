@@ -19,10 +19,11 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import with_parted_balls
 from abu_calc.parallel import Workers
-from abu_calc.scenes.members import Member, members, scene_of_member
+from abu_calc.scenes.members import Dip, Member, members, scene_of_member
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import sound
 from abu_calc.sizing.design import Design
+from abu_calc.spec.duty import Motor
 from abu_calc.spec.read import read_machine
 
 MACHINES = Path(__file__).parents[1] / "machines"
@@ -263,14 +264,43 @@ def test_another_candidate_where_the_best_does_not_pass(monkeypatch: pytest.Monk
 
 
 def test_each_change_is_a_change() -> None:
-    """Drags, more damping; a faster run-up only where nothing but run-ups fails; of hands nothing can be changed."""
+    """Drags, a pause, more damping; a faster run-up only where nothing but run-ups fails; hands stay as they are."""
     found = design("hanging-balls")
     standstill = Ensemble(6.0, (outcome(6.0, "standstill", slip=0.5),), ())
-    names = [name for name, _ in changes(found, standstill)]
-    assert names[-1] == "suspension.damping_ratios twice as large"
+    names = [one.name for one in changes(found, standstill)]
+    assert "suspension.damping_ratios twice as large" in names
     assert not any("run_up" in name for name in names)
     hung = replace(outcome(6.0, slip=0.5), member=Member("bunched", 6.0, 1.0))
     both = list(changes(found, Ensemble(6.0, (hung,), ())))
-    assert any("run_up.time_s = 0.5" in name for name, _ in both)
-    assert all(other.case != found.case for _, other in both)
-    assert all("damping" not in name for name, _ in changes(design("hands-called-chaotic"), standstill))
+    assert any("run_up.time_s = 0.5" in one.name for one in both)
+    assert all(one.design.case != found.case or one.dips != (None,) for one in both)
+    assert all("damping" not in one.name for one in changes(design("hands-called-chaotic"), standstill))
+
+
+def test_a_pause_is_below_where_balls_hang() -> None:
+    """And only where some do, turning, and no motor sets its own pace."""
+    found = design("hanging-balls")
+
+    def dips(found: Design, **changed: float) -> list[Dip | None]:
+        one = outcome(6.0, "standstill", **changed)
+        return [dip for each in changes(found, Ensemble(6.0, (one,), ())) for dip in each.dips if dip]
+
+    slow, fast = dips(found, slip=0.55)
+    assert slow is not None and fast is not None
+    assert slow.low == fast.low == pytest.approx(2 / 3 * 0.45 * found.case.speed, rel=0.05)
+    assert slow.rise == 2 * fast.rise == pytest.approx(1.0 * (1 - slow.low / found.case.speed))
+    assert dips(found, slip=0.99) == dips(found, slip=0.0) == []
+    motor = found.case.table.model_copy(update={"motor": Motor()})
+    assert dips(replace(found, case=replace(found.case, table=motor)), slip=0.55) == []
+
+
+@pytest.mark.parametrize("drag", [4.0, pytest.param(6.0, marks=pytest.mark.slow)])
+def test_a_pause_lets_balls_that_hang_catch_up(drag: float) -> None:
+    """Every start balances with it, which not every one does without."""
+    found = design("hanging-balls", **PINNED["hanging-balls"], rolling_drag_per_s=drag)
+    first = simulate_members(found, shares=(1.0,), doubtful=ALL)
+    assert any(one.hanging for one in first.given)
+    assert not passes(found, first)
+    (change,) = [one for one in changes(found, first) if one.dips != (None,)]
+    for dip in change.dips:
+        assert passes(found, simulate_members(found, shares=(1.0,), doubtful=ALL, dip=dip))

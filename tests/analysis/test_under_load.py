@@ -7,6 +7,8 @@ contact rigid, or a spring.
 import cmath
 import math
 import random
+from collections import Counter
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -14,19 +16,27 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from abu_calc.analysis.agreement import AGREES, agreement
 from abu_calc.analysis.contact_facts import hodograph, largest_runout, loaded_resonance, response
-from abu_calc.analysis.grinding import AGREES, agreement, at_work, loaded_rate
-from abu_calc.analysis.grinding_checks import flutter_limits
-from abu_calc.analysis.under_load import bare, even_fan, fitted, fixed, runout_of, with_balls
+from abu_calc.analysis.course import total_imbalance
+from abu_calc.analysis.grinding import at_work
+from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
+from abu_calc.analysis.under_load import Balls, bare, even_fan, fitted, fixed, runout_of, with_balls
 from abu_calc.analysis.working import working
+from abu_calc.dynamics.effects.ball_contact import BallContact
+from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.trajectory import Sampling
 from abu_calc.formulas.contact import SteadyContact
 from abu_calc.scenes.from_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import machine
 
-DEFAULT, ALL = 5, 200
-"""How many random machines, by default and among slow tests."""
+ALL = 200
+"""How many random machines."""
 
 
 def drawn(seed: int) -> Design:
@@ -60,42 +70,66 @@ def drawn(seed: int) -> Design:
     )
 
 
-def settles(design: Design) -> bool:
-    """Whether balls balance at this contact, free of flutter in any arrangement and within seconds.
-
-    Not where the contact's stiffness is within a fifth of a resonance's: there the axis moves so much at 2Ω that balls
-    swing far. Nor where a rigid contact drives the rotor: its friction feeds what swings, and balls go on swinging.
-    """
-    steady = fitted(design, runout_of(design.case))
-    balls, contact = steady.balls, steady.contact
-    assert balls is not None
-    if contact.compliance == 0 and contact.friction > 0:
-        return False
-    if abs(1 + contact.compliance * contact.dynamic_stiffness[1]) < 0.2 * abs(
-        contact.compliance * contact.dynamic_stiffness[1]
-    ):
-        return False
-    return balls.places == "balanced" and loaded_rate(design, balls.worst) > 1.5
-
-
-def sample(count: int) -> list[int]:
-    """Seeds of machines whose balls settle; of three drawn at least one does."""
-    found: list[int] = []
-    for seed in range(3 * count):
-        if len(found) < count and settles(drawn(seed)):
-            found.append(seed)
-    assert len(found) == count
-    return found
-
-
-def check(seed: int) -> None:
+def check(seed: int) -> str:
+    """The closed form of a machine against its simulation, whatever it says of its balls; gives what it says."""
     design = drawn(seed)
-    work = replace_runs(design)
-    found = agreement(work, 1e-3)
-    assert found is not None
-    assert found.failure is None
-    assert found.apart is not None
-    assert found.apart < AGREES, (seed, found)
+    balls = fitted(design, runout_of(design.case)).balls
+    assert balls is not None
+    says: dict[str, Callable[[Design, Balls], bool]] = {
+        "balanced": check_balanced, "restless": check_restless, "short": check_together, "gathered": check_together,
+        "turning": check_turning,
+    }  # fmt: skip
+    assert says[balls.places](design, balls), (seed, balls.places)
+    return balls.places
+
+
+def check_balanced(design: Design, balls: Balls) -> bool:
+    """The run ends at the closed form, from idle or, where that takes too long or leads elsewhere, started there."""
+    found = agreement(replace_runs(design), 1e-3)
+    return found is not None and found.failure is None and found.apart is not None and found.apart < AGREES
+
+
+def check_restless(design: Design, balls: Balls) -> bool:
+    """Balls a milliradian off their places leave them: they swing by a twentieth of what is asked of them."""
+    angles = tuple(angle + 1e-3 * (k % 2) for k, angle in enumerate(balls.angles))
+    total, _ = course(design, angles, contact_only=True)
+    needed = balls.needed + design.imbalance.value
+    return float(np.abs(total[len(total) // 20 :] - needed).max()) > 0.05 * abs(balls.needed)
+
+
+def check_together(design: Design, balls: Balls) -> bool:
+    """Touching balls come to rest side by side where the closed form has them, to a hundredth."""
+    total, _ = course(design, None, contact_only=False)
+    assert balls.resultant is not None
+    told, last = design.imbalance.value + balls.resultant, total[-len(total) // 20 :]
+    return abs(complex(last.mean()) - told) < 0.01 * abs(balls.resultant)
+
+
+def check_turning(design: Design, balls: Balls) -> bool:
+    """They never come to rest: what they add up to goes on changing by much of what is asked of them."""
+    total, _ = course(design, None, contact_only=False)
+    last = total[-len(total) // 3 :]
+    return float(np.abs(last - last.mean()).max()) > 0.3 * abs(balls.needed)
+
+
+def course(
+    design: Design, angles: tuple[float, ...] | None, *, contact_only: bool, seconds: float = 6.0
+) -> tuple[np.ndarray, Scene]:
+    """Imbalance of rotor and balls in time, nothing in but wheel and work, and unless `contact_only` balls that touch.
+
+    From these angles, or from where balls balance at idle; what may be chaotic by one run.
+    """
+    scene = scene_of_design(design, "grinding", "settled")
+    kinds = (GrindingContact,) if contact_only else (GrindingContact, BallContact)
+    races = tuple(race if angles is None else replace(race, start_angles=angles) for race in scene.races)
+    kept = tuple(each for each in scene.effects if isinstance(each, kinds))
+    turns = round(seconds / scene.revolution)
+    scene = replace(scene, effects=kept, races=races, duration=turns * scene.revolution)
+    equations, times = assemble(scene), scene.duration * np.arange(16 * turns + 1) / (16 * turns)
+    choice = choose(equations, "auto", 1e-6)
+    run = choice.integrate(equations, 1e-6, Sampling(times), 50_000_000)
+    first = 2 * len(scene.support.names)
+    return total_imbalance(scene, run.at(times)[first : first + len(scene.ball_masses)]), scene
 
 
 def replace_runs(design: Design) -> Any:
@@ -104,18 +138,35 @@ def replace_runs(design: Design) -> Any:
 
     runout = runout_of(design.case)
     sides = grinding.Side(bare(design, runout)), grinding.Side(fitted(design, runout))
-    return grinding.Work(design, *sides, sides[1], None, None, 0.0)  # type: ignore[arg-type]
+    return grinding.Work(design, *sides, sides[1], design.idle, design.idle, None, 0.0)
 
 
-def test_closed_form_and_simulation_agree() -> None:
-    for seed in sample(DEFAULT):
-        check(seed)
+USUAL = {0: "balanced", 1: "balanced", 16: "restless", 11: "short", 40: "gathered", 147: "balanced"}
+"""Of the two hundred: compliant, rigid of the sense that feeds balls, and others that are not so simple. 147 is within
+a fifth of the contact's resonance, where its balls go round when they come from idle.
+"""
+
+
+@pytest.mark.parametrize("seed", USUAL)
+def test_closed_form_and_simulation_agree(seed: int) -> None:
+    assert check(seed) == USUAL[seed]
 
 
 @pytest.mark.slow
 def test_closed_form_and_simulation_agree_on_two_hundred_machines() -> None:
-    for seed in sample(ALL):
-        check(seed)
+    """As they are drawn, none left out: where balls balance, where they go otherwise, and where they never rest."""
+    said = Counter(check(seed) for seed in range(ALL))
+    assert said["balanced"] > 150 and len(said) == 5, said
+
+
+def test_what_leads_elsewhere_from_idle_is_told() -> None:
+    """Machine 147: balls started at their places stay, to a thousandth; from idle they hang at the resonance below."""
+    design = drawn(147)
+    work = replace_runs(design)
+    found = agreement(work, 1e-3)
+    assert found is not None and not found.reached and found.apart is not None and found.apart < 0.005
+    (told,) = [one for one in work_checks(work, None, found) if one.code == "ABU425"]
+    assert told.status == "warn" and "do not get there" in told.message
 
 
 # A second derivation.
@@ -292,7 +343,7 @@ def test_a_parting_wheel_is_judged_by_its_run() -> None:
 
 def test_flutter_limit_decides_in_simulation() -> None:
     """Two balls at right angles at a rigid contact, f = 0.5: the drag's limit is in the closed form's eigenvalues."""
-    design = drawn(sample(1)[0])
+    design = drawn(0)
     limits = flutter_limits(replace_runs(design))
     assert limits is not None
     assert limits[0] <= limits[1] * (1 + 1e-9)

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from abu_calc.cli.app import run
+from tests.remembered import remembered
 
 
 @dataclass(frozen=True)
@@ -40,19 +41,29 @@ def abu(*arguments: str) -> Seen:
     return Seen(status, out.getvalue(), err.getvalue())
 
 
+def again(*arguments: str) -> Seen:
+    """What `abu arguments…` does, with studies that were made before; for tests that patch nothing of them."""
+    with remembered():
+        return abu(*arguments)
+
+
 @cache
 def once(*arguments: str) -> Seen:
     """What `abu arguments…` does, run once for all tests that ask: for commands that write no file."""
-    return abu(*arguments)
+    return again(*arguments)
 
 
 EXTRAS = ("heyoka", "llvmlite")
 
 
 def without_extras(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As where they are not installed. They compile for each number of balls, for longer than short runs take."""
+    """As where they are not installed, on one processor; what is patched holds in this process alone.
+
+    They compile for each number of balls, and processes start, for longer than short runs take.
+    """
     found = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in EXTRAS else found(name))
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
 
 
 def _refuse(name: str) -> None:

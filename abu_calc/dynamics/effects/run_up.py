@@ -2,6 +2,8 @@
 
     Ω' = Ω/T_up for t < T_up,   0,   −Ω/T_down for t > duration − T_down
 
+After the run-up the speed may dip: fall to a lower one, pause there, and rise again.
+
 A rolling ball is turned by the race that accelerates: (J − 1) r Ω'/R_p on θ''. Source: derived from the rolling energy
 ½ (J − 1) m (r·turn' − R_p θ')². In a steady ramp a ball lags by θ' = −(1 − (J − 1) r/R_p) Ω'/h₀. What drives the
 rotor stands on what carries it: a swing arm feels −J_r Ω', J_r the rotor's inertia. With a motor the rotor starts from
@@ -27,11 +29,16 @@ class RunUp(Effect):
     """`up`, `down` [s]: times from standstill to the scene's speed and back; 0 for none.
 
     `inertia` J_r of the rotor [kg m²], 0 where it is not known: then a swing arm lacks the torque that drives it.
+    `fall`, `pause`, `rise` [s]: times of a dip to `low` [rad/s]; `fall` 0 for none.
     """
 
     up: float
     down: float = 0.0
     inertia: float = 0.0
+    low: float = 0.0
+    fall: float = 0.0
+    pause: float = 0.0
+    rise: float = 0.0
 
     name: ClassVar[str] = "run_up"
     kind: ClassVar[Kind] = "driven"
@@ -56,8 +63,13 @@ class RunUp(Effect):
 
     @property
     def least_duration(self) -> float:
-        """Both together."""
-        return self.up + self.down
+        """All together."""
+        return self.at_speed + self.down
+
+    @property
+    def at_speed(self) -> float:
+        """When the rotor is at full speed for good [s]."""
+        return self._parts[-1] if self.fall else self.up
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:
         """The rotor accelerates evenly."""
@@ -75,16 +87,22 @@ class RunUp(Effect):
         return -self.inertia * mode * (m.speed - m.own_speed) if self.inertia and _reacts(p) else 0.0
 
     def breaks(self, scene: Circumstances) -> tuple[float, ...]:
-        """Ends of the run-up, begin of the run-down."""
-        if self.up + self.down > scene.duration:
+        """Ends of the run-up and of each part of a dip, begin of the run-down."""
+        if self.least_duration > scene.duration:
             raise InputError(
                 "the run ends before the run-up and the run-down do",
                 found=f"{scene.duration:g} s",
-                allowed=f"at least {self.up + self.down:g} s",
+                allowed=f"at least {self.least_duration:g} s",
                 remedy="a longer duration",
             )
-        ends = (self.up if self.up else 0.0, scene.duration - self.down if self.down else 0.0)
-        return tuple(sorted({end for end in ends if 0 < end < scene.duration}))
+        down = scene.duration - self.down if self.down else 0.0
+        return tuple(sorted({end for end in (self.up, *self._parts, down) if 0 < end < scene.duration}))
+
+    @property
+    def _parts(self) -> tuple[float, ...]:
+        """Ends of the parts of a dip [s]: down, between, up again."""
+        low = self.up + self.fall
+        return (low, low + self.pause, low + self.pause + self.rise) if self.fall else ()
 
     def mode_at(self, scene: Circumstances, t: float, mode: Any) -> Any:
         """Ω' [rad/s²] from t on; nothing is given where a motor drives."""
@@ -92,6 +110,10 @@ class RunUp(Effect):
             return 0.0
         if t < self.up:
             return scene.speed / self.up
+        if t < self.at_speed:
+            fallen, paused, _ = self._parts
+            change = scene.speed - self.low
+            return -change / self.fall if t < fallen else 0.0 if t < paused else change / self.rise
         if self.down and t >= scene.duration - self.down:
             return -scene.speed / self.down
         return 0.0
