@@ -168,7 +168,11 @@ def _beside(words: str, x: float, y: float, right: float) -> list[Word]:
     wide = LETTER * len(words)
     sides = [Word(x + 9, y + 4, "start", wide), Word(x - 9, y + 4, "end", wide)]
     sides = sides if x + 9 + wide <= right else sides[::-1]
-    corners = [Word(x + dx, y + dy, anchor, wide) for dy in (-9.0, 17.0) for dx, anchor in ((5, "start"), (-5, "end"))]
+    corners = [
+        Word(x + dx, y + dy, anchor, wide)
+        for dy in (-9.0, 17.0, -23.0, 31.0)
+        for dx, anchor in ((5, "start"), (-5, "end"))
+    ]
     return [*sides, *corners, Word(x, y - 10, "middle", wide), Word(x, y + 19, "middle", wide)]
 
 
