@@ -22,6 +22,9 @@ BLOCK = 2**16
 HELD = 2**22
 """Numbers in a trajectory that holds every sample."""
 
+BEGINNING = 20_000
+"""Samples of the beginning of a longer run that stay."""
+
 
 @dataclass(frozen=True)
 class Window:
@@ -92,13 +95,19 @@ def needed_times(scene: Scene) -> Array:
 
 
 def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
-    """At the needed times and further ones [s]. Trajectories of up to 32 MB hold all of them; of longer runs what is
-    wanted and the amplitude window stays, and results have to be read as they go on, by a course.
+    """At the needed times and further ones [s]. Trajectories of up to 32 MB hold all of them; of longer runs the
+    beginning, what is wanted and the amplitude window stay, and results have to be read as they go on, by a course.
     """
     wanted = np.empty(0) if wanted is None else wanted
     times = np.union1d(needed_times(scene), wanted)
     whole = len(times) * scene.state_count <= HELD
-    return Sampling(times, None if whole else np.union1d(amplitude_window(scene).times, wanted))
+    held = np.union1d(amplitude_window(scene).times, np.union1d(wanted, beginning(scene)))
+    return Sampling(times, None if whole else held)
+
+
+def beginning(scene: Scene) -> Array:
+    """The first times [s] at which settling is judged; even very long runs are held at them."""
+    return settling_times(scene)[:BEGINNING]
 
 
 def evaluate(scene: Scene, trajectory: Trajectory, course: Course | None = None) -> Response:

@@ -57,7 +57,7 @@ class Simulation:
     """A response, the trajectory, what it cost, and how far it may be off.
 
     The trajectory of a short run has all samples the response was read from; that of a long one, beyond 32 MB, the
-    times asked for and the amplitude window.
+    beginning, the times asked for and the amplitude window.
 
     `rung`: envelope or equations; `offered`: what the envelope was good for, and why it was taken or not.
     """

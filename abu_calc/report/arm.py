@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import facts
 from abu_calc.studies.arm_records import ArmMotion, SwingArm
@@ -83,8 +83,7 @@ def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
         Grid(header, rows, frozenset({1, 2, 3})),
         Paragraph(_rates(motion)),
         Heading(f"Where it grows: joint damping against speed about 2ω₀{where}"),
-        *map(Paragraph, tongue_lines(motion) if motion.tongue else (TOO_NARROW,)),
-        *((Paragraph(_legend(motion)),) if motion.tongue else ()),
+        Picture(tuple(tongue_lines(motion)), _legend(motion), indent=2) if motion.tongue else Paragraph(TOO_NARROW),
     ]
 
 

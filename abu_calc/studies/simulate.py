@@ -56,7 +56,7 @@ class SimulateResult(SimulatedScene, Result):
     motion: Motion | None = field(compare=False, repr=False)
     """Axis and balls at the times asked for; None where none were."""
     view: RotorView | None = field(compare=False, repr=False)
-    """The way from start to rest, thinned; None of too long a run."""
+    """The way from start to rest, thinned; of too long a run its beginning."""
     run: Simulation = field(compare=False, repr=False)
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
