@@ -105,7 +105,7 @@ def _left(design: Design, scene: Scene, ends: complex, seconds: float) -> float 
     equations = assemble(scene)
     quick = not untraceable(equations) and not waiting.unfit(equations)
     choice = choose(equations, "compiled" if quick else "plain", TOLERANCE)
-    last = scene.duration - scene.revolution / 16 * np.arange(16 * TURNS, -1, -1)
+    last = np.asarray(scene.duration - scene.revolution / 16 * np.arange(16 * TURNS, -1, -1), dtype=np.float64)
     try:
         run = choice.integrate(equations, TOLERANCE, Sampling(last), MOST)
     except NotTrustworthyError:
