@@ -9,7 +9,7 @@ from numpy.polynomial import Polynomial
 from abu_calc.analysis.course import Course, axis_place, settling_times, total_imbalance
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
-from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
+from abu_calc.dynamics.trajectory import Array, Samples, Sampling
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
 
@@ -110,7 +110,7 @@ def beginning(scene: Scene) -> Array:
     return settling_times(scene)[:BEGINNING]
 
 
-def evaluate(scene: Scene, trajectory: Trajectory, course: Course | None = None) -> Response:
+def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) -> Response:
     """The results of a run that was sampled at least at `needed_times`.
 
     Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
@@ -135,7 +135,7 @@ def evaluate(scene: Scene, trajectory: Trajectory, course: Course | None = None)
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(settling_times(scene), residuals, settled + SETTLED * reference_imbalance(scene)),
+        settling_time=settling_time(course.times, residuals, settled + SETTLED * reference_imbalance(scene)),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,

@@ -49,7 +49,14 @@ class Recorder:
         """What is held, when the run is over."""
         self._hand_on()
         times, held = self.sampling.times, self.sampling.held
-        return Samples(times, self.block) if held is None else Samples(held, self.held)
+        return Samples(times[: self.done], self.block[:, : self.done]) if held is None else Samples(held, self.held)
+
+    def enough(self, t: float) -> bool:
+        """Whether the run may end at a time, up to which all samples are filled."""
+        until = self.sampling.until
+        if until is None or t not in until.times:
+            return False
+        return until.enough(Samples(self.sampling.times[: self.done], self.block[:, : self.done]))
 
     def _begin(self, states: int) -> None:
         times, held = self.sampling.times, self.sampling.held
