@@ -16,7 +16,7 @@ from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, side_by_side
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, Stage, silent, within
 from abu_calc.scenes.members import DRAGS, Dip, Member, full_speed_at, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
@@ -141,7 +141,8 @@ def simulate_members(
     starts = [replace(one, dip=dip) for one in members(design, doubtful, shares)]
     found = _found(design, starts, accuracy, progress, workers)
     while undecided := [k for k in _deciding(found, design.case.drag) if not _confirmed(found[k])]:
-        again = _all(design, [found[k].member for k in undecided], accuracy, TIGHTER * TOLERANCE, silent, workers)
+        starts = [found[k].member for k in undecided]
+        again = _all(design, starts, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers)
         for k, one in zip(undecided, again, strict=True):
             found[k] = _worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
@@ -178,11 +179,11 @@ def _all(
     workers: Workers | None, counted: tuple[int, int] = (0, 0),
 ) -> list[Outcome | Lost]:  # fmt: skip
     """Each once; `counted`: how many came before, and of how many in all."""
-    before, total = counted
+    before, total = counted[0], counted[1] or len(starts)
     tasks = [(design, one, accuracy, tolerance, WORK) for one in starts]
 
     def told(done: int) -> None:
-        progress(f"idle: {before + done} of {total} starts")
+        progress(Stage(f"idle: {before + done} of {total} starts", (before + done) / total))
 
     return side_by_side(start_once, tasks, workers, told)
 

@@ -1,11 +1,11 @@
 """The files that a command was asked for, written when all is computed."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sized
 
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.errors import OutputError
-from abu_calc.progress import Progress
+from abu_calc.progress import Progress, Stage
 from abu_calc.report.outcome import Outcome
 
 
@@ -30,6 +30,8 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
 
 def _told(text: str | Iterable[str], what: str, tell: Progress) -> Iterator[str]:
     """The pieces of a text, each told before it is written."""
-    for piece in [text] if isinstance(text, str) else text:
-        tell(what)
+    pieces = [text] if isinstance(text, str) else text
+    total = len(pieces) if isinstance(pieces, Sized) else 0
+    for done, piece in enumerate(pieces):
+        tell(Stage(what, done / total) if total else what)
         yield piece

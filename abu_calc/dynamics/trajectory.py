@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.progress import Share
+
 Array = NDArray[np.float64]
 
 
@@ -52,12 +54,13 @@ Reader = Callable[[Samples], None]
 class Sampling:
     """Times [s] at which a run is sampled, ascending; `readers` are shown all samples, block by block, in their order.
 
-    `held`: those of the times that stay in the trajectory; None: all of them.
+    `held`: those of the times that stay in the trajectory; None: all of them. `told` gets the share that is done.
     """
 
     times: Array
     held: Array | None = None
     readers: tuple[Reader, ...] = ()
+    told: Share | None = None
 
     @classmethod
     def of(cls, times: "Times") -> "Sampling":
@@ -67,6 +70,10 @@ class Sampling:
     def read_by(self, *readers: Reader) -> "Sampling":
         """The same times for others to read."""
         return replace(self, readers=readers)
+
+    def telling(self, told: Share | None) -> "Sampling":
+        """The same times, with somebody who watches."""
+        return replace(self, told=told)
 
 
 Times = Sequence[float] | Array | Sampling

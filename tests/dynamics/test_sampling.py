@@ -15,6 +15,7 @@ from abu_calc.dynamics.effect import Laws
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import recorder, scipy_
+from abu_calc.dynamics.integrators.choice import Choice
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Samples, Sampling
 from abu_calc.errors import InputError, NotTrustworthyError
@@ -108,6 +109,10 @@ def test_a_second_run_that_cannot_fit_is_not_begun(monkeypatch: pytest.MonkeyPat
         return replace(choice, integrate=integrate)
 
     monkeypatch.setattr(simulate_module, "choose", choose)
+    with pytest.raises(NotTrustworthyError, match=r"found about .*; allowed: .*\n.*shorten the run"):
+        simulate(scene, integrator="scipy", most_evaluations=int(0.3 * free))
+    assert begun == []
+    monkeypatch.setattr(Choice, "expected", lambda *_: 0.0)  # where more is needed than was to be expected
     with pytest.raises(NotTrustworthyError, match=r"found at least .*; allowed: .*\n.*shorten the run"):
         simulate(scene, integrator="scipy", most_evaluations=int(0.6 * free))
     assert begun == [2e-4]

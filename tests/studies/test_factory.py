@@ -10,6 +10,7 @@ import abu_calc
 from abu_calc.standards.factory import factory_rows
 from abu_calc.standards.vibration import octaves
 from tests.cli.runner import once
+from tests.remembered import recalled
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -56,7 +57,7 @@ def test_presets_assume_alike() -> None:
 def test_predictions_are_those_of_the_other_commands_and_the_readme_shows_them() -> None:
     document = once("factory", "--json").document
     rows = {(row["machine"], row["state"], row["octave_hz"]): row for row in document["result"]["rows"]}
-    sized = abu_calc.size(abu_calc.read("avtovaz-707-222"))
+    sized = recalled("size", abu_calc.read("avtovaz-707-222"))
     idle, loaded = rows["avtovaz-707-222", "idle", 125.0], rows["avtovaz-707-222", "loaded", 125.0]
     assert sized.ensemble is not None
     assert idle["with_predicted_db"] == pytest.approx(sized.ensemble.level_db.typical, abs=1e-9)

@@ -42,6 +42,8 @@ class Recorder:
             filled, self.done = filled + part.shape[1], self.done + part.shape[1]
             if self.done - self.read == self.block.shape[1]:
                 self._hand_on()
+        if self.sampling.told:
+            self.sampling.told(self.done / len(self.sampling.times))
 
     def samples(self) -> Samples:
         """What is held, when the run is over."""

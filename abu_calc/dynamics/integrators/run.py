@@ -130,7 +130,7 @@ def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
 
 
 def too_much(found: str, most: int) -> TooMuchWorkError:
-    """The error for a run that is not begun, since so many evaluations are not allowed."""
+    """The error for a run that is not begun, since so many of SciPy's evaluations are not allowed."""
     return TooMuchWorkError(
         f"the run takes more work than allowed (found {found} evaluations; allowed: {most:.3g})\n"
         "  shorten the run, or ask for less accuracy"

@@ -20,7 +20,7 @@ def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[st
             case Heading(words):
                 title = words.strip()
                 deep = level + words.startswith(" ")
-                yield f"<h{deep}>{text(title)}</h{deep}>"
+                yield f"<h{deep}>{_coded(title)}</h{deep}>"
             case Paragraph(words, mark):
                 if words:
                     yield paragraph(words, mark)
@@ -39,8 +39,7 @@ def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[st
 def paragraph(words: str, mark: str | None = None) -> str:
     """Running text; what is a command stands as code."""
     kind = f' class="{text(mark)}"' if mark in STYLES else ""
-    coded = CODE.sub(r"<code>\1</code>", _cell(words))
-    return f"<p{kind}>{coded}</p>"
+    return f"<p{kind}>{_coded(_tied(words))}</p>"
 
 
 def _facts(rows: Iterable[tuple[str, str, str]], title: str) -> str:
@@ -62,9 +61,17 @@ def _grid(grid: Grid, title: str) -> str:
     return _table(title, head + "<tbody>\n" + "".join(f"<tr>{row}</tr>\n" for row in rows) + "</tbody>")
 
 
-def _cell(words: str) -> str:
+def _coded(words: str) -> str:
+    return CODE.sub(r"<code>\1</code>", text(words))
+
+
+def _tied(words: str) -> str:
     """A number keeps its unit beside it."""
-    return text(BEFORE_UNIT.sub(TIE, words))
+    return BEFORE_UNIT.sub(TIE, words)
+
+
+def _cell(words: str) -> str:
+    return text(_tied(words))
 
 
 def _graded(cell: str) -> str:

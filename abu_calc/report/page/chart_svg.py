@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
-from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot, Point
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot
+from abu_calc.report.page.places import Box, Places, Word
 from abu_calc.report.page.words import text
 
 WIDE: Final = 420.0
@@ -31,19 +32,27 @@ def plot(name: str, one: Plot) -> str:
     def at(x: float, y: float) -> tuple[float, float]:
         return LEFT + one.across.share(x) * (right - LEFT), low - one.up.share(y) * (low - TOP)
 
+    lines = [[at(*each) for each in line.points] for line in one.lines]
+    points = [at(each.x, each.y) for each in one.points]
+    bound = [] if one.limit is None else [at(x, one.limit[0]) for x in (one.across.low, one.across.high)]
+    places = Places(Box(LEFT, TOP - 6, WIDE, low), [*lines, bound], points)
+
     def marks() -> Iterator[str]:
         for first, last in one.bands:
             start, end = (max(LEFT, min(right, at(x, one.up.low)[0])) for x in (first, last))
             yield f'<rect class="band" x="{start:.1f}" y="{TOP}" width="{end - start:.1f}" height="{low - TOP}"/>'
             yield f'<text class="soft" x="{(start + end) / 2:.1f}" y="{low - 6}" text-anchor="middle">not stable</text>'
         if one.limit:
-            y = at(one.across.low, one.limit[0])[1]
-            yield f'<path class="limit" d="M{LEFT} {y:.1f}H{right}"/>'
-            yield f'<text class="limit-name" x="{right}" y="{y - 5:.1f}" text-anchor="end">{text(one.limit[1])}</text>'
-        for line in one.lines:
-            path = "L".join(f"{x:.1f} {y:.1f}" for x, y in (at(*each) for each in line.points))
+            yield f'<path class="limit" d="M{LEFT} {bound[0][1]:.1f}H{right}"/>'
+        for line, course in zip(one.lines, lines, strict=True):
+            path = "L".join(f"{x:.1f} {y:.1f}" for x, y in course)
             yield f'<path class="line s{line.series}" d="M{path}"/>'
-        yield from (_point(one, *at(one.x, one.y), right) for one in one.points)
+        yield from (_mark(each.series, *place) for each, place in zip(one.points, points, strict=True))
+        if one.limit:
+            yield _written(one.limit[1], places.put(_beside_limit(one.limit[1], bound[0][1], right)), "limit-name")
+        for each, place in zip(one.points, points, strict=True):
+            if each.word:
+                yield _written(each.word, places.put(_beside(each.word, *place, right)))
 
     entries = list(_entries(one.legend))
     high = max((y for *_, y in entries), default=HIGH - 8) + 8
@@ -94,7 +103,7 @@ def bars(name: str, chart: Bars) -> str:
             yield (
                 _length(one, at(one.start), at(one.value), y + 19)
                 if axis.low <= 0
-                else _point(Point(one.value, 0.0, "", one.series), at(one.value), y + 25, right)
+                else _mark(one.series, at(one.value), y + 25)
             )
             if one.span:
                 yield _span(at(one.span[0]), at(one.span[1]), y + 24.5)
@@ -141,14 +150,25 @@ def _axes(across: Axis, up: Axis) -> Iterator[str]:
     yield f'<text x="2" y="13">{text(up.name)}</text>'
 
 
-def _point(one: Point, x: float, y: float, right: float) -> str:
-    """The word stands on the side where there is room."""
-    drawn = _mark(one.series, x, y)
-    if not one.word:
-        return drawn
-    left = x + 9 + LETTER * len(one.word) > right
-    place = f'x="{x - 9 if left else x + 9:.1f}" y="{y + 4:.1f}" text-anchor="{"end" if left else "start"}"'
-    return f"{drawn}<text {place}>{text(one.word)}</text>"
+def _beside_limit(words: str, y: float, right: float) -> list[Word]:
+    """Above or below a limit, at its right or left end."""
+    wide = LETTER * len(words)
+    ends = ((right, "end"), (LEFT + 4, "start"))
+    return [Word(x, y + down, anchor, wide) for down in (-5.0, 14.0) for x, anchor in ends]
+
+
+def _beside(words: str, x: float, y: float, right: float) -> list[Word]:
+    """Around a point; farther off where it is beside nothing else."""
+    wide = LETTER * len(words)
+    sides = [Word(x + 9, y + 4, "start", wide), Word(x - 9, y + 4, "end", wide)]
+    sides = sides if x + 9 + wide <= right else sides[::-1]
+    corners = [Word(x + dx, y + dy, anchor, wide) for dy in (-9.0, 17.0) for dx, anchor in ((5, "start"), (-5, "end"))]
+    return [*sides, *corners, Word(x, y - 10, "middle", wide), Word(x, y + 19, "middle", wide)]
+
+
+def _written(words: str, at: Word, kind: str = "") -> str:
+    named = f' class="{kind}"' if kind else ""
+    return f'<text{named} x="{at.x:.1f}" y="{at.y:.1f}" text-anchor="{at.anchor}">{text(words)}</text>'
 
 
 def _mark(series: int, x: float, y: float) -> str:

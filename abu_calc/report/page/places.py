@@ -1,0 +1,71 @@
+"""Where words stand in a chart: where they cover the least of lines, points and other words."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from math import ceil, hypot
+from typing import Final, NamedTuple
+
+Place = tuple[float, float]
+NEAR: Final = 3.0
+"""Between places that stand for a line [px]."""
+HIGH: Final = 10.0
+BELOW: Final = 3.0
+"""Of letters above the line they stand on, and below it [px]."""
+
+
+class Box(NamedTuple):
+    """A part of a chart."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+
+    def meets(self, other: "Box") -> bool:
+        """Whether both have anything in common."""
+        across = self.left < other.right and other.left < self.right
+        return across and self.top < other.bottom and other.top < self.bottom
+
+
+class Word(NamedTuple):
+    """Words that begin, end or have their middle (`anchor` start, end, middle) at x, standing on y."""
+
+    x: float
+    y: float
+    anchor: str
+    wide: float
+
+    @property
+    def box(self) -> Box:
+        """What they take."""
+        left = self.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor] * self.wide
+        return Box(left, self.y - HIGH, left + self.wide, self.y + BELOW)
+
+
+class Places:
+    """What is taken in a field; words are put in one after another."""
+
+    def __init__(self, field: Box, lines: Iterable[Sequence[Place]], points: Iterable[Place]) -> None:
+        self.field = field
+        self.taken = [one for line in lines for one in _along(line)]
+        self.taken += [(x + dx, y + dy) for x, y in points for dx in (-4, 0, 4) for dy in (-4, 0, 4)]
+        self.words: list[Box] = []
+
+    def put(self, choices: Sequence[Word]) -> Word:
+        """The choice that covers least, of those alike the first; it is taken from now on."""
+        chosen = min(choices, key=lambda one: self._covered(one.box))
+        self.words.append(chosen.box)
+        return chosen
+
+    def _covered(self, box: Box) -> tuple[bool, bool, int]:
+        field = self.field
+        outside = box.left < field.left or box.right > field.right or box.top < field.top or box.bottom > field.bottom
+        inside = sum(box.left <= x <= box.right and box.top <= y <= box.bottom for x, y in self.taken)
+        return any(box.meets(other) for other in self.words), outside, inside
+
+
+def _along(line: Sequence[Place]) -> Iterator[Place]:
+    yield from line[:1]
+    for (x, y), (to_x, to_y) in pairwise(line):
+        steps = max(1, ceil(hypot(to_x - x, to_y - y) / NEAR))
+        yield from ((x + (to_x - x) * k / steps, y + (to_y - y) * k / steps) for k in range(1, steps + 1))
