@@ -2,10 +2,9 @@
 
 import math
 import re
-import tomllib
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from typing import Final, NamedTuple
 
 from abu_calc.units import SI_PER_UNIT, SYMBOLS, from_si
@@ -25,6 +24,9 @@ WORDS: Final = frozenset(f"{FUNCTIONS} {SHORT}".split())
 """What is no sign."""
 
 
+ENTRY: Final = re.compile(r'^"([^"]+)" = \["([^"]+)"(?:, "([^"]+)")?\]$', re.MULTILINE)
+
+
 class Sign(NamedTuple):
     """What a sign means, and its unit: as keys of files name it, or as it is printed."""
 
@@ -34,9 +36,9 @@ class Sign(NamedTuple):
 
 @cache
 def signs() -> dict[str, Sign]:
-    """All of them."""
-    found = tomllib.loads(files("abu_calc").joinpath("signs.toml").read_text(encoding="utf-8"))
-    return {name: Sign(*facts) for name, facts in found.items()}
+    """All of them. Read line by line: a reader of TOML takes as long as the rest of a command's formulas."""
+    text = Path(__file__).with_name("signs.toml").read_text(encoding="utf-8")
+    return {name: Sign(meaning, unit) for name, meaning, unit in ENTRY.findall(text)}
 
 
 @cache

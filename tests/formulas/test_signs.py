@@ -1,9 +1,12 @@
 """One sign for one thing: every sign of formulas and results means what stands in one list, with the unit of files."""
 
 import re
+import tomllib
+from pathlib import Path
 
 import pytest
 
+import abu_calc.signs
 from abu_calc.formula import Formula, formula_of
 from abu_calc.report.result_schema import RESULTS
 from abu_calc.report.steps import STEPS
@@ -36,6 +39,13 @@ def test_no_two_things_have_one_sign_and_few_one_thing_two() -> None:
     assert again <= {"constant of the oil"}
     assert "density" in signs()["ρ"].meaning and "groove" in signs()["R_g"].meaning
     assert all(one.unit in SI_PER_UNIT or one.unit not in SI for one in signs().values())
+
+
+def test_the_list_is_read_as_toml_would_be() -> None:
+    path = Path(abu_calc.signs.__file__).with_name("signs.toml")
+    assert {name: [one.meaning, *filter(None, [one.unit])] for name, one in signs().items()} == tomllib.loads(
+        path.read_text(encoding="utf-8")
+    )
 
 
 def test_every_sign_is_used() -> None:
