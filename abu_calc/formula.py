@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
+from abu_calc.signs import conversions, in_files, signs, signs_in, told, unit_in_files, unit_name
 from abu_calc.validity import Range
 
 _PACKAGE: Final = "abu_calc."
@@ -27,12 +28,15 @@ class Formula:
     gives: str
     equation: str = ""
     unit: str = ""
+    """Of SI."""
     where: str = ""
     checked: tuple[Range | str, ...] = ()
     assumed: str = ""
     source: str = ""
     printed: str = ""
     """Where the print of the source differs."""
+    signs: str = ""
+    """Those that are not in the equation, but in what is said beside it."""
 
     @property
     def name(self) -> str:
@@ -45,14 +49,37 @@ class Formula:
 
     @property
     def paragraphs(self) -> tuple[str, ...]:
-        """All it says, a paragraph each: what it gives, symbols, range, source, print."""
-        unit, equation = f" [{self.unit}]" if self.unit else "", f": {self.equation}" if self.equation else ""
-        limits = [f"{one.name} {one}" if isinstance(one, Range) else one for one in self.checked]
-        ranges = [f"{', '.join(limits)} (checked)"] if limits else []
-        ranges += [f"{self.assumed} (not checked)"] if self.assumed else []
-        labelled = (("Range", "; ".join(ranges)), ("Source", self.source), ("Printed", self.printed))
-        parts = (f"{self.gives}{equation}{unit}.", *self.where.splitlines())
+        """All it says, a paragraph each: what it gives, signs with their units in SI, range, source, print."""
+        unit = f" [{self.unit}]" if self.unit else ""
+        ranges = self._ranges([f"{one.name} {one}" if isinstance(one, Range) else one for one in self.checked])
+        return self._said(unit, ranges, si=True)
+
+    @property
+    def for_users(self) -> tuple[str, ...]:
+        """The same in the units of files and reports, and how to come from them to SI, which equations take."""
+        units = [unit_in_files(one) for one in self.unit.split(", ")] if self.unit else []
+        unit = ", ".join(unit_name(one, si=False) for one in units)
+        limits = [one if isinstance(one, str) else f"{one.name} {in_files(one)}" for one in self.checked]
+        said = self._said(f" [{unit}]" if unit else "", self._ranges(limits), si=False)
+        differ = conversions((*units, *(signs()[name].unit for name in self._names)))
+        place = 1 + bool(self._names)
+        return (*said[:place], *([f"Equations take SI: {differ}."] if differ else ()), *said[place:])
+
+    def _said(self, unit: str, ranges: str, *, si: bool) -> tuple[str, ...]:
+        equation = f": {self.equation}" if self.equation else ""
+        signs_told = f"{told(self._names, si=si)}." if self._names else ""
+        labelled = (("Range", ranges), ("Source", self.source), ("Printed", self.printed))
+        parts = (f"{self.gives}{equation}{unit}.", *([signs_told] if signs_told else ()), *self.where.splitlines())
         return (*parts, *(f"{name}: {text}." for name, text in labelled if text))
+
+    def _ranges(self, limits: list[str]) -> str:
+        checked = [f"{', '.join(limits)} (checked)"] if limits else []
+        return "; ".join([*checked, *([f"{self.assumed} (not checked)"] if self.assumed else [])])
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        known, _ = signs_in(self.equation)
+        return tuple(dict.fromkeys((*known, *self.signs.split())))
 
     @property
     def text(self) -> str:
@@ -72,13 +99,13 @@ REGISTERED: Final[dict[str, Formula]] = {}
 
 def formula(
     gives: str, equation: str = "", unit: str = "", *, where: str = "", checked: tuple[Range | str, ...] = (),
-    assumed: str = "", source: str = "", printed: str = "",
+    assumed: str = "", source: str = "", printed: str = "", signs: str = "",
 ) -> Callable[[_Computes], _Computes]:  # fmt: skip
     """Decorates what computes a formula: registers it, and lets `help()` say it before the docstring's examples."""
 
     def registered(computes: _Computes) -> _Computes:
         key = f"{computes.__module__}:{computes.__qualname__}".removeprefix(_PACKAGE)
-        found = register(Formula(key, gives, equation, unit, where, checked, assumed, source, printed))
+        found = register(Formula(key, gives, equation, unit, where, checked, assumed, source, printed, signs))
         computes.__doc__ = "\n\n".join(filter(None, (found.text, inspect.cleandoc(computes.__doc__ or ""))))
         return computes
 

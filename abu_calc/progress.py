@@ -1,10 +1,58 @@
-"""Long work reports what it is at."""
+"""Long work reports what it is at, and how far it has come."""
 
 from collections.abc import Callable
+from typing import Final, Self
+
+
+class Stage(str):
+    """What is being done, in a few words; `share`: how much of it is done, 0 … 1."""
+
+    __slots__ = ("share",)
+    share: float
+
+    def __new__(cls, text: str, share: float) -> Self:
+        """A text that knows its share."""
+        stage = super().__new__(cls, text)
+        stage.share = share
+        return stage
+
 
 Progress = Callable[[str], None]
-"""Gets what is being done, in a few words."""
+"""Gets what is being done, in a few words; a Stage where it is known how far that has come."""
+
+Share = Callable[[float], None]
+"""Gets how much is done, 0 … 1."""
+
+STEP: Final = 0.01
+"""Of the share, between two reports."""
 
 
 def silent(_: str) -> None:
     """For whom does not watch."""
+
+
+def share_of(progress: Progress, text: str) -> Share | None:
+    """Reports a text with how much of it is done, each hundredth once; None for whom does not watch."""
+    if progress is silent:
+        return None
+    shown = -1.0
+
+    def told(share: float) -> None:
+        nonlocal shown
+        if share >= shown + STEP:
+            shown = share
+            progress(Stage(text, share))
+
+    return told
+
+
+def within(progress: Progress, what: str) -> Progress:
+    """For a part of the work: its texts behind the name of the whole."""
+    if progress is silent:
+        return silent
+
+    def tell(text: str) -> None:
+        named = f"{what}: {text}"
+        progress(Stage(named, text.share) if isinstance(text, Stage) else named)
+
+    return tell

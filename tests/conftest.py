@@ -4,6 +4,8 @@ from typing import Any
 
 import pytest
 
+from tests import remembered
+
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
@@ -13,6 +15,14 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     from xdist.scheduler import WorkStealingScheduling
 
     return WorkStealingScheduling(config, log)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def studies(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Processes of a session tell each other what they have computed."""
+    base = tmp_path_factory.getbasetemp()
+    if base.name.startswith("popen-"):
+        remembered.share(base.parent / "studies")
 
 
 SYSTEMS: dict[Any, Any] = {}

@@ -10,6 +10,7 @@ from abu_calc.dynamics.balanced.arrangements import Arrangement
 from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.progress import Progress, silent
 from abu_calc.scenes.from_design import contact_half_angle, scene_of_design
 from abu_calc.sizing.arm_repairs import Change, Way, changes
 from abu_calc.sizing.design import Design
@@ -51,7 +52,7 @@ class ArmJudgement:
         return bool(self.changes) or not any(_bad(check) for check in self.checks)
 
 
-def judge_arm(design: Design) -> ArmJudgement | None:
+def judge_arm(design: Design, progress: Progress = silent) -> ArmJudgement | None:
     """Of a sized machine; None where it hangs on no arm. What is advised was tried: every check of the arm passes."""
     table, bounds = design.case.table.swing_arm, design.swing_arm
     if table is None or bounds is None:
@@ -64,7 +65,7 @@ def judge_arm(design: Design) -> ArmJudgement | None:
         return ArmJudgement(bounds, checks, f"nothing to change. {_room(bounds)}{doubt}")
     if not _carries(design):
         return ArmJudgement(bounds, checks, "the balls cannot carry the imbalance: no change of the arm helps.")
-    found = _tried(design, bad)
+    found = _tried(design, bad, progress)
     if not found:
         text = f"no change found. Tried: inertia, damping and contact angle, to {MARGINS[-1]:g} times their bounds"
         return ArmJudgement(bounds, checks, f"{text}.{doubt}")
@@ -159,13 +160,13 @@ def _stronger() -> Iterator[tuple[Way, ...]]:
     yield tuple(Way(inertia=one, damping=two) for one in MARGINS[1:] for two in STRONGER)
 
 
-def _tried(design: Design, bad: set[str]) -> list[tuple[Change, ...]]:
+def _tried(design: Design, bad: set[str], progress: Progress) -> list[tuple[Change, ...]]:
     """A change of each kind that passes, the nearest first; more damping and more inertia where one is too little."""
-    found = [one for one in (_first(design, ways) for ways in _ways(bad)) if one]
+    found = [one for one in (_first(design, ways, progress) for ways in _ways(bad)) if one]
     if not found:
         damping, inertia, both = _stronger()
-        found = [one for one in (_first(design, damping), _first(design, inertia)) if one]
-        found = found or [one for one in (_first(design, both),) if one]
+        found = [one for one in (_first(design, damping, progress), _first(design, inertia, progress)) if one]
+        found = found or [one for one in (_first(design, both, progress),) if one]
     found.sort(key=_reach)
     return [one for one in found if one is found[0] or all(change.reach < FAR for change in one)]
 
@@ -175,11 +176,12 @@ def _reach(found: tuple[Change, ...]) -> float:
     return round(2 * max(change.reach for change in found))
 
 
-def _first(design: Design, ways: tuple[Way, ...]) -> tuple[Change, ...]:
+def _first(design: Design, ways: tuple[Way, ...], progress: Progress) -> tuple[Change, ...]:
     """The smallest change of a kind with which every check of the arm passes; none where there is none."""
     tried = ((way, found) for way in ways if (found := _changes(design, way)))
     before: Way | None = None
     for way, found in tried:
+        progress(f"swing arm: with {', '.join(change.text for change in found)}")
         if changed(design, found):
             nearer = before and _changes(design, _between(before, way))
             return nearer if nearer and changed(design, nearer) else found

@@ -4,7 +4,7 @@ from typing import Final
 
 from abu_calc.analysis.arm import CUTTING, IDLE, ArmJudgement, changed
 from abu_calc.analysis.machine import simulated
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, silent, within
 from abu_calc.scenes.durations import DECAY_TIMES
 from abu_calc.sizing.arm_repairs import Change, up
 from abu_calc.sizing.design import Design
@@ -35,8 +35,8 @@ def damping_to_simulate(
         if new <= old:
             continue
         change = Change("joint_damping_N_s_per_m", table.joint_damping_N_s_per_m, new)
-        progress(f"swing arm: with {change.text}")
+        tell = within(progress, f"with {change.text}")
         other = changed(design, (*judged.changes, change))
-        if other is not None and not simulated(other, accuracy, silent, (IDLE, CUTTING))[1]:
+        if other is not None and not simulated(other, accuracy, tell, (IDLE, CUTTING))[1]:
             return change
     return None

@@ -22,13 +22,14 @@ class Audit:
 
 
 def audit(
-    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, integrator: str = "auto", progress: Progress = silent
-) -> Audit:
+    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, most_evaluations: int, integrator: str = "auto",
+    progress: Progress = silent,
+) -> Audit:  # fmt: skip
     """Simulate the scene with all its effects to the same accuracy. Raises NotTrustworthyError as `simulate` does."""
     added = tuple(entry.name for entry in ledger.entries if not entry.included)
     if not added:
         return Audit(0.0, 0.0, (), 0, 0.0)
-    whole = simulate(full, accuracy, integrator=integrator, progress=progress)
+    whole = simulate(full, accuracy, (), most_evaluations, integrator=integrator, progress=progress)
     return Audit(
         difference=difference(run.scene, run.response, whole.response),
         promise=ledger.promise,

@@ -19,6 +19,8 @@ from abu_calc.errors import NotTrustworthyError
 BATCH: Final = 1.0
 MOST: Final = 512
 """Seconds that a batch should take, and the most members in one."""
+RATE: Final = 32
+"""Batches a second that one process hands out at ease, of some milliseconds each; for more workers they are longer."""
 AHEAD: Final = 2
 """Batches in flight for each worker."""
 ENDED: Final = "the process that computed it ended"
@@ -118,6 +120,7 @@ def in_batches(
 ) -> None:
     """Computes all members; `take` gets rows as they come, in any order. `size` of the first batch."""
     waiting: dict[Future[Any], tuple[int, ...]] = {}
+    lasting = max(BATCH, workers.count / RATE)
     ahead = AHEAD * workers.count if not isinstance(workers.executor, Here) else 1
     try:
         while True:
@@ -133,7 +136,7 @@ def in_batches(
                     continue
                 rows, seconds = future.result()
                 take(rows)
-                size = max(1, min(2 * size, MOST, int(BATCH * len(batch) / max(seconds, 1e-9))))
+                size = max(1, min(2 * size, MOST, int(lasting * len(batch) / max(seconds, 1e-9))))
             if suspects:
                 _one_by_one(study, [*suspects, *_stopped(waiting, workers)], workers, take)
     finally:

@@ -1,6 +1,7 @@
 """What settling and the largest amplitude need of a run, read as it goes on: three numbers of each sample."""
 
 import math
+from copy import copy
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,18 @@ class Course:
         self.residuals = np.empty(self.count + 1)
         self.places = np.empty((2, self.count + 1))
         self.lost: NotTrustworthyError | None = None
+
+    @property
+    def times(self) -> Array:
+        """Those it has read or will read [s]."""
+        return settling_times(self.scene)[: self.count + 1]
+
+    def until(self, t: float) -> "Course":
+        """The same up to one of its times."""
+        short = copy(self)
+        short.count = round(t / (self.scene.duration / self.count))
+        short.residuals, short.places = self.residuals[: short.count + 1], self.places[:, : short.count + 1]
+        return short
 
     def __call__(self, samples: Samples) -> None:
         """Read these."""

@@ -4,26 +4,31 @@ import math
 import statistics
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from operator import attrgetter
 from typing import Any, NamedTuple
 
 from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
+from abu_calc.analysis.early import Early
 from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.analysis.ledger import chosen
-from abu_calc.analysis.response import Response, evaluate, needed_times
+from abu_calc.analysis.response import Response, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, side_by_side
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, Stage, silent, within
 from abu_calc.scenes.members import DRAGS, Dip, Member, full_speed_at, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
 
 TOLERANCE, TIGHTER = 2e-4, 0.1
 """Of the first run of a member, and by how much that of the run which confirms one that decides a check is tighter."""
+
+MARGIN = 1.0
+"""Below the level allowed [dB]: a run that may come nearer does not end early."""
 
 WORK, MOST_LOST = 150_000, 3
 """Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth.
@@ -52,6 +57,8 @@ class Outcome:
     allowed: float
     work: int = 0
     confirmed: bool = False
+    rise: float = 0.0
+    """By how much the level might still have risen [dB] where the run ended early."""
 
     @property
     def hanging(self) -> bool:
@@ -69,9 +76,14 @@ class Outcome:
         return self.settling if self.settling is not None and self.balanced else math.inf
 
     @property
+    def loudest(self) -> float:
+        """The level it might have risen to [dB]."""
+        return self.level + self.rise
+
+    @property
     def badness(self) -> tuple[bool, bool, float]:
         """Sorts the worst last."""
-        return self.hanging, not self.balanced, self.level
+        return self.hanging, not self.balanced, self.loudest
 
 
 @dataclass(frozen=True)
@@ -149,34 +161,52 @@ def simulate_members(
         doubtful = hanging_bounds(design).largest or 0.0
     starts = [replace(one, dip=dip) for one in members(design, doubtful, shares)]
     found = _found(design, starts, accuracy, progress, workers)
-    while undecided := [k for k in _deciding(found, design.case.drag) if not _confirmed(found[k])]:
-        again = _all(design, [found[k].member for k in undecided], accuracy, TIGHTER * TOLERANCE, silent, workers)
-        for k, one in zip(undecided, again, strict=True):
-            found[k] = _worse(found[k], one)
+    for orders, early_end in (LOUD, False), (LATE, True):
+        while undecided := _deciding(found, design.case.drag, orders):
+            starts = [found[k].member for k in undecided]
+            again = _all(design, starts, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers,
+                         early_end=early_end)  # fmt: skip
+            for k, one in zip(undecided, again, strict=True):
+                found[k] = _worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
     return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
 
 
-def start_once(design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK) -> Outcome | Lost:
-    """One start, by one run; `work`: evaluations that it may take, in SciPy's."""
+def start_once(
+    design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = True
+) -> Outcome | Lost:
+    """One start, by one run; `work`: evaluations that it may take, in SciPy's; `early_end`: whether it may end early."""
     try:
-        return run_of_start(design, member, accuracy, tolerance, work).outcome
+        return run_of_start(design, member, accuracy, tolerance, work, early_end).outcome
     except NotTrustworthyError as error:
         return Lost(member, str(error).splitlines()[0], _most(design, work))
 
 
-def run_of_start(design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK) -> StartRun:
+def run_of_start(
+    design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = False
+) -> StartRun:
     """The same with the run itself; raises NotTrustworthyError."""
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     equations = assemble(scene)
     choice = choose(equations, "auto", tolerance)
-    run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(_most(design, work)))
-    found = outcome_of(design, member, scene, evaluate(scene, run))
-    return StartRun(replace(found, work=choice.work(run)), scene, run)
+    early = Early(scene, full_speed_at(design, member), partial(_decided, design, member, scene))
+    times = early.sampling() if early_end else needed_times(scene)
+    run = choice.integrate(equations, tolerance, times, choice.evaluations(_most(design, work)))
+    found = outcome_of(design, member, scene, early.response(run))
+    return StartRun(replace(found, work=choice.work(run), rise=early.rising(run)), scene, run)
 
 
 def _most(design: Design, work: int) -> int:
     return work * MANY // max(MANY, design.autobalancer.ball_count)
+
+
+def _decided(
+    design: Design, member: Member, scene: Scene, response: Response, creep: float, rise: float
+) -> bool:  # fmt: skip
+    """Whether a start balances well, what may still change counted in: else it is followed to the end."""
+    one = outcome_of(design, member, scene, response)
+    at_rest = balances(one.imbalance + creep, one.allowed, one.slip)
+    return at_rest and math.isfinite(one.time) and one.level + rise <= design.case.level_limit - MARGIN
 
 
 def _found(
@@ -193,14 +223,14 @@ def _found(
 
 def _all(
     design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress,
-    workers: Workers | None, counted: tuple[int, int] = (0, 0),
+    workers: Workers | None, counted: tuple[int, int] = (0, 0), early_end: bool = True,
 ) -> list[Outcome | Lost]:  # fmt: skip
     """Each once; `counted`: how many came before, and of how many in all."""
-    before, total = counted
-    tasks = [(design, one, accuracy, tolerance, WORK) for one in starts]
+    before, total = counted[0], counted[1] or len(starts)
+    tasks = [(design, one, accuracy, tolerance, WORK, early_end) for one in starts]
 
     def told(done: int) -> None:
-        progress(f"idle: {before + done} of {total} starts")
+        progress(Stage(f"idle: {before + done} of {total} starts", (before + done) / total))
 
     return side_by_side(start_once, tasks, workers, told)
 
@@ -220,16 +250,26 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
     )
 
 
-def _deciding(found: Sequence[Outcome | Lost], drag: float) -> set[int]:
-    """Which are worst, among those at the drag given and among all: by all that is judged."""
+Order = tuple[Callable[[Outcome], Any], float]
+"""By what starts are judged, the last of it a number, and a difference of that number that decides nothing."""
+
+LOUD: tuple[Order, ...] = (attrgetter("badness"), 0.3), (lambda one: (one.loudest,), 0.3)
+LATE: tuple[Order, ...] = ((lambda one: (one.time,), 0.0),)
+"""The level [dB] of one that decides is that at the very end; when it settled [s] is known before."""
+
+
+def _deciding(found: Sequence[Outcome | Lost], drag: float, orders: Iterable[Order]) -> list[int]:
+    """Which are worst, of those at the drag given and of all, and neither confirmed nor as good as one that is."""
     done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
     groups = done, [(k, one) for k, one in done if one.member.drag == drag]
-    orders: tuple[Callable[[Outcome], Any], ...] = attrgetter("badness"), attrgetter("level"), attrgetter("time")
-    return {max(group, key=lambda pair: order(pair[1]))[0] for group in groups if group for order in orders}
-
-
-def _confirmed(one: Outcome | Lost) -> bool:
-    return isinstance(one, Lost) or one.confirmed
+    needed = set()
+    for group, (order, slack) in ((group, order) for group in groups if group for order in orders):
+        k, worst = max(group, key=lambda pair: order(pair[1]))
+        *kind, value = order(worst)
+        confirmed = [order(one) for _, one in group if one.confirmed]
+        if not any([*same] == kind and (near == value or near >= value - slack) for *same, near in confirmed):
+            needed.add(k)
+    return sorted(needed)
 
 
 def _worse(loose: Outcome | Lost, tight: Outcome | Lost) -> Outcome | Lost:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from abu_calc.analysis.ensemble import Ensemble, simulate_members
 from abu_calc.analysis.remedies import passes, remedy
 from abu_calc.parallel import Workers
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, silent, within
 from abu_calc.sizing import instead
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.design import Design
@@ -42,8 +42,7 @@ def proven(
         if spent > MOST_WORK:
             break
         other = instead(design, one, "does not balance from every start")
-        progress(f"idle: {_words(one)} instead")
-        found = simulate_members(other, accuracy, silent, workers)
+        found = simulate_members(other, accuracy, within(progress, f"{_words(one)} instead"), workers)
         spent += found.work
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from abu_calc.analysis.ensemble import Ensemble, simulate_members
 from abu_calc.formulas.suspension import Springs
 from abu_calc.parallel import Workers
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, within
 from abu_calc.scenes.members import Dip
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp
@@ -48,9 +48,9 @@ def remedy(
     for change in changes(design, first):
         if most <= 0:
             break
-        progress(f"idle: with {change.name}")
         for dip in change.dips:
-            found = simulate_members(change.design, accuracy, silent, workers, (1.0,), dip=dip)
+            told = within(progress, f"with {change.name}")
+            found = simulate_members(change.design, accuracy, told, workers, (1.0,), dip=dip)
             most -= found.work
             if not passes(change.design, found):
                 break

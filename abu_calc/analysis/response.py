@@ -9,7 +9,7 @@ from numpy.polynomial import Polynomial
 from abu_calc.analysis.course import Course, axis_place, settling_times, total_imbalance
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
-from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
+from abu_calc.dynamics.trajectory import Array, Samples, Sampling
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
 
@@ -21,6 +21,9 @@ BLOCK = 2**16
 
 HELD = 2**22
 """Numbers in a trajectory that holds every sample."""
+
+BEGINNING = 20_000
+"""Samples of the beginning of a longer run that stay."""
 
 
 @dataclass(frozen=True)
@@ -92,16 +95,22 @@ def needed_times(scene: Scene) -> Array:
 
 
 def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
-    """At the needed times and further ones [s]. Trajectories of up to 32 MB hold all of them; of longer runs what is
-    wanted and the amplitude window stays, and results have to be read as they go on, by a course.
+    """At the needed times and further ones [s]. Trajectories of up to 32 MB hold all of them; of longer runs the
+    beginning, what is wanted and the amplitude window stay, and results have to be read as they go on, by a course.
     """
     wanted = np.empty(0) if wanted is None else wanted
     times = np.union1d(needed_times(scene), wanted)
     whole = len(times) * scene.state_count <= HELD
-    return Sampling(times, None if whole else np.union1d(amplitude_window(scene).times, wanted))
+    held = np.union1d(amplitude_window(scene).times, np.union1d(wanted, beginning(scene)))
+    return Sampling(times, None if whole else held)
 
 
-def evaluate(scene: Scene, trajectory: Trajectory, course: Course | None = None) -> Response:
+def beginning(scene: Scene) -> Array:
+    """The first times [s] at which settling is judged; even very long runs are held at them."""
+    return settling_times(scene)[:BEGINNING]
+
+
+def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) -> Response:
     """The results of a run that was sampled at least at `needed_times`.
 
     Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
@@ -126,7 +135,7 @@ def evaluate(scene: Scene, trajectory: Trajectory, course: Course | None = None)
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(settling_times(scene), residuals, settled + SETTLED * reference_imbalance(scene)),
+        settling_time=settling_time(course.times, residuals, settled + SETTLED * reference_imbalance(scene)),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,

@@ -20,7 +20,7 @@ from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas import motion
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, share_of, silent
 from abu_calc.scenes.from_scene import lasting
 
 ACCURACY = motion.ACCURACY
@@ -57,7 +57,7 @@ class Simulation:
     """A response, the trajectory, what it cost, and how far it may be off.
 
     The trajectory of a short run has all samples the response was read from; that of a long one, beyond 32 MB, the
-    times asked for and the amplitude window.
+    beginning, the times asked for and the amplitude window.
 
     `rung`: envelope or equations; `offered`: what the envelope was good for, and why it was taken or not.
     """
@@ -83,9 +83,10 @@ def simulate(
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, in
-    SciPy's evaluations; `integrator` is auto, scipy, plain, compiled or heyoka; any but auto asks for the equations.
-    `progress` gets what is being done. Raises NotTrustworthyError when the work does not suffice, or when no tolerance
-    reaches the accuracy: the motion is then chaotic, or decided by less than rounding.
+    SciPy's evaluations: what takes more by counting is not begun. `integrator` is auto, scipy, plain, compiled or
+    heyoka; any but auto asks for the equations. `progress` gets what is being done. Raises NotTrustworthyError when the
+    work does not suffice, or when no tolerance reaches the accuracy: the motion is then chaotic, or decided by less
+    than rounding.
     """
     ACCURACY.check(accuracy)
     scene, warnings = with_parted_balls(lasting(scene, None, "scene.duration"))
@@ -113,18 +114,23 @@ def _integrated(
     equations, needed = assemble(scene), needed_times(scene)
     needed = needed if len(needed) < len(times.times) else times.times  # one array of both where they are the same
     choice = choose(equations, integrator, tolerances(accuracy)[0], progress)
+    about = choice.expected(equations, tolerances(accuracy)[0])
+    if about > most:
+        raise too_much(f"about {about:.2g}", most)
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared, last = math.nan, 0, 0
     for tolerance in tolerances(accuracy):
-        progress(f"{scene.name}: {choice.name}, tolerance {tolerance:g}")
+        text = f"{scene.name}: {choice.name}, tolerance {tolerance:g}"
+        progress(text)
         course, remarks = Course(scene), Remarks(equations, needed)
         # What is held whole is looked at once, when the run is known to be the last.
         readers = (course, remarks) if runs and times.held is not None else (course,)
         try:
             if LEAST * last > most:
                 raise too_much(f"at least {LEAST * last:.3g}", most)
-            trajectory = choice.integrate(equations, tolerance, times.read_by(*readers), choice.evaluations(most))
+            watched = times.read_by(*readers).telling(share_of(progress, text))
+            trajectory = choice.integrate(equations, tolerance, watched, choice.evaluations(most))
         except NotTrustworthyError as failure:
             if len(runs) < 2:
                 raise

@@ -55,7 +55,7 @@ def _step(name: str) -> Outcome:
     from abu_calc.report.steps import STEPS
 
     step = STEPS[name]
-    texts = {one.name: one.text for one in step.formulas}
+    texts = {one.name: "\n".join(one.for_users) for one in step.formulas}
     return Outcome("explain", {"step": name, "formulas": texts}, tuple(step_blocks(step)))
 
 
@@ -72,7 +72,7 @@ def _code(code: str) -> Outcome:
         "fails": one.fails,
         "remedy": one.remedy,
         "step": one.step or None,
-        "formulas": {each.name: each.text for each in map(formula_of, one.formulas)},
+        "formulas": {each.name: "\n".join(each.for_users) for each in map(formula_of, one.formulas)},
     }
     return Outcome("explain", result, tuple(code_blocks(one)))
 

@@ -1,6 +1,6 @@
 """The files that a command was asked for, written when all is computed."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sized
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.errors import InputError, OutputError
-from abu_calc.progress import Progress
+from abu_calc.progress import Progress, Stage
 from abu_calc.report.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -54,6 +54,8 @@ def _drawn(one: "Figure", path: Path) -> Iterator[str | bytes]:
 
 def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
     """The pieces of a text, each told before it is written."""
-    for piece in [text] if isinstance(text, (str, bytes)) else text:
-        tell(what)
+    pieces = [text] if isinstance(text, (str, bytes)) else text
+    total = len(pieces) if isinstance(pieces, Sized) else 0
+    for done, piece in enumerate(pieces):
+        tell(Stage(what, done / total) if total else what)
         yield piece

@@ -37,15 +37,22 @@ def simulate(
     ] = None,
     with_effects: With = None,
     without_effects: Without = None,
+    most_evaluations: Annotated[
+        int | None,
+        typer.Option(
+            "--most-evaluations", metavar="N", help="Work that is allowed; default 10 million, a minute or two."
+        ),
+    ] = None,
     audit: Annotated[
         bool, typer.Option("--audit", help="Run again with every effect in; tell the true difference.")
     ] = False,
 ) -> Outcome:
     """Integrate one scene: amplitude, level, settling time, where the balls end."""
     from abu_calc.report.simulate_text import simulate_blocks, simulate_screen
-    from abu_calc.report.trajectory import trajectory_csv
+    from abu_calc.report.trajectory import TrajectoryCsv
     from abu_calc.report.write import Target
     from abu_calc.spec.read_scene import read_any
+    from abu_calc.studies.simulate import WORK
     from abu_calc.studies.simulate import simulate as study
 
     _check_files(how, trajectory, samples)
@@ -60,13 +67,14 @@ def simulate(
             without_effects=without_effects or (),
             integrator=integrator,
             audit=audit,
+            most_evaluations=WORK if most_evaluations is None else most_evaluations,
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )
     found = Outcome.of(
         result, lambda: simulate_blocks(result), lambda: simulate_screen(result), extras=lambda: _extras(result)
     )
-    moved = (Target(trajectory, trajectory_csv(result.motion)),) if trajectory and result.motion else ()
+    moved = (Target(trajectory, TrajectoryCsv(result.motion)),) if trajectory and result.motion else ()
     return replace(found, further=moved)
 
 

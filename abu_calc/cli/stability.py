@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.progress import progress
 from abu_calc.cli.scene_options import File
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
@@ -17,6 +19,7 @@ SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
 
 
 def stability(
+    how: Delivery,
     file: File,
     set_: Overrides = None,
     scene: Annotated[
@@ -41,7 +44,11 @@ def stability(
     from abu_calc.studies.stability import stability as study
 
     speeds = None if speeds_rpm is None else _two(speeds_rpm)
-    result = study(read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings)
+    with progress(how) as tell:
+        result = study(
+            read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings,
+            progress=tell,
+        )  # fmt: skip
     return Outcome.of(
         result, lambda: stability_blocks(result), lambda: stability_screen(result), extras=lambda: _extras(result)
     )

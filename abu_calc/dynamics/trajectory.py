@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.progress import Share
+
 Array = NDArray[np.float64]
 
 
@@ -49,15 +51,26 @@ Reader = Callable[[Samples], None]
 
 
 @dataclass(frozen=True)
+class Until:
+    """Times [s] at which a run may end before its last: where all its samples so far are enough."""
+
+    times: tuple[float, ...]
+    enough: Callable[[Samples], bool]
+
+
+@dataclass(frozen=True)
 class Sampling:
     """Times [s] at which a run is sampled, ascending; `readers` are shown all samples, block by block, in their order.
 
-    `held`: those of the times that stay in the trajectory; None: all of them.
+    `held`: those of the times that stay in the trajectory; None: all of them. `told` gets the share that is done.
+    `until`: when all are held, where the run may end early.
     """
 
     times: Array
     held: Array | None = None
     readers: tuple[Reader, ...] = ()
+    told: Share | None = None
+    until: Until | None = None
 
     @classmethod
     def of(cls, times: "Times") -> "Sampling":
@@ -67,6 +80,10 @@ class Sampling:
     def read_by(self, *readers: Reader) -> "Sampling":
         """The same times for others to read."""
         return replace(self, readers=readers)
+
+    def telling(self, told: Share | None) -> "Sampling":
+        """The same times, with somebody who watches."""
+        return replace(self, told=told)
 
 
 Times = Sequence[float] | Array | Sampling

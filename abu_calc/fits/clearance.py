@@ -73,13 +73,13 @@ class Mounting:
 
 @formula(
     "Clearance that a bearing keeps",
-    "initial − change of both raceways − α·(d₁+D₁)/2·ΔT",
+    "initial − change of both raceways − α·(d_i+d_e)/2·ΔT",
     "m",
     where=(
-        "The raceways change by the raceway change at the interference less smoothing and less what warmth takes from "
-        "the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the probable one "
-        "are the 0.135 % and 99.865 % ends of initial − Σ rate·max(interference, 0), integrated over the three normal "
-        "laws. ΔT inner ring over outer ring [K], α of steel, d₁ and D₁ raceways."
+        "The raceways change by the raceway change at the interference less smoothing and less what warmth takes "
+        "from the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the "
+        "probable one are the 0.135 % and 99.865 % ends of initial − Σ rate·max(interference, 0), integrated over "
+        "the three normal laws."
     ),
     checked=("deep groove ball bearings",),
     assumed="rings as plain tubes; sizes and clearance independent, normal, half a field = 3σ",

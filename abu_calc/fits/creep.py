@@ -27,12 +27,9 @@ class Creep(NamedTuple):
 
 @formula(
     "Torque at which a pressed ring slips on its seat",
-    "μ·p·π·d·b·d/2",
+    "μ_s·p·π·d·b_s·d/2",
     "N·m",
-    where=(
-        "μ friction coefficient (0.12 steel on steel, dry or lightly oiled, assumed), p pressure [Pa], d diameter and "
-        "b length of the seat [m]."
-    ),
+    where=("μ_s is 0.12 for steel on steel, dry or lightly oiled (assumed)."),
     checked=(SEAT_FRICTION,),
     assumed="even pressure",
     source="Coulomb friction on a cylinder",

@@ -14,12 +14,9 @@ SHOCK_FACTOR: Final = 1.8
 
 @formula(
     "Load intensity of a seat",
-    "P_R = k₁·k₂·k₃·R/b",
+    "P_R = k₁·k₂·k₃·F_r/b_s",
     "N/m",
-    where=(
-        "R radial load [N], b length of the seat [m]; k₁ = 1.8 strong shocks, k₂ = 1 solid shaft or thick housing, k₃ "
-        "= 1 single row. Unverified advice."
-    ),
+    where=("Unverified advice."),
     checked=(SEAT_LENGTH,),
     source="handbooks as quoted by Afanasiev 2015",
 )

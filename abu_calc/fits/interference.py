@@ -24,10 +24,6 @@ class Interval(NamedTuple):
     "Interference between the extreme sizes",
     "ei − ES … es − EI",
     "m",
-    where=(
-        "Small letters of the part inside (shaft, or outer ring), capital ones of the part around it (inner ring, or "
-        "housing)."
-    ),
     assumed="limits about one nominal size",
     source="ISO 286-1:2010",
 )
@@ -83,12 +79,11 @@ def probability_below(interference: float, male: Limits, female: Limits) -> floa
 
 @formula(
     "Probability that a pair is loose when every part outside its field is sorted out",
-    "∫ f(x)·P(female > x) dx",
+    "∫ p_m(x_s)·P_f(x_s) dx_s",
     "1",
     where=(
-        "f and P are the normal laws of the clearance probability, cut at the limits and scaled to 1. Where the fields "
-        "do not meet the result is exactly 0 or 1; where they do, Simpson's rule over the part they share, good to "
-        "1e-8."
+        "Both are normal laws, cut at the limits and scaled to 1. Where the fields do not meet the result is exactly "
+        "0 or 1; where they do, Simpson's rule over the part they share, good to 1e-8."
     ),
     assumed="both sizes independent",
     source="truncated normal law",

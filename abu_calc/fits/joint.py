@@ -120,7 +120,7 @@ class Joint:
         if self.radial_load is None or self.length is None:
             return ()
         return (
-            Bound(creep_interference(self.radial_load, self.length, self.factor), "13·R·k/b (Afanasiev 2015)"),
+            Bound(creep_interference(self.radial_load, self.length, self.factor), "13·F_r·k_B/b_s (Afanasiev 2015)"),
             Bound(load_loss(self.radial_load, self.diameter, self.ring.width), "0.08·√(d·F_r/B) (bearing catalogues)"),
         )
 

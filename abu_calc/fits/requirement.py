@@ -14,12 +14,12 @@ SERIES_FACTORS: Final[dict[Series, float]] = {"light": 2.8, "medium": 2.3, "heav
 
 @formula(
     "Least interference that keeps a ring under a rotating load from creeping",
-    "N'min = 13·R·k/b",
+    "δ_min = 13·F_r·k_B/b_s",
     "µm",
-    where="R radial load [kN], b = B − 2r length of the seat [mm], k the factor of the series; computed in SI.",
+    where="With δ_min in µm, F_r in kN, b_s in mm; computed in SI.",
     checked=(RADIAL_LOAD, SEAT_LENGTH),
     source="Afanasiev 2015",
-    printed="13·R·k/(10⁶·b) with R in kN and b in m, which gives millimetres, labelled µm",
+    printed="13·F_r·k_B/(10⁶·b_s) with F_r in kN and b_s in m, which gives millimetres, labelled µm",
 )
 def creep_interference(load: float, seat_length: float, factor: float) -> float:
     """
@@ -33,7 +33,7 @@ def creep_interference(load: float, seat_length: float, factor: float) -> float:
     "Interference that a radial load takes from a seat",
     "0.08·√(d·F_r/B)",
     "µm",
-    where="F_r load [N], d diameter of the seat and B width of the ring [m]; computed in SI.",
+    where="In µm, with F_r in N; computed in SI.",
     checked=(RADIAL_LOAD, SEAT_DIAMETER, SEAT_LENGTH),
     assumed=(
         "F_r up to a quarter of the static load rating (catalogues go over to 0.02·F_r/B beyond), inner rings on solid "
@@ -53,7 +53,6 @@ def load_loss(load: float, diameter: float, width: float) -> float:
     "Interference lost by the smoothing of one surface",
     "0.4·Rz",
     "m",
-    where="Rz roughness of the surface [m].",
     checked=(ROUGHNESS,),
     assumed="turned or ground steel",
     source="DIN 7190-1:2017",
@@ -71,8 +70,8 @@ def smoothing_loss(roughness: float) -> float:
     "δ·2/(d + 2), d in mm",
     "m",
     where=(
-        "They leave d/(d + 2) of the apparent interference δ [m] of a ground shaft, d/(d + 3) of a turned one. A "
-        "clearance loses nothing; unverified, never counted."
+        "They leave d/(d + 2) of the apparent interference of a ground shaft, d/(d + 3) of a turned one. A clearance "
+        "loses nothing; unverified, never counted."
     ),
     checked=(SEAT_DIAMETER,),
     source="bearing makers' catalogues",
@@ -90,10 +89,9 @@ def catalogue_smoothing_loss(interference: float, diameter: float) -> float:
     "d·(α₂·ΔT₂ − α₁·ΔT₁)",
     "m",
     where=(
-        "α [1/K], d [m], ΔT above mounting [K]; 2 the part around (inner ring, or housing), 1 the part inside (shaft, "
-        "or outer ring); of equal α it is α·d·ΔT of the difference. Negative where the seat grows tighter. Where only "
-        "the bearing's excess over its surroundings is known, catalogues take an eighth of it for the inner ring's "
-        "over its shaft (their 0.0015·d·Δt µm, d in mm)."
+        "Of equal α it is α·d·ΔT of the difference. Negative where the seat grows tighter. Where only the bearing's "
+        "excess over its surroundings is known, catalogues take an eighth of it for the inner ring's over its shaft "
+        "(their 0.0015·d·ΔT µm, d in mm)."
     ),
     checked=(SEAT_DIAMETER,),
     assumed="uniform temperature of each part",
@@ -113,9 +111,8 @@ def temperature_loss(diameter: float, around: tuple[float, float], inside: tuple
     "(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)",
     "m",
     where=(
-        "Ω speed [rad/s], d seat, d₁ outer diameter of the ring as a tube, d₀ bore of the shaft [m]; ρ, E, ν of the "
-        "material of both. The difference of the free growths of two annular discs at their common diameter: the terms "
-        "(1−ν) of both cancel."
+        "ρ, E and ν of the material of both. The difference of the free growths of two annular discs at their common "
+        "diameter: the terms (1−ν) of both cancel."
     ),
     checked=(RING_SPEED,),
     assumed="plane stress, elastic, the load of rollers or balls left out",

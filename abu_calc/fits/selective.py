@@ -33,12 +33,13 @@ class Group(NamedTuple):
 
 @formula(
     "The fewest equal groups that bring every pair into the asked band, none when no number does",
+    signs="n_g T₁ T₂ ei es EI ES",
     where=(
-        "Both fields are cut into n equal groups and matched by number. Group i then has ei − EI + i·(T₁−T₂)/n − T₂/n "
-        "at least and T₁/n + T₂/n more at most, so that over all groups least = min(ei − EI, es − ES) − min(T₁, T₂)/n, "
-        "most = max(ei − EI, es − ES) + min(T₁, T₂)/n and n ≥ min(T₁, T₂)/(min(…) − asked least), n ≥ min(T₁, "
-        "T₂)/(asked most − max(…)). However fine the groups, the spread stays above |T₁ − T₂|: a narrower band, or one "
-        "beside those middles, cannot be reached by sorting."
+        "Both fields are cut into n_g equal groups and matched by number. Group k then has ei − EI + k·(T₁−T₂)/n_g − "
+        "T₂/n_g at least and T₁/n_g + T₂/n_g more at most, so that over all groups least = min(ei − EI, es − ES) − "
+        "min(T₁, T₂)/n_g, most = max(ei − EI, es − ES) + min(T₁, T₂)/n_g and n_g ≥ min(T₁, T₂)/(min(…) − asked "
+        "least), n_g ≥ min(T₁, T₂)/(asked most − max(…)). However fine the groups, the spread stays above |T₁ − T₂|: "
+        "a narrower band, or one beside those middles, cannot be reached by sorting."
     ),
     assumed="limits about one nominal size",
     source="derived from the limits of size",

@@ -53,10 +53,7 @@ def outer_ring_diameter(bore: float, outer: float) -> float:
     "Pressure between two pressed tubes",
     "p = (δ/d)/{[(1+q₂²)/(1−q₂²) + ν₂]/E₂ + [(1+q₁²)/(1−q₁²) − ν₁]/E₁}",
     "Pa",
-    where=(
-        "δ diametral interference [m] (none: no pressure), d diameter of the seat [m], q ratio of a tube's diameters, "
-        "1 the part inside, 2 the part around it."
-    ),
+    where=("No pressure without interference."),
     checked=(TUBE_RATIO, SEAT_DIAMETER),
     assumed="elastic, long tubes of equal length",
     source="Lamé; DIN 7190-1:2017",
@@ -71,7 +68,8 @@ def contact_pressure(interference: float, diameter: float, male: Tube, female: T
     "Largest hoop stress in an inner ring, tension at its bore",
     "p·(1+q²)/(1−q²)",
     "Pa",
-    where="p contact pressure, q ratio of the ring's diameters; on a solid shaft of the same steel E·δ·(1+q²)/(2d).",
+    signs="E δ d",
+    where="On a solid shaft of the same steel E·δ·(1+q²)/(2d).",
     checked=(TUBE_RATIO, SEAT_DIAMETER),
     assumed="as of the contact pressure",
     source="Lamé",
@@ -86,12 +84,13 @@ def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: T
 
 
 @formula(
-    "Change of the diameter of a ring's raceway under the pressure p [Pa] of its seat",
+    "Change of the diameter of a ring's raceway under the pressure of its seat",
     "2·p·q·d/[(1−q²)·E]",
     "m",
+    signs="δ",
     where=(
-        "d diameter of the seat [m], q ratio of the ring's diameters; an inner ring grows outside, an outer one "
-        "shrinks inside, by the same formula. On a solid shaft of the ring's steel that is q·δ."
+        "An inner ring grows outside, an outer one shrinks inside, by the same formula. On a solid shaft of the "
+        "ring's steel that is q·δ."
     ),
     checked=(TUBE_RATIO,),
     assumed="as of the contact pressure",
@@ -111,7 +110,6 @@ def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
     "Magnitude of the largest hoop stress in an outer ring, compression at its bore",
     "2p/(1−q²)",
     "Pa",
-    where="p contact pressure, q ratio of the ring's diameters.",
     checked=(TUBE_RATIO, SEAT_DIAMETER),
     assumed="as of the contact pressure",
     source="Lamé",

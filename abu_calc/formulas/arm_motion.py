@@ -1,7 +1,7 @@
 """An arm whose imbalance is not balanced: its forced motion, how fast it dies out, and where it grows.
 
-(1 + 2κ cos ωt) z'' + 2 z' (h − κω sin ωt) + ω₀² z = ω²κ sin ωt, z the arm's angle from rest [rad], κ = l·ds/J_O,
-h = h_sh·l²/(2J_O), ω₀ its natural frequency. Source: Kovalenko 2010, (8), corrected.
+(1 + 2κ_a cos Ωt) φ_f'' + 2 φ_f' (h_a − κ_aΩ sin Ωt) + ω₀² φ_f = Ω²κ_a sin Ωt, φ_f the arm's angle from rest [rad],
+κ_a = l·m₀e/J_O, h_a = h_sh·l²/(2J_O), ω₀ its natural frequency. Source: Kovalenko 2010, (8), corrected.
 """
 
 import math
@@ -14,19 +14,22 @@ ORDERS = 3
 
 @formula(
     "Forced motion of an arm with its imbalance, by perturbation",
-    "z = κ(M₁ cos ωt + N₁ sin ωt) + κ²(M₂ cos 2ωt + N₂ sin 2ωt) + κ³(M₁₃ cos ωt + N₁₃ sin ωt + M₃ cos 3ωt + "
-    "N₃ sin 3ωt)",
+    (
+        "φ_f = κ_a(M₁ cos Ωt + N₁ sin Ωt) + κ_a²(M₂ cos 2Ωt + N₂ sin 2Ωt) + κ_a³(M₁₃ cos Ωt + N₁₃ sin Ωt + M₃ cos "
+        "3Ωt + N₃ sin 3Ωt)"
+    ),
     "rad",
+    signs="ω₀ h_a K_j",
     where=(
-        "    M₁ = −2hω³/D₁,  N₁ = ω²(ω₀² − ω²)/D₁,  D_i = (ω₀² − i²ω²)² + 4h²i²ω²\n"
-        "    M₂ = 2ω²[(ω₀² − 4ω²)M₁ − 4hωN₁]/D₂,  N₂ = 2ω²[4hωM₁ + (ω₀² − 4ω²)N₁]/D₂\n"
-        "    M₁₃ = 2ω²[(ω₀² − ω²)M₂ − 2hωN₂]/D₁,  N₁₃ = 2ω²[2hωM₂ + (ω₀² − ω²)N₂]/D₁\n"
-        "    M₃ = 6ω²[(ω₀² − 9ω²)M₂ − 6hωN₂]/D₃,  N₃ = 6ω²[6hωM₂ + (ω₀² − 9ω²)N₂]/D₃\n"
-        "Resonances at ω₀/i are forced ones: large motion, no growth."
+        "    M₁ = −2h_aΩ³/K₁,  N₁ = Ω²(ω₀² − Ω²)/K₁,  K_j = (ω₀² − j²Ω²)² + 4h_a²j²Ω²\n"
+        "    M₂ = 2Ω²[(ω₀² − 4Ω²)M₁ − 4h_aΩN₁]/K₂,  N₂ = 2Ω²[4h_aΩM₁ + (ω₀² − 4Ω²)N₁]/K₂\n"
+        "    M₁₃ = 2Ω²[(ω₀² − Ω²)M₂ − 2h_aΩN₂]/K₁,  N₁₃ = 2Ω²[2h_aΩM₂ + (ω₀² − Ω²)N₂]/K₁\n"
+        "    M₃ = 6Ω²[(ω₀² − 9Ω²)M₂ − 6h_aΩN₂]/K₃,  N₃ = 6Ω²[6h_aΩM₂ + (ω₀² − 9Ω²)N₂]/K₃\n"
+        "Resonances at ω₀ over a whole number are forced ones: large motion, no growth."
     ),
     checked=(MODULATION,),
     source="Kovalenko 2010, (11)",
-    printed="it calls the motion near ω₀/i unstable; there is no instability there",
+    printed="it calls the motion near them unstable; there is no instability there",
 )
 def forced_harmonics(kappa: float, speed: float, natural: float, decay: float) -> tuple[complex, complex, complex]:
     """Amplitudes M + iN [rad] of ω, 2ω, 3ω; infinite at a resonance that nothing damps.
@@ -48,7 +51,7 @@ def forced_harmonics(kappa: float, speed: float, natural: float, decay: float) -
 
 @formula(
     "Rates at which the free motion of the arm dies out",
-    "−h away from resonance; −(h ± κω₀/2) at ω = 2ω₀",
+    "−h_a away from resonance; −(h_a ± κ_a·ω₀/2) at Ω = 2ω₀",
     "1/s",
     where="A positive rate grows.",
     checked=(MODULATION,),
@@ -62,10 +65,10 @@ def free_rates(kappa: float, natural: float, decay: float) -> tuple[float, float
 
 @formula(
     "Damping on the edge of the tongue, averaged",
-    "σ_c = ½·√{1 − 16·[(k − ½)/κ]²}, k = ω₀/ω, σ = h/(κω₀)",
+    "h_a/(κ_a·ω₀) = ½·√{1 − 16·[(ω₀/Ω − ½)/κ_a]²}",
     "1",
-    where="Without damping the arm grows where |k − ½| < κ/4; above σ_c it does not grow at all.",
-    assumed="small κ; the tongue at ω = 2ω₀, the only one that counts",
+    where="Without damping the arm grows where |ω₀/Ω − ½| < κ_a/4; above that it does not grow at all.",
+    assumed="small κ_a; the tongue at Ω = 2ω₀, the only one that counts",
     source="Kovalenko 2010, (20) to (23)",
     printed='the matrix "E = (0 0; 0 1)" is the unit matrix',
 )

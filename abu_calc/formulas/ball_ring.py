@@ -16,7 +16,6 @@ HALF_ANGLE_SINE = Range("ball radius over pitch radius", 0.0, 1.0, open_low=True
     "Half the angle between touching neighbours",
     "β = arcsin(r/(R−r))",
     "rad",
-    where="r ball radius, R race radius [m].",
     checked=(HALF_ANGLE_SINE,),
     source="geometry",
 )
@@ -37,7 +36,6 @@ def most_balls(beta: float) -> int:
     "Number of balls up to which one more adds capacity; beyond it one more takes some away",
     "n* = round(π/(2β))",
     "1",
-    where="β half angle of touching neighbours [rad].",
     source="derived",
 )
 def best_count(beta: float) -> int:
@@ -48,10 +46,8 @@ def best_count(beta: float) -> int:
     "Largest imbalance that n balls side by side can balance",
     "m·R_p·sin(nβ)/sin β",
     "kg m",
-    where=(
-        "m mass of a ball [kg], R_p = R−r pitch radius [m], β half angle of touching neighbours. It grows only up to "
-        "n* = round(π/(2β))."
-    ),
+    signs="R_p",
+    where=("It grows only up to n* = round(π/(2β))."),
     checked=("1 ≤ n ≤ ⌊π/β⌋",),
     source="derived, and found to be the maximum under the spacing constraint by optimisation",
     printed="Kladiev 1996, (6), takes 2·m·(R−r), as if balls had no size",

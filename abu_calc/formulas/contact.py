@@ -24,12 +24,9 @@ class SteadyContact:
 
     @formula(
         "Imbalance U that free balls settle at",
-        "Ω²U = E·(D_x − isf·D_y)/(1 + isf + q·(D_x + D_y))",
+        "Ω²U = ε·(D_x − i·s·f·D_y)/(1 + i·s·f + q_n·(D_x + D_y))",
         "kg m",
-        where=(
-            "E runout [m], D dynamic stiffness of each axis [N/m], q compliance of the contact [m/N], s sense of "
-            "rotation, f cutting coefficient. From F = (X + iY)/2 = 0, the forward whirl that moves balls."
-        ),
+        where=("ε is complex by its angle. From (X + iY)/2 = 0, the forward whirl of the axis, which moves balls."),
         assumed="above resonance, no separation, two or more balls with capacity to spare",
         source="derived; rigid and frictionless it is Kladiev 1996, (4)",
         printed=(

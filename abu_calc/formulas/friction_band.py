@@ -8,12 +8,12 @@ from abu_calc.formula import formula
 
 @formula(
     "Largest axis displacement at which dry rolling friction can hold every ball where it is",
-    "(k_r·R_p/r)/cos(g/2)",
+    "(k_r·R_p/r)/cos(γ_g/2)",
     "m",
+    signs="w θ",
     where=(
-        "|Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| is at most that, g the largest gap between the directions "
-        "of the balls modulo 180°; for two balls at ±θ this is (k_r·R_p/r)/min(|sin θ|, |cos θ|). k_r lever arm of "
-        "rolling friction, R_p pitch radius, r ball radius [m]; infinite when all balls are in one line."
+        "|Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| is at most that; γ_g is taken modulo 180°. For two balls "
+        "at ±θ this is (k_r·R_p/r)/min(|sin θ|, |cos θ|). Infinite when all balls are in one line."
     ),
     assumed="hard, clean race, k_r 0.5–5 µm; whatever the speed",
     source="derived; Kladiev 1996 has no such limit",

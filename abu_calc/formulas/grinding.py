@@ -12,17 +12,18 @@ from abu_calc.formula import formula
 
 @formula(
     "What the balls add up to under load, as printed",
-    "√{(Mε)²(ω_x²−Ω²)² + (m₀e)²Ω⁴ − 2 m₀e Mε Ω²(ω_x²−Ω²) cos φ₀}/Ω², at the angle π + β₁",
+    "√{(Mε)²(ω_x²−Ω²)² + (m₀e)²Ω⁴ − 2 m₀e Mε Ω²(ω_x²−Ω²) cos φ_ε}/Ω², at the angle π + β_U",
     "kg m",
+    signs="m R_p",
     where=(
-        "β₁ = arctan(Mε(ω_x²−Ω²) sin φ₀/(Mε(ω_x²−Ω²) cos φ₀ − m₀eΩ²)). Two balls then rest at π + β₁ ∓ α₁, α₁ the "
-        "arccos of the half of it over m·R_p."
+        "β_U = arctan(Mε(ω_x²−Ω²) sin φ_ε/(Mε(ω_x²−Ω²) cos φ_ε − m₀eΩ²)). Two balls then rest to either side of that "
+        "angle, by the arccos of the half of it over m·R_p."
     ),
     assumed="rigid contact, no friction, undamped support",
     source="Kladiev 1996, (4)",
     printed=(
         "Kept as printed, to be compared: it leaves the friction out, and arctan loses the quadrant when "
-        "Mε(ω_x²−Ω²)cos φ₀ > m₀eΩ². Right is Ω²U = E·(D_x − isf·D_y)/(1 + isf + q(D_x + D_y))"
+        "Mε(ω_x²−Ω²)cos φ_ε > m₀eΩ². Right is Ω²U = ε·(D_x − i·s·f·D_y)/(1 + i·s·f + q_n(D_x + D_y))"
     ),
 )
 def printed_resultant(
@@ -41,12 +42,12 @@ def printed_resultant(
 
 @formula(
     "Stiffness of the slow motion of balls under load, its two eigenvalues that are not neutral",
-    "mΩ²/2·[−n Re G ± √(n²(Re G)² − |G|²(n² − |Σe^{2iΘ}|²))]",
+    "mΩ²/2·[−n Re G ± √(n²(Re G)² − |G|²(n² − |Σe^{2iθ}|²))]",
     "1/s²",
+    signs="κ f",
     where=(
-        "m mass of a ball, n how many, G forward whirl of the axis per imbalance [m/(kg m)], Θ places of the balls. "
-        "Two balls at a rigid contact: κ(1 ± √(C² − f²S²)), C and S cosine and sine of the angle between them. A pair "
-        "of complex ones lets the balls flutter."
+        "θ as the balls stand. Two balls at a rigid contact: κ times 1 ± √(cos² − f²·sin²) of the angle between "
+        "them. A pair of complex ones lets the balls flutter."
     ),
     assumed="balls light beside the machine, no separation",
     source="derived by averaging; Kladiev 1996, (7), is Re > 0 without friction",
@@ -63,14 +64,14 @@ def loaded_stiffness(
 
 @formula(
     "Drag below which balls flutter under load",
-    "h₀ = |Im k|·√(J/Re k)",
+    "h₀ = |Im κ_s|·√(J/Re κ_s)",
     "1/s",
+    signs="κ f",
     where=(
-        "k an eigenvalue of the slow stiffness under load [1/s²], J rolling inertia factor; the larger of both. Two "
-        "balls at a rigid contact: √(Jκ(f²S² − C²)) where that is real, else 0. Infinite where Re k < 0: no drag holds "
-        "them."
+        "κ_s under load; the larger of both. Two balls at a rigid contact: √(Jκ(f²·sin² − cos²)) of the angle "
+        "between them where that is real, else 0. Infinite where Re κ_s < 0: no drag holds them."
     ),
-    source="derived: J s² + h₀ s + k = 0 has a root in the right half plane below it",
+    source="derived: J λ² + h₀ λ + κ_s = 0 has a root in the right half plane below it",
 )
 def flutter_drag(stiffnesses: Sequence[complex], inertia_factor: float) -> float:
     """
@@ -87,9 +88,8 @@ def flutter_drag(stiffnesses: Sequence[complex], inertia_factor: float) -> float
     "c₁ = MΩ² − c_y, c₂ = 2MΩ² − c_x − c_y",
     "N/m",
     where=(
-        "Below c₁ balls balance and wear centres the wheel; between them balls increase the imbalance, and without an "
-        "autobalancer wear drives the wheel off; above c₂ balls balance, and wear increases the runout. M mass with "
-        "the autobalancer [kg], c suspension [N/m]."
+        "Below c₁ balls balance and wear centres the wheel; between them balls increase the imbalance, and without "
+        "an autobalancer wear drives the wheel off; above c₂ balls balance, and wear increases the runout."
     ),
     assumed="no separation; suspension hardly damped",
     source="derived",
@@ -107,12 +107,13 @@ def stiffness_regions(dynamic_stiffness: tuple[complex, complex]) -> tuple[float
 
 @formula(
     "Change of the runout per depth that is worn off on average",
-    "dε/ds = −Re(H e^{−iφ₀})/N₀",
+    "dε/ds_w = −Re(F_H e^{−iφ_ε})/N₀",
     "1",
+    signs="D_x D_y",
     where=(
-        "H pressure on the wheel's first harmonic [N], D_y E + Ω²U at a rigid contact, with free balls E·(D_x + "
-        "D_y)/(1 + isf + q(D_x + D_y)); N₀ press force. What is worn off one side is missing there: dU₀ = m_w "
-        "dE, m_w the wheel's mass as a disc. Bouncing or not, it is between −2 and 2."
+        "F_H is D_y·ε + Ω²U at a rigid contact, with free balls ε·(D_x + D_y)/(1 + i·s·f + q_n(D_x + D_y)). What is "
+        "worn off one side is missing there: it changes the imbalance by dε times the wheel's mass as a disc. "
+        "Bouncing or not, the rate is between −2 and 2."
     ),
     assumed="wear in proportion to force and way (Archard 1953)",
     source="derived",
@@ -147,11 +148,10 @@ def largest_factor(slope: complex, offset: complex, limit: float) -> float | Non
 
 @formula(
     "Axis without autobalancer at a rigid contact, well above the suspension",
-    "|m₀e(1 + isf)/M − isfε·e^{iφ₀}|",
+    "|m₀e(1 + i·s·f)/M − i·s·f·ε·e^{iφ_ε}|",
     "m",
     where=(
-        "Amplitude along the work against φ₀, the angle from imbalance to runout; largest at φ₀ = s(90° + δ), tan δ = "
-        "f. Its square is a limaçon of Pascal."
+        "Amplitude along the work against φ_ε; largest at φ_ε = s(90° + arctan f). Its square is a limaçon of Pascal."
     ),
     assumed="Ω far above the natural frequencies, rigid contact",
     source="derived",

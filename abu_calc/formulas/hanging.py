@@ -20,16 +20,16 @@ _CHECKED = (
 
 
 @formula(
-    "Drag that balls going round at ν need to be pulled on past it",
-    "h₀ > n·m·σ²·ν⁴·(−Im[h_xx(ν) + h_yy(ν)])/(2(Ω − ν))",
+    "Drag that balls going round below the speed need to be pulled on past a resonance",
+    "h₀ > n·m·χ²·Ω_b⁴·(−Im[H_xx(Ω_b) + H_yy(Ω_b)])/(2(Ω − Ω_b))",
     "1/s",
+    signs="ζ M ω",
     where=(
-        "n·m mass of all balls [kg], σ = sin(nβ)/(n·sin β) their resultant side by side (1 without size), h the "
-        "receptance at the race with the balls' mass on it [m/N], Ω speed of the rotor [rad/s]. The largest up to the "
-        "highest natural frequency below Ω counts. Of springs alike along x and y that is n·m·ω²/(2ζM(Ω − ω)), of one "
-        "axis alone half of it."
+        "χ of balls side by side (1 without size), H_xx and H_yy with the balls' mass on the race. The largest up to "
+        "the highest natural frequency below Ω counts. Of springs alike along x and y that is n·m·ω²/(2ζM(Ω − ω)), "
+        "of one axis alone half of it."
     ),
-    assumed=f"ν below Ω, linear support; sufficient {_CHECKED}",
+    assumed=f"Ω_b below Ω, linear support; sufficient {_CHECKED}",
     source="derived by the balance of drag and dissipation; the effect: Sperling et al. 2002, Wright & Peng 2019",
 )
 def resonance_drag(lost: Numbers, frequency: Numbers, speed: float) -> Numbers:
@@ -47,7 +47,7 @@ def resonance_drag(lost: Numbers, frequency: Numbers, speed: float) -> Numbers:
     "Drag above which balls do not run above a heavily damped resonance (ζ of 0.3 and more)",
     "h₀ > 2ζω·√(n·m·J/(2M))",
     "1/s",
-    where="2ζω = c/M damping of the support over all mass that moves with the balls [1/s], J rolling inertia factor.",
+    where="2ζω is the damping of the support over all mass that moves with the balls.",
     assumed=f"sufficient {_CHECKED}; the highest seen was 0.73 of it",
     source="found by integration",
 )
@@ -64,7 +64,6 @@ def damped_drag(damping_rate: float, mass_ratio: float, inertia_factor: float) -
     "Drag above which balls do not stand still under gravity, the spindle horizontal",
     "h₀ > g/(R_p·Ω)",
     "1/s",
-    where="R_p pitch radius [m].",
     source="derived: the drag on a ball at rest, m·R_p·h₀·Ω, against its weight; hung at 0.97 of it, not at 1.03",
 )
 def gravity_drag(pitch_radius: float, speed: float) -> float:
@@ -77,9 +76,9 @@ def gravity_drag(pitch_radius: float, speed: float) -> float:
 
 @formula(
     "Resultant of touching balls over that of as many in one place",
-    "σ = sin(nβ)/(n·sin β)",
+    "χ = sin(nβ)/(n·sin β)",
     "1",
-    where="β half angle of touching neighbours [rad], 0 without size.",
+    where="β is 0 without size.",
     source="geometry",
 )
 def side_by_side(count: int, beta: float) -> float:

@@ -22,13 +22,13 @@ MOST: Final = 100_000
 
 @formula(
     "Characteristic equation of balls of finite mass under load",
-    "X² + n(p + p̄)X + (n² − |Σe^{2iΘ}|²)·p·p̄ = 0, X = J s² + h₀ s",
+    "Λ² + n(P_λ + P̄_λ)Λ + (n² − |Σe^{2iθ}|²)·P_λ·P̄_λ = 0, Λ = J λ² + h₀ λ",
     "",
+    signs="m G Ω",
     where=(
-        "p = −(m/2)(Ω − is)²·G(Ω − is), p̄ its conjugate at the conjugate s; m mass of a ball, n how many, G forward "
-        "whirl of the axis per imbalance [m/(kg m)], J rolling inertia factor, h₀ drag [1/s]. A root s right of "
-        "zero lets balls leave their places: flutter by cutting friction, or a natural frequency on the contact too "
-        "near the speed for their mass."
+        "P_λ = −(m/2)(Ω − iλ)²·G(Ω − iλ), P̄_λ its conjugate at the conjugate λ. A root right of zero lets balls "
+        "leave their places: flutter by cutting friction, or a natural frequency on the contact too near the speed "
+        "for their mass."
     ),
     assumed="no separation; what turns at 2Ω averaged out",
     source="derived; idle, on equal axes it is exact",

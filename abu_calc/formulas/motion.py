@@ -17,14 +17,15 @@ HARDLY: Final = 0.01
 EQUATIONS = register(Formula(
     "formulas.motion:equations",
     "The one set of equations of motion, composed of a support, races of balls, and the effects of a scene",
-    where="A support is felt by the balls as a frame of d accelerations A. Ball k of mass m stands at the angle θ_k in "
-    "the rotor, γ_k = θ_k + (turn of the rotor), e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). With T_k and N_k the "
-    "acceleration of its place in the race per unit A along e_t and e_r, and κ_t, κ_r what that place has without A:\n"
-    "    ball     J R_p θ'' = g_t − R_p h₀ θ' − κ_t − T·A − (dry friction) n,    n = R_p γ'² + g_r − κ_r − N·A\n"
-    "    frame    (M_f + Σ m (T Tᵀ + N Nᵀ)) A = f + Σ m N (R_p γ'² − κ_r) − Σ m T (κ_t + R_p θ'')\n"
-    "n is the normal force of ball and race per mass, so dry friction is solved with the motion. Eliminating θ'' "
-    "leaves d equations, whose matrix is symmetric and positive definite without friction; the cost grows linearly "
-    "with the balls. J = 1 for a point, 7/5 for a rolling ball, 3/2 for a roller.",
+    where="A support is felt by the balls as a frame with accelerations of its own. γ_k = θ_k + (turn of the rotor), "
+    "along the race is (−sin γ_k, cos γ_k), outward (cos γ_k, sin γ_k).\n"
+    "    ball     J R_p θ_k'' = g_t − R_p h₀ θ_k' − A_t − T_k·A_f − (dry friction) n_b,\n"
+    "             n_b = R_p γ_k'² + g_r − A_r − N_k·A_f\n"
+    "    frame    (M_f + Σ m (T_k T_kᵀ + N_k N_kᵀ)) A_f\n"
+    "             = f_f + Σ m N_k (R_p γ_k'² − A_r) − Σ m T_k (A_t + R_p θ_k'')\n"
+    "n_b is solved with the motion, since dry friction hangs on it. Eliminating θ_k'' leaves those of the frame, "
+    "whose matrix is symmetric and positive definite without friction; the cost grows linearly with the balls.",
+    signs="J m R_p h₀ θ_k γ_k A_f T_k N_k A_t A_r g_t g_r n_b M_f f_f",
     source="Kladiev 1996, (1), and Kovalenko 2010, (1)–(3), re-derived by Lagrange's equations",
     printed="Kladiev's (1) has J = 1, so its balls move faster by √(7/5), and no damping of the support, so its free "
     "vibration never dies",

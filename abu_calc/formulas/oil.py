@@ -17,9 +17,9 @@ ADDED: Final = 0.7
 
 @formula(
     "Drag of oil at a temperature over that at 40 °C",
-    "ν(T)/ν(40 °C), lg lg(ν + 0.7) = A − B·lg T",
+    "ν_o(T_o)/ν_o(40 °C), lg lg(ν_o + 0.7) = A_o − B_o·lg T_o",
     "1",
-    where="ν kinematic viscosity [mm²/s], T absolute temperature [K]; A, B from 46 at 40 °C and 6.8 at 100 °C (VG 46).",
+    where="ν_o in mm²/s; A_o and B_o from 46 at 40 °C and 6.8 at 100 °C (VG 46).",
     checked=(TEMPERATURE,),
     assumed="a mineral oil of viscosity index 100; drag proportional to viscosity (Stokes)",
     source="ASTM D341 (Walther 1931); ISO 3448 for the grade",

@@ -7,14 +7,14 @@ from abu_calc.formula import formula
 
 @formula(
     "Amplitude of a shaking beyond which balls roll in spite of dry friction",
-    "a > k_r·R_p/r",
+    "a_s > k_r·R_p/r",
     "m",
     where=(
-        "a amplitude across the race, of the axial runout a_z by which a face wheel moves the machine, or along it, of "
-        "the backward whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
+        "Across the race, of the axial runout by which a face wheel moves the machine, or along it, of the backward "
+        "whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
     ),
     assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(R_g−r), across it at resonance",
-    source="derived, and seen in simulations",
+    source="derived; simulated of every machine by abu grinding",
     printed=(
         "Kladiev 1996 has axial runout alone shake friction out; the whirl by runout in the plane does, too, but slowly"
     ),
@@ -29,10 +29,10 @@ def shaking_threshold(arm: float, pitch_radius: float, ball_radius: float) -> fl
 
 @formula(
     "Drag that dry friction amounts to while a backward whirl shakes the balls along the race",
-    "4J(k_r·R_p/r)Ω/(π·a)",
+    "4J(k_r·R_p/r)Ω/(π·a_s)",
     "1/s",
-    where="J rolling inertia factor, a amplitude of the whirl [m]; the mean of friction over a swing at 2Ω.",
-    assumed="a well above k_r·R_p/r",
+    where="The mean of friction over a swing at 2Ω.",
+    assumed="a_s well above k_r·R_p/r",
     source="derived by averaging",
 )
 def shaken_drag(threshold: float, whirl: float, speed: float, inertia_factor: float) -> float:

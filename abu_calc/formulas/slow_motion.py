@@ -20,8 +20,7 @@ from abu_calc.formula import formula
     "κ = (m Ω⁴/2M) [1/(Ω² − ω₁²) + 1/(Ω² − ω₂²)]",
     "1/s²",
     where=(
-        "m mass of the ball, M of all that moves, with the balls [kg], ω natural frequencies [rad/s]. Positive exactly "
-        "where balls balance: above both frequencies, or between the smaller and √((ω₁² + ω₂²)/2)."
+        "Positive exactly where balls balance: above both frequencies, or between the smaller and √((ω₁² + ω₂²)/2)."
     ),
     checked=("not at a resonance",),
     assumed="both axes free, balls light beside the machine",
@@ -66,12 +65,10 @@ def slow_rates(stiffness: float, drag: float, inertia_factor: float) -> tuple[co
 
 @formula(
     "Slowest rate at which a disturbance of the balls dies out, neutral directions apart; ≤ 0 where one does not",
-    "−Re s of J s² + h₀ s + k = 0",
+    "−Re λ of J λ² + h₀ λ + κ_s = 0",
     "1/s",
-    where=(
-        "k the eigenvalues ½(Σκ ∓ |Σ κ e^{2iθ}|) of the slow stiffness [1/s²], h₀ drag [1/s], J rolling inertia "
-        "factor, θ resting angles of the balls."
-    ),
+    signs="κ θ",
+    where=("κ_s the eigenvalues ½(Σκ ∓ |Σ κ e^{2iθ}|)."),
     assumed="real rates within about (m/M)^(1/2)",
     source="derived by averaging",
 )
@@ -81,10 +78,9 @@ def decay_rate(stiffnesses: Sequence[float], angles: Sequence[float], drag: floa
 
 @formula(
     "Drag that damps one slow mode critically: less lets it swing, more lets it creep",
-    "h₀ = 2√(J k)",
+    "h₀ = 2√(J κ_s)",
     "1/s",
-    where="J rolling inertia factor, k stiffness of the mode [1/s²].",
-    checked=("k > 0",),
+    checked=("κ_s > 0",),
     source="derived by averaging",
 )
 def optimum_drag(stiffness: float, inertia_factor: float) -> float:

@@ -80,11 +80,12 @@ def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float
 
 @formula(
     "Natural frequency of the mass on the suspension",
-    "√(c/m)",
+    "√(c/M)",
     "rad/s",
+    signs="D_x",
     where=(
-        "For springs. For hands the highest frequency at which Re D = 0 (bracketed from 1000 Hz down in steps of 1 %): "
-        "the machine and the arms."
+        "For springs. For hands the highest frequency at which Re D_x = 0 (bracketed from 1000 Hz down in steps of 1 "
+        "%): the machine and the arms."
     ),
 )
 def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:

@@ -11,8 +11,8 @@ from abu_calc.formula import formula
 from abu_calc.validity import Range
 
 FRICTION = Range("cutting coefficient f", 0.0, 0.8, key="swing_arm.cutting_coefficient")
-RADIUS_RATIO = Range("disk radius over arm length R/l", 0.0, 1.0, key="swing_arm.arm_length_mm")
-MODULATION = Range("κ = l·ds/J", 0.0, 0.3, key="swing_arm.moment_of_inertia_kg_m2")
+RADIUS_RATIO = Range("disk radius over arm length R_w/l", 0.0, 1.0, key="swing_arm.arm_length_mm")
+MODULATION = Range("κ_a = l·m₀e/J_O", 0.0, 0.3, key="swing_arm.moment_of_inertia_kg_m2")
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,9 @@ class Arm:
 
 @formula(
     "Contact stiffness felt by the arm, per c_n·l²",
-    "g(Z) = sin Z·(sin Z + f·(R/l − cos Z))",
+    "k_Z(Z) = sin Z·(sin Z + f·(R_w/l − cos Z))",
     "1",
-    where=(
-        "Z angle between the arm and the contact radius, the normal [rad]; f for a disk turning in the pressing sense."
-    ),
+    where=("f for a disk turning in the pressing sense."),
     source="Kovalenko 2010, (3)",
     printed="the text measures Z to the tangent; then sine and cosine would change places",
 )
@@ -46,10 +44,10 @@ def contact_gain(angle: float, friction: float, ratio: float) -> float:
 
 
 @formula(
-    "Contact angle Z* that makes g largest",
-    "sin 2Z + f·(R/l)·cos Z − f·cos 2Z = 0",
+    "Contact angle Z* that makes the contact gain largest",
+    "sin 2Z + f·(R_w/l)·cos Z − f·cos 2Z = 0",
     "rad",
-    where="Series: Z* = π/2 + f/2 − (R/l)f²/4 + (3(R/l)² − 4)f³/24.",
+    where="Series: π/2 + f/2 − (R_w/l)f²/4 + (3(R_w/l)² − 4)f³/24.",
     checked=(FRICTION, RADIUS_RATIO),
     source="Kovalenko 2010, (13), the exact root instead of the series",
 )
@@ -68,10 +66,11 @@ def worst_contact_angle(friction: float, ratio: float) -> float:
 
 
 @formula(
-    "Contact angle Z that makes g smallest: friction lifts the wheel by itself",
-    "sin 2Z + f·(R/l)·cos Z − f·cos 2Z = 0, Z < π/2",
+    "Contact angle that makes the contact gain smallest: friction lifts the wheel by itself",
+    "sin 2Z + f·(R_w/l)·cos Z − f·cos 2Z = 0, Z < π/2",
     "rad",
-    where="There g < 0 as long as f > 0 and R < l: the contact's stiffness is negative.",
+    signs="k_Z",
+    where="There k_Z < 0 as long as f > 0 and R_w < l: the contact's stiffness is negative.",
     checked=(FRICTION, RADIUS_RATIO),
     source="derived from Kovalenko 2010, (3)",
 )
@@ -91,7 +90,7 @@ def lifting_angle(friction: float, ratio: float) -> float:
 
 @formula(
     "Joint stiffness with which the arm stands at every contact angle",
-    "c_sh > −c_n·min g",
+    "c_sh > −c_n·min k_Z",
     "N/m",
     source="derived from Kovalenko 2010, (3)",
 )
@@ -102,9 +101,9 @@ def standing_stiffness(arm: Arm) -> float:
 
 @formula(
     "Contact angles between which the arm does not stand",
-    "c_sh + c_n·g(Z) = 0",
+    "c_sh + c_n·k_Z(Z) = 0",
     "rad",
-    where="None where the joint is stiff enough for every angle: c_sh > −c_n·min g.",
+    where="None where the joint is stiff enough for every angle: c_sh > −c_n·min k_Z.",
     source="derived from Kovalenko 2010, (3)",
 )
 def lifted_angles(arm: Arm) -> tuple[float, float] | None:
@@ -124,9 +123,9 @@ def lifted_angles(arm: Arm) -> tuple[float, float] | None:
 
 @formula(
     "Contact angles at which the speed is that of parametric resonance",
-    "c_sh + c_n·g(Z) = J_O·Ω²/(4l²)",
+    "c_sh + c_n·k_Z(Z) = J_O·Ω²/(4l²)",
     "rad",
-    where="None, one or two: before and behind the angle at which g is largest.",
+    where="None, one or two: before and behind the angle at which k_Z is largest.",
     source="Kovalenko 2010, (3) and (22)",
 )
 def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
@@ -144,11 +143,11 @@ def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
 
 
 @formula(
-    "Largest g by its series, never below the exact one, so on the safe side by at most 1.2 %",
-    "g* = 1 + (R/l)f + f²/4 − (R/l)f³/8",
+    "Largest contact gain by its series, never below the exact one, so on the safe side by at most 1.2 %",
+    "k_Z* = 1 + (R_w/l)f + f²/4 − (R_w/l)f³/8",
     "1",
     checked=(FRICTION, RADIUS_RATIO),
-    assumed="R/l 0.2…0.5",
+    assumed="R_w/l 0.2…0.5",
     source="Kovalenko 2010, (14)",
 )
 def series_gain(friction: float, ratio: float) -> float:
@@ -162,11 +161,9 @@ def series_gain(friction: float, ratio: float) -> float:
 
 @formula(
     "Largest contact stiffness that keeps the arm supercritical",
-    "(J_O·Ω² − c_sh·l²)/(g·l²)",
+    "(J_O·Ω² − c_sh·l²)/(k_Z·l²)",
     "N/m",
-    where=(
-        "g of contact gain or series gain; J_O inertia with autobalancer, c_sh joint stiffness reduced to the length l."
-    ),
+    where=("k_Z of contact gain or series gain."),
     assumed="necessary, not sufficient (finite mass of the balls)",
     source="Kovalenko 2010, (13) and (14)",
 )
@@ -176,7 +173,7 @@ def stiffness_limit(arm: Arm, speed: float, gain: float) -> float:
 
 @formula(
     "Natural frequency of the arm in contact; parametric resonance at twice that",
-    "ω₀* = √{(c_sh·l² + c_n·l²·g*)/J_O}",
+    "ω₀* = √{(c_sh·l² + c_n·l²·k_Z*)/J_O}",
     "rad/s",
     source="Kovalenko 2010, (15)",
 )
@@ -186,13 +183,12 @@ def resonance(arm: Arm, gain: float) -> float:
 
 @formula(
     "Joint damping that parametric resonance cannot overcome",
-    "(ds/l)·ω₀*·(1 + 17κ²/64), κ = l·ds/J_O",
+    "(m₀e/l)·ω₀*·(1 + 17κ_a²/64), κ_a = l·m₀e/J_O",
     "N·s/m",
-    where="ds imbalance [kg m].",
     checked=(MODULATION,),
     assumed="worst detuning near Ω = 2ω₀",
     source="Kovalenko 2010, (23) and (24); the second-order factor is ours",
-    printed="without it the bound is unsafe by 0.27 % at κ = 0.1, 2.5 % at 0.3",
+    printed="without it the bound is unsafe by 0.27 % at κ_a = 0.1, 2.5 % at 0.3",
 )
 def damping_limit(arm: Arm, imbalance: float, natural: float) -> float:
     kappa = MODULATION.check(arm.length * imbalance / arm.inertia)
@@ -201,7 +197,7 @@ def damping_limit(arm: Arm, imbalance: float, natural: float) -> float:
 
 @formula(
     "Rate at which the arm's oscillation grows at Ω = 2ω₀; negative: it decays",
-    "κω₀/2 − h, h = h_sh·l²/(2J_O)",
+    "κ_a·ω₀/2 − h_a, h_a = h_sh·l²/(2J_O)",
     "1/s",
     checked=(MODULATION,),
     source="Kovalenko 2010, (22), as a rate in time",
@@ -213,7 +209,7 @@ def growth_rate(arm: Arm, imbalance: float, natural: float) -> float:
 
 @formula(
     "Static stiffness while cutting, reduced to the arm's length",
-    "c^(p) = c_sh + c_n·g(Z)",
+    "c_p = c_sh + c_n·k_Z(Z)",
     "N/m",
     where=(
         "Negative at small contact angles, where friction lifts the wheel by itself: the arm then does not stand "
@@ -230,9 +226,8 @@ def arm_stiffness(arm: Arm) -> float:
 
 @formula(
     "Resting angle of the arm while cutting, none where the arm does not stand",
-    "(T/l² + c_n·g·φ₀)/c^(p)",
+    "(T_a/l² + c_n·k_Z·φ₀)/c_p",
     "rad",
-    where="T pressing torque [N·m], φ₀ angle at which the wheel touches the work [rad].",
     source="Kovalenko 2010, (5')",
 )
 def pressed_angle(arm: Arm) -> float | None:
@@ -245,7 +240,7 @@ def pressed_angle(arm: Arm) -> float | None:
 
 @formula(
     "Pressing torque beyond which the wheel presses",
-    "T > c_sh·l²·φ₀",
+    "T_a > c_sh·l²·φ₀",
     "N·m",
     where="As long as the arm stands; none is needed where it touches at rest or before, φ₀ ≤ 0.",
     source="Kovalenko 2010, below (5')",
@@ -258,7 +253,6 @@ def least_pressing_moment(arm: Arm) -> float:
     "Normal force between wheel and work at rest",
     "N = c_n·l·(φ − φ₀)·sin Z",
     "N",
-    where="φ the resting angle while cutting.",
     source="Kovalenko 2010, (3)",
 )
 def press_force(arm: Arm, angle: float) -> float:

@@ -53,11 +53,12 @@ class RollOnRig:
 
 @formula(
     "Damping of the two supports",
-    "c_j = 2ζ·√(C_j·M_jj)",
+    "h_j = 2ζ·√(C_j·M_jj)",
     "N s/m",
+    signs="M_L M_R M_roll J_roll l₁ l₂ l₃ l₄ L_s",
     where=(
-        "M_jj what support j moves while the other is held: M1 + M3·((c+d)/L)² + J3/L² on the left, "
-        "M2 + M3·((a+b)/L)² + J3/L² on the right; L = a+b+c+d."
+        "M_jj = M_L + M_roll·((l₃+l₄)/L_s)² + J_roll/L_s² on the left, M_R + M_roll·((l₁+l₂)/L_s)² + J_roll/L_s² on "
+        "the right."
     ),
     source="derived; the source has none",
 )
@@ -68,9 +69,9 @@ def support_damping(roll: RollOnRig) -> tuple[float, float]:
 
 @formula(
     "Natural frequencies of roll and supports",
-    "det(C − ω²·M) = 0",
+    "det(C_jk − ω²·M_jk) = 0",
     "rad/s",
-    where="M the mass matrix of the two supports' motions, the roll between them rigid; undamped.",
+    where="Undamped.",
     source="Lagrange's equations",
 )
 def natural_frequencies(roll: RollOnRig) -> tuple[float, float]:
@@ -87,11 +88,12 @@ def natural_frequencies(roll: RollOnRig) -> tuple[float, float]:
 
 @formula(
     "What the supports' motions are worth as forces and moments about the centre of mass",
-    "k11 = −M3(c+d)/L − M1 + C1/Ω², k12 = −M3(a+b)/L − M2 + C2/Ω²",
+    "k₁₁ = −M_roll(l₃+l₄)/L_s − M_L + C_L/Ω², k₁₂ = −M_roll(l₁+l₂)/L_s − M_R + C_R/Ω²",
     "kg, kg m",
+    signs="k₂₁ k₂₂ J_roll C_j h_j",
     where=(
-        "k21 = −J3/L − M1(a+b) + C1(a+b)/Ω², k22 = J3/L + M2(c+d) − C2(c+d)/Ω²; with damping C_j + iΩ·c_j in place of "
-        "C_j. L = a+b+c+d."
+        "k₂₁ = −J_roll/L_s − M_L(l₁+l₂) + C_L(l₁+l₂)/Ω², k₂₂ = J_roll/L_s + M_R(l₃+l₄) − C_R(l₃+l₄)/Ω²; with damping "
+        "C_j + iΩ·h_j in place of C_L and C_R."
     ),
     source="Didukh 2010, derived anew by Lagrange's equations",
     printed="the line for D1 is missing",
@@ -106,11 +108,13 @@ def kernels(roll: RollOnRig, speed: float) -> Matrix:
 
 @formula(
     "Imbalances in both planes from the displacements of both supports",
-    "Q1 = (c·S + G)/(b+c), Q2 = (b·S − G)/(b+c)",
+    "Q_L = (l₃·S_F + S_M)/(l₂+l₃), Q_R = (l₂·S_F − S_M)/(l₂+l₃)",
     "kg m",
+    signs="X_L X_R A_j ψ_j",
     where=(
-        "S = k11·X1 + k12·X2, G = k21·X1 + k22·X2, X_j = A_j·e^{−iα_j} of the displacement; q_j = |Q_j|/R_j, the heavy "
-        "spot φ_j = −arg Q_j from the mark against rotation: the quadrant is that of the complex number."
+        "S_F = k₁₁·X_L + k₁₂·X_R and S_M = k₂₁·X_L + k₂₂·X_R; X_j = A_j·e^{−iψ_j} of the displacement. The mass is "
+        "|Q| over the radius of its plane, the heavy spot −arg Q from the mark against rotation: the quadrant is that "
+        "of the complex number."
     ),
     assumed="rigid roll, small motions across the roll in one direction",
     source="Didukh 2010, in complex form",
@@ -135,9 +139,10 @@ def imbalances(roll: RollOnRig, speed: float, motion: Pair) -> Pair:
 
 @formula(
     "Influence of the planes on the sensors, by the rig's data",
-    "H = k⁻¹·(1 1; b −c)",
+    "W = k_jk⁻¹·(1 1; l₂ −l₃)",
     "m per kg m",
-    where="X = H·Q; k the matrix of k11 … k22.",
+    signs="X_j Q_L Q_R",
+    where="X_j = W·(Q_L, Q_R).",
     source="derived",
 )
 def influence(roll: RollOnRig, speed: float) -> Matrix:
@@ -149,13 +154,13 @@ def influence(roll: RollOnRig, speed: float) -> Matrix:
 
 @formula(
     "Displacement of a reading",
-    "X = A·e^{−iα}, of a velocity /(iΩ), of an acceleration /(−Ω²)",
+    "X_j = A_j·e^{−iψ_j}, of a velocity /(iΩ), of an acceleration /(−Ω²)",
     "m",
-    where="A 0–peak, α the phase of A·cos(Ωt − α).",
+    where="ψ_j is the phase of A_j·cos(Ωt − ψ_j).",
     source="differentiation",
     printed=(
-        "Didukh 2010 names A accelerations in (3) and puts them where displacements belong: q comes out Ω² times too "
-        "large and φ 180° off, so that metal would be taken off on the wrong side"
+        "Didukh 2010 names the amplitudes accelerations in (3) and puts them where displacements belong: masses come "
+        "out Ω² times too large and angles 180° off, so that metal would be taken off on the wrong side"
     ),
 )
 def displacement(quantity: str, amplitude: float, phase: float, speed: float) -> complex:
@@ -173,12 +178,9 @@ ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
 
 @formula(
     "The same as printed: readings as they stand, arctan of a quotient",
-    "φ1 = arctan((D2·c + D4)/(D1·c + D3)), q1 = (D1·c + D3)/(R1·(b+c)·cos φ1)",
+    "φ_1 = arctan((D2·l₃ + D4)/(D1·l₃ + D3)), m_1 = (D1·l₃ + D3)/(R_1·(l₂+l₃)·cos φ_1)",
     "rad, kg",
-    where=(
-        "D1, D3 the sum and the moment of A_j·cos α_j by k11 … k22, D2, D4 those of A_j·sin α_j; plane 2 with b and "
-        "minus. For comparison: reports show where it points."
-    ),
+    where=("Plane 2 with l₂ and minus. For comparison: reports show where it points."),
     source="Didukh 2010, (3)–(6)",
     printed="as here; what is wrong with it stands at the two formulas before",
 )
@@ -195,7 +197,7 @@ def _printed(imbalance: complex, radius: float) -> Signed:
 
 @formula(
     "Condition number of the way from imbalances to readings",
-    "σ_max/σ_min of H",
+    "σ_max/σ_min of W",
     where="How much errors of readings may grow, relative to the whole; 1 is best.",
     source="linear algebra",
 )
@@ -214,7 +216,7 @@ def condition_number(matrix: Matrix) -> float:
 
 @formula(
     "Lowest bending speed of a solid steel bar of the roll's mass and length",
-    "ω = (π/L)²·√(E·I·L/m), I = m²/(4π·ρ²·L²)",
+    "ω_bar = (π/L_s)²·√(E·I_r·L_s/M_roll), I_r = M_roll²/(4π·ρ²·L_s²)",
     "rad/s",
     where=(
         "E = 206 GPa, ρ = 7850 kg/m³. Held without moment at both ends. A tube of that mass bends later, a roll with "

@@ -44,16 +44,17 @@ class _Split:
 
 @formula(
     "Largest displacement at which dry rolling friction can hold the balls in any arrangement",
-    "largest d ≥ b with L(d) ≤ u ≤ H(d)",
+    "largest w ≥ w_f with u_min(w) ≤ U/(m·R_p) ≤ u_max(w)",
     "m",
+    signs="G",
     where=(
-        "b = k_r·R_p/r. At the displacement d each ball rests within arcsin(b/d) of the displacement's direction or of "
-        "the opposite one; for each split of the balls L and H are the least and the largest |Kd + Σe^{iφ}|, K = "
-        "−1/(h·m·R_p), h = Ω²/(k − MΩ² + icΩ), u = U/(m·R_p). Counted is the interval of d that begins at b; of two "
-        "balls also the one with a ball on either side, where 5–10 % of starts end. Not counted: two balls bunched "
-        "opposite the imbalance (one start in 400), and all on the heavy side."
+        "At the displacement w each ball rests within arcsin(w_f/w) of the displacement's direction or of the "
+        "opposite one; for each split of the balls u_min and u_max are the least and the largest |w/(G·m·R_p) − Σ of "
+        "the balls' directions|. Counted is the interval of w that begins at w_f; of two balls also the one with a "
+        "ball on either side, where 5–10 % of starts end. Not counted: two balls bunched opposite the imbalance (one "
+        "start in 400), and all on the heavy side."
     ),
-    assumed="ball contact left out; d small against R_p",
+    assumed="ball contact left out; w small against R_p",
     source="derived; confirmed by integration from random starts",
 )
 def worst_friction(count: int, moment: float, band: float, imbalance: float, receptance: complex) -> WorstFriction:

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import facts
 from abu_calc.studies.arm_records import ArmMotion, SwingArm
@@ -19,7 +19,7 @@ LEGEND: Final = (
 )
 TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is next to nothing against the arm's inertia."
 NO_TONGUE: Final = (
-    "At ω₀/i the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
+    "At ω₀/j the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
     "unstable. It grows about 2ω₀ alone."
 )
 """Printed otherwise in Kovalenko 2010."""
@@ -83,8 +83,7 @@ def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
         Grid(header, rows, frozenset({1, 2, 3})),
         Paragraph(_rates(motion)),
         Heading(f"Where it grows: joint damping against speed about 2ω₀{where}"),
-        *map(Paragraph, tongue_lines(motion) if motion.tongue else (TOO_NARROW,)),
-        *((Paragraph(_legend(motion)),) if motion.tongue else ()),
+        Picture(tuple(tongue_lines(motion)), _legend(motion), indent=2) if motion.tongue else Paragraph(TOO_NARROW),
     ]
 
 

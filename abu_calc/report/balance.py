@@ -15,7 +15,7 @@ from abu_calc.studies.balance_records import PlaneCorrection, RunReadings, Senso
 
 DO: Final = {"remove": "take off", "add": "put on"}
 CONVENTION: Final = (
-    "All angles of planes are laid off from the zero mark AGAINST rotation. A phase is that of A·cos(ωt − phase), t "
+    "All angles of planes are laid off from the zero mark AGAINST rotation. A phase is that of A_j·cos(Ωt − phase), t "
     "from the passage of the mark at its sensor; amplitudes are 0–peak. Uncertainties are one standard deviation, by "
     "[errors]; what the verification run is expected to show is the rms over them, twice that is exceeded less than "
     "once in twenty."

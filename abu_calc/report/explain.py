@@ -3,16 +3,12 @@
 What a formula says of itself (equation, units, range, source, where the print differs) is registered where it stands.
 """
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from abu_calc.check_codes import CheckCode
 from abu_calc.formula import Formula, formula_of
 from abu_calc.report.blocks import Block, Heading, Paragraph
 from abu_calc.report.steps import STEPS, Step
-from abu_calc.units import SI_PER_UNIT, SYMBOLS
-
-USER_UNITS: Final = {"m": "mm", "kg m": "g_mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m/s": "mm_per_s"}
-"""Of the SI units of formulas, those in which files and reports have the same thing."""
 
 if TYPE_CHECKING:
     from abu_calc.studies.size import SizeResult
@@ -37,23 +33,8 @@ def formula_blocks(formulas: tuple[Formula, ...]) -> list[Block]:
     """Each formula under its name."""
     blocks: list[Block] = []
     for one in formulas:
-        first, *others = one.paragraphs
-        parts = (f"{first}{_in_user_units(one.unit)}", *others)
-        blocks += [Heading(f"  {one.name}"), *(Paragraph(part, indent=4) for part in parts)]
+        blocks += [Heading(f"  {one.name}"), *(Paragraph(part, indent=4) for part in one.for_users)]
     return blocks
-
-
-def _in_user_units(unit: str) -> str:
-    """How to come from the SI unit of a formula to that of files and reports.
-
-    >>> _in_user_units("kg m"), _in_user_units("Pa"), _in_user_units("1/s")
-    (' 1 kg m = 1000000 g·mm.', ' 1 MPa = 1000000 Pa.', '')
-    """
-    if unit not in USER_UNITS:
-        return ""
-    size = SI_PER_UNIT[USER_UNITS[unit]]
-    shown = SYMBOLS.get(USER_UNITS[unit], USER_UNITS[unit])
-    return f" 1 {shown} = {size:.7g} {unit}." if size > 1 else f" 1 {unit} = {1 / size:.7g} {shown}."
 
 
 def code_blocks(code: CheckCode) -> list[Block]:

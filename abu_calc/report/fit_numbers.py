@@ -51,9 +51,9 @@ def _load(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
     source, catalogue = (_g(loss.amount_um) for loss in seat.losses if loss.name == "load")
     under = f"{_g(model.diameter_mm)}·{_g(model.radial_load_N)}/{_g(model.width_mm)}"
     return (
-        f"13·R·k/b = 13·{_g(load)}·{_g(model.load_factor)}/{_g(length)} = {source} µm",
+        f"13·F_r·k_B/b_s = 13·{_g(load)}·{_g(model.load_factor)}/{_g(length)} = {source} µm",
         f"0.08·√(d·F_r/B) = 0.08·√({under}) = {catalogue} µm",
-        f"P_R = k₁·R/b = {model.shock_factor:g}·{_g(load)}/{_g(model.length_m)} = {_g(intensity)} kN/m",
+        f"P_R = k₁·F_r/b_s = {model.shock_factor:g}·{_g(load)}/{_g(model.length_m)} = {_g(intensity)} kN/m",
     )
 
 
@@ -93,7 +93,7 @@ def _moment(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[
     if model.length_m is None or moments is None:
         return ()
     return (
-        f"μ·p·π·d·b·d/2 = {_g(bearing.seat_friction)}·{_g(model.starting_pressure_Pa)}·π·{diameter}·"
+        f"μ_s·p·π·d·b_s·d/2 = {_g(bearing.seat_friction)}·{_g(model.starting_pressure_Pa)}·π·{diameter}·"
         f"{_g(model.length_m)}·{diameter}/2 = {_g(moments[0])} N·m",
     )
 

@@ -25,8 +25,9 @@ def wear_blocks(result: GrindingResult) -> list[Block]:
     rows = tuple(_row(name, wear) for wear, name in named if wear is not None)
     if not rows:
         return []
-    header = ("", "dε/ds", "wheel is", "what comes first")
-    return [Heading("Wear: change of the runout ε per depth s worn off (Archard)"), Grid(header, rows, frozenset({1})),
+    header = ("", "dε/ds_w", "wheel is", "what comes first")
+    title = "Wear: change of the runout ε per depth s_w worn off (Archard)"
+    return [Heading(title), Grid(header, rows, frozenset({1})),
             *_stages(result), *_claim(result)]  # fmt: skip
 
 

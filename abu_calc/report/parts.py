@@ -34,7 +34,7 @@ def facts(record: Record, *names: str) -> Facts:
     rows = []
     for name in names or labels:
         value = getattr(record, name)
-        if value is not None:
+        if value is not None and value != ():
             rows.append((labels[name].label, labels[name].symbol, shown(type(record), name, value)))
     return Facts(tuple(rows))
 

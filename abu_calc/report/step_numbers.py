@@ -100,5 +100,5 @@ def swing_arm(result: "SizeResult") -> Lines | None:
         f"at {_n(arm.parametric_growth_rate_per_s)} 1/s",
         f"off the work {_n(arm.idle_frequency_rpm)} rpm, at work {_n(arm.cutting_frequency_rpm)} rpm; the joint alone "
         f"makes it stand at every contact angle above c_sh = {_n(arm.joint_stiffness_standing_N_per_m)} N/m",
-        f"T = {_n(arm.pressing_moment_N_m)} > {_n(arm.least_pressing_moment_N_m)} N·m; N = {_n(arm.press_force_N)} N",
+        f"T_a = {_n(arm.pressing_moment_N_m)} > {_n(arm.least_pressing_moment_N_m)} N·m; N = {_n(arm.press_force_N)} N",
     )

@@ -23,12 +23,9 @@ class Body:
 
     @formula(
         "Acceleration at one place per force at another",
-        "1/M + p·a/J",
+        "I_a = 1/M + a_p·a_q/J_c",
         "1/kg",
-        where=(
-            "p and a the two places from the centre of mass [m], J transverse moment of inertia [kg·m²]; added is what "
-            "the autobalancer adds to M [kg]."
-        ),
+        where=("`added` is what the autobalancer adds to M."),
         assumed="well above the suspension's frequencies",
         source="Newton–Euler of a free rigid body in the plane",
     )
@@ -41,9 +38,8 @@ class Body:
 
     @formula(
         "Mass felt at a place, that of the wheel unless another is named",
-        "1/m_eff = 1/M + a²/J",
+        "1/m_eff = 1/M + a_p²/J_c",
         "kg",
-        where="a the place from the centre of mass [m].",
         assumed="well above the suspension's frequencies",
         source="Newton–Euler of a free rigid body in the plane",
     )

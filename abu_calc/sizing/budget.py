@@ -86,10 +86,7 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
     "Displacement 0–peak at the wheel that keeps every handle within the limit",
     "√2·v/Ω, background taken off",
     "m",
-    where=(
-        "v limit of the velocity, rms [m/s], Ω speed [rad/s]; divided by the largest motion of a handle per motion of "
-        "the wheel."
-    ),
+    where=("v is the limit; divided by the largest motion of a handle per motion of the wheel."),
     source="Kladiev 1996 (limit)",
 )
 def permitted_displacement(case: Case, added_mass: float, speed: float) -> float:
@@ -152,12 +149,9 @@ def judged_speeds(case: Case) -> tuple[float, ...]:
 
 @formula(
     "Displacement that two lobes of the race can leave",
-    "k·a, k = 2",
+    "n_k·a_k, n_k = 2",
     "m",
-    where=(
-        "a amplitude of the lobes [m]. A ball rests where its race slopes no more than the displacement pulls: k lobes "
-        "slope by k·a/R_p."
-    ),
+    where=("A ball rests where its race slopes no more than the displacement pulls: n_k lobes slope by n_k·a_k/R_p."),
     source="derived",
 )
 def oval_rest(lobes: float) -> float:
@@ -166,7 +160,7 @@ def oval_rest(lobes: float) -> float:
 
 @formula(
     "Displacement that rests at the wheel when balls in another plane have stilled the race",
-    "U·(1/M + a_w²/J) − V·(1/M + a_w·a_r/J), V = U·(plane ratio)",
+    "U·(1/M + a_w²/J_c) − V·(1/M + a_w·a_r/J_c), V = U·(plane ratio)",
     "m",
     assumed="rigid body well above its suspension",
     source="derived",
@@ -179,8 +173,8 @@ def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
 
 
 @formula(
-    "Velocity level of a displacement w 0–peak [m] at a speed [rad/s]",
-    "v = wΩ/√2, a background added as energy",
+    "Velocity level of a displacement at a speed",
+    "v = w·Ω/√2, a background added as energy",
     "dB",
     where="A place at rest is given the floor of 0 dB.",
 )

@@ -31,10 +31,7 @@ class Requirement:
     "Share of Mε that a rigid contact asks for",
     "√{[(1−ω_x²/Ω²)² + f²(1−ω_y²/Ω²)²]/(1+f²)}",
     "1",
-    where=(
-        "Ω speed, ω natural frequencies [rad/s]; f cutting coefficient. Worst place of the runout against the "
-        "imbalance. It tends to 1 far above resonance."
-    ),
+    where=("Worst place of the runout against the imbalance. It tends to 1 far above resonance."),
     checked=(FRICTION,),
     assumed="rigid contact without separation",
     source="derived by averaging",
@@ -52,11 +49,11 @@ def runout_factor(speed: float, natural_frequencies: tuple[float, float], fricti
 
 @formula(
     "Balls' imbalance in the race plane per imbalance in the wheel plane that stills the race",
-    "(1/M + a_r·a_w/J)/(1/M + a_r²/J)",
+    "(1/M + a_r·a_w/J_c)/(1/M + a_r²/J_c)",
     "1",
     where=(
-        "a places of race and wheel from the centre of mass; 1 in one plane, negative for a race beyond the node of "
-        "the wheel, where the balls gather on the other side. What rests at the wheel is in the accuracy budget."
+        "1 in one plane, negative for a race beyond the node of the wheel, where the balls gather on the other side. "
+        "What rests at the wheel is in the accuracy budget."
     ),
     assumed="rigid body well above its suspension",
     source="derived",
@@ -83,10 +80,10 @@ def steady_contact(case: Case, added_mass: float, *, damped: bool) -> SteadyCont
     "m₀e + M·ε·√{…} + M·Δ, the first two times the ratio of the planes",
     "kg m",
     where=(
-        "m₀e imbalance, M mass felt at the wheel with the autobalancer [kg], ε runout of the wheel (only when the "
-        "contact presses radially), √{…} of the runout factor, Δ race eccentricity [m]. Beside it: the printed limit "
-        "m₀e + Mε (Kladiev 1996, (6)), and what a compliant contact asks for: m₀e + ε·c_n·|D_x − isf·D_y|/(Ω²·|D_x + "
-        "D_y + c_n(1 + isf)|) + M·Δ."
+        "Of a machine that tilts M is the mass felt at the wheel, with the autobalancer; ε counts only when the "
+        "contact presses radially; √{…} is the runout factor. Beside it: the printed limit m₀e + Mε (Kladiev 1996, "
+        "(6)), and what a compliant contact asks for: m₀e + ε·c_n·|D_x − i·s·f·D_y|/(Ω²·|D_x + D_y + c_n(1 + "
+        "i·s·f)|) + M·Δ."
     ),
     assumed="above resonance",
     source="derived; practice of the shop floor for Δ",

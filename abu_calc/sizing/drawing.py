@@ -39,9 +39,9 @@ class Advice:
 
 @formula(
     "What one more displacement costs",
-    "20·lg(√(w² + d²)/w)",
+    "20·lg(√(w² + w_d²)/w)",
     "dB",
-    where="w what stays without it, d the part [m].",
+    where="w is what stays without it.",
     assumed="independent parts",
     source="root of the sum of squares",
 )
@@ -75,7 +75,8 @@ def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
                "clearance and spindle; grind bore and race in one set-up", _cost(others, case.race_eccentricity)),
         Advice("race circularity", f"{_um(OVALITY)} µm; two lobes of {_um(OVALITY / 2)} µm leave {_um(OVALITY)} µm",
                _cost(budget.residual, OVALITY)),
-        Advice("race waviness", "k lobes of amplitude a leave k·a: 5 × 0.5 µm", _cost(budget.residual, WAVINESS)),
+        Advice("race waviness", "n_k lobes of amplitude a_k leave n_k·a_k: 5 × 0.5 µm",
+               _cost(budget.residual, WAVINESS)),
         Advice("race surface", f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: one of {_um(DENT)} µm depth holds a ball",
                _cost(budget.residual, DENT * one.pitch_radius / _dent_half_width(one))),
         Advice("race hardness", f"{HARDNESS}, case ≥ {_mm(CASE_DEPTH)} mm after grinding (given: "

@@ -44,9 +44,10 @@ class FrequencyRegion:
     "How far above the natural frequency lightly damped balls still fail",
     "(Ω−ω)/Ω > (2m/(J·M))^(1/3)",
     "1",
+    signs="n",
     where=(
-        "m mass of one ball, M of all that moves [kg]; J = 7/5 ball, 3/2 roller, 1 point mass. More damping of the "
-        "balls narrows the gap. No check rests on it: more balls, and both axes free, need more, up to (3nm/JM)^(1/3)."
+        "More damping of the balls narrows the gap. No check rests on it: more balls, and both axes free, need more, "
+        "up to (3nm/(J·M))^(1/3)."
     ),
     checked=(BALL_SHARE,),
     assumed="two balls, one free axis, light damping of balls and support; an estimate where m/M is above 0.1",
@@ -66,9 +67,10 @@ def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> flo
     "Speeds at which light balls balance, a zone between the natural frequencies and all above the larger",
     "1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0",
     "rad/s",
+    signs="H_xx H_yy",
     where=(
-        "That holds for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂. On any support, with its damping: Re[h_xx + h_yy] < 0, "
-        "h(Ω) the receptance: it moves against the imbalance."
+        "That holds for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂. On any support, with its damping: Re[H_xx + H_yy] < "
+        "0: it moves against the imbalance."
     ),
     assumed="light balls; what balls of finite mass need, the eigenvalues tell (ABU103)",
     source="derived by averaging; the upper zone is Kladiev 1996, (7)",

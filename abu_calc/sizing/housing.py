@@ -69,12 +69,12 @@ class Housing:
     "R_g = r + (5/7)(R − r), from 5(R−r) = 7(R_g−r)",
     "m",
     where=(
-        "R race radius at the bottom of the groove, r ball radius [m]. Then the ball's natural frequency across the "
-        "groove equals the speed at any speed, and axial runout shakes out dry friction."
+        "Then the ball's natural frequency across the groove equals the speed at any speed, and axial runout shakes "
+        "out dry friction."
     ),
     assumed=(
-        "a ball held from spinning about the contact normal. Free, w_t² = Ω²[(5/7)(R−r)/(R_g−r) + 2/7], and the "
-        "resonance sits at R_g = R; a real ball lies between"
+        "a ball held from spinning about the contact normal. Free, the square of that frequency is "
+        "Ω²[(5/7)(R−r)/(R_g−r) + 2/7], and the resonance sits at R_g = R; a real ball lies between"
     ),
     source="Kladiev 1996, (12), its meaning derived",
 )

@@ -25,12 +25,13 @@ class Imbalance:
 
 
 @formula(
-    "Imbalance that shakes a place with an rms velocity v [m/s]",
-    "m₀e = √2·v/(Ω·I·g)",
+    "Imbalance that shakes a place with a velocity",
+    "m₀e = √2·v/(Ω·I_a·k_Ω)",
     "kg m",
-    where="Ω [rad/s]; I inertance from wheel to place [1/kg], 1/M for a point mass; g = MΩ²/|D| resonance factor.",
+    signs="M D_x",
+    where="I_a from wheel to place, 1/M for a point mass; k_Ω = MΩ²/|D_x|.",
     assumed="one harmonic at Ω; above the suspension's frequencies",
-    source="Kladiev 1996, for a point mass D = √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is ours",
+    source="Kladiev 1996, for a point mass √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is ours",
 )
 def imbalance_from_level(velocity_rms: float, speed: float, inertance: float, resonance: float = 1.0) -> float:
     """

@@ -34,13 +34,10 @@ class Readings:
 
 
 @formula(
-    "What instruments show of an rms velocity v at the spindle's frequency",
-    "s = v/Ω, a = Ω·v, a_h = W_h(Ω)·a, a_hv = √2·a_h",
+    "What instruments show of a velocity at the spindle's frequency",
+    "s_v = v/Ω, a = Ω·v, a_h = W_h(Ω)·a, a_hv = √2·a_h",
     "m, m/s², m/s², m/s²",
-    where=(
-        "Ω speed [rad/s], W_h weighting of ISO 5349-1; √2 as one spinning imbalance moves two axes alike and the "
-        "third, along the spindle, hardly."
-    ),
+    where=("√2 as one spinning imbalance moves two axes alike and the third, along the spindle, hardly."),
     assumed="one harmonic at Ω; two axes alike",
     source="ISO 5349-1:2001 for W_h; the harmonic is ours",
 )
@@ -61,7 +58,7 @@ def readings(velocity: float, speed: float) -> Readings:
 
 @formula(
     "Rms velocity of one axis from what an instrument showed, lists averaged in velocity",
-    "v = Ω·s = a/Ω = a_h/(W_h·Ω) = a_hv/(√2·W_h·Ω)",
+    "v = Ω·s_v = a/Ω = a_h/(W_h·Ω) = a_hv/(√2·W_h·Ω)",
     "m/s",
     where="As what instruments show, the other way.",
     checked=("W_h at 5.62 … 1413 Hz",),

@@ -12,12 +12,12 @@ CURVATURE_RATIO = Range("ratio of the contact's curvatures", 1.0, 100.0)
 
 @formula(
     "Largest Hertz pressure of a ball in a toroidal groove",
-    "p₀ = 3F/(2π·a·b)",
+    "p₀ = 3F/(2π·a_e·b_e)",
     "Pa",
+    signs="r R R_g r_c R_e E_e E ν",
     where=(
-        "Curvature sums 1/r − 1/R and 1/r − 1/R_g; ellipse by k = α^(2/π), 𝓔 = 1 + (π/2 − 1)/α, α their ratio ≥ 1, "
-        "b³ = 6·𝓔·F·R'/(π·k·E'), a = k·b, 1/R' the sum of both, E' = E/(1−ν²). F force [N]; radii [m]; steel on steel. "
-        "Within 2 % of the elliptic integrals."
+        "Curvature sums 1/r − 1/R and 1/r − 1/R_g; a_e/b_e = r_c^(2/π), "
+        "b_e³ = 6·(1 + (π/2 − 1)/r_c)·F·R_e/(π·r_c^(2/π)·E_e). Steel on steel. Within 2 % of the elliptic integrals."
     ),
     checked=(CURVATURE_RATIO,),
     assumed="elastic, frictionless",
@@ -38,9 +38,9 @@ def hertz_ball_in_toroid(force: float, ball_radius: float, race_radius: float, g
 
 @formula(
     "Largest Hertz pressure of a roller in a cylindrical race",
-    "p₀ = √(F·E'/(2π·L·R')), 1/R' = 1/r − 1/R",
+    "p₀ = √(F·E_e/(2π·L_r·R_e)), 1/R_e = 1/r − 1/R",
     "Pa",
-    where="E' = E/(1−ν²), L length of the roller [m].",
+    signs="E ν",
     assumed="elastic line contact, edges relieved",
     source="Hertz 1882",
 )
@@ -52,9 +52,9 @@ def hertz_roller_in_cylinder(force: float, roller_radius: float, race_radius: fl
 
 @formula(
     "Pressure that leaves no dent",
-    "p₀ ≤ 1.6·σ_y, σ_y ≈ 3.3·HV [MPa], so 5.2·HV [MPa]",
+    "p₀ ≤ 1.6·σ_y, σ_y ≈ 3.3·HV MPa, so 5.2·HV MPa",
     "Pa",
-    where="HV Vickers hardness. Catalogues' static limits (4200 MPa) allow a dent that would hold the balls.",
+    where="Catalogues' static limits (4200 MPa) allow a dent that would hold the balls.",
     assumed="hardened steel",
     source="assumed, from engineering practice",
 )
@@ -64,7 +64,7 @@ def permitted_pressure(vickers: float) -> float:
 
 @formula(
     "Hoop stress of a spinning free ring",
-    "ρ·v², v = Ω·R at its outer radius",
+    "ρ·(Ω·R_o)²",
     "Pa",
     assumed="thin ring",
     source="thin ring",
@@ -75,7 +75,7 @@ def hoop_stress(speed: float, radius: float, density: float) -> float:
 
 @formula(
     "What two opposite ball forces would add to the diameter of a free ring",
-    "0.149·F·R³/(E·I), I = b·h³/12",
+    "0.149·F·R_o³/(E·I_r), I_r = b_r·h_w³/12",
     "m",
     where="A web must carry the wall.",
     assumed="thin ring with nothing to hold it",
@@ -87,11 +87,11 @@ def ring_flexure(force: float, radius: float, width: float, wall: float) -> floa
 
 @formula(
     "Two lobes of a web, an annular plate in its plane, that two opposite forces pull at its edge",
-    "2F/(πR)·R/(E·t)·[1 + ν/3 + (8/3)·s(3 + s²)/(1 − s)³], s = (a/R)²",
+    "2F/(π·R_o)·R_o/(E·t_w)·[1 + ν/3 + (8/3)·x_i(3 + x_i²)/(1 − x_i)³], x_i = (R_i/R_o)²",
     "m",
-    where="Amplitude of the part in cos 2θ. F force, R outer, a inner radius, t thickness of the web [m].",
-    assumed="plane stress, the inner edge free; a = 0 for a hub that the spindle holds, which is stiffer than a disc",
-    source="Airy function A·r² + B·r⁴ + C/r² + D; for a near R it is the thin ring",
+    where="Amplitude of the part with two lobes.",
+    assumed="plane stress, the inner edge free; R_i = 0 for a hub that the spindle holds, which is stiffer than a disc",
+    source="Airy function of an annulus; for R_i near R_o it is the thin ring",
 )
 def web_lobes(force: float, radius: float, inner_radius: float, thickness: float, modulus: float) -> float:
     """
@@ -106,9 +106,9 @@ def web_lobes(force: float, radius: float, inner_radius: float, thickness: float
 
 @formula(
     "Two lobes of a wall between two webs, which two opposite forces push out half-way",
-    "2F/(πR)·l³/(48·D), D = E·h³/(12(1−ν²))",
+    "2F/(π·R_o)·l_w³/(48·D_w), D_w = E·h_w³/(12(1−ν²))",
     "m",
-    where="Amplitude of the part in cos 2θ. l width between the webs, h wall, R radius [m].",
+    where="Amplitude of the part with two lobes.",
     assumed="strips of the wall rest on the webs and do not help each other: more than a shell would give",
     source="simply supported beam",
 )
@@ -118,9 +118,9 @@ def wall_lobes(force: float, radius: float, width: float, wall: float) -> float:
 
 @formula(
     "Two lobes of a wall that a web holds at one edge only, half-way",
-    "2F/(πR)·l·R²/(4·D·[3(l/R)² + (9/2)(1 − ν)])",
+    "2F/(π·R_o)·l_w·R_o²/(4·D_w·[3(l_w/R_o)² + (9/2)(1 − ν)])",
     "m",
-    where="Amplitude of the part in cos 2θ: the wall opens like a bell. Symbols as between two webs.",
+    where="Amplitude of the part with two lobes: the wall opens like a bell.",
     assumed="bending without extension; the web a hinge, though its own bending stiffens it",
     source="Love's inextensional shell, Rayleigh–Ritz",
 )

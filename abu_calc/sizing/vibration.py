@@ -79,8 +79,8 @@ class SpeedLevels:
     "v = Ω·w/√2",
     "dB",
     where=(
-        "v rms of the displacement w at the wheel, times the motion of the place per motion of the wheel; in the "
-        "louder of x and y; the background added as energy. Where balls cannot balance there is no level after."
+        "Times the motion of the place per motion of the wheel; in the louder of x and y; the background added as "
+        "energy. Where balls cannot balance there is no level after."
     ),
     assumed="steady state",
     source="Kladiev 1996 (level and limit); the rigid body and the budget are ours",
@@ -145,7 +145,7 @@ class Loaded:
         "force between wheel and work would pull, they part, and neither holds: the simulation of grinding gives the "
         "level after."
     ),
-    assumed="no separation of wheel and work (checked)",
+    assumed="no separation of wheel and work",
     source="derived",
 )
 def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Loaded | None:

@@ -19,9 +19,9 @@ def balance_grades() -> dict[str, float]:
 
 @formula(
     "Permissible residual imbalance of a rotor",
-    "U = (e·Ω)·m/Ω",
+    "U_per = G_e·m_R/Ω",
     "kg m",
-    where="m mass [kg], Ω service speed [rad/s], e·Ω of the grade; in user units U [g·mm] = 9549·G·m[kg]/n[rpm].",
+    where="In user units U_per = 9549·G_e·m_R/Ω in g·mm, by the grade in mm/s, kg and rpm.",
     checked=(_MASS, _SPEED, "a grade of the list"),
     assumed="rotors in a constant (rigid) state",
     source="ISO 21940-11:2016",

@@ -95,9 +95,9 @@ def third_octaves() -> tuple[ThirdOctave, ...]:
 
 @formula(
     "Weighting of hand-transmitted accelerations by frequency",
-    "W_h = s²ω₂²/((s²+ω₁s/Q₁+ω₁²)(s²+ω₂s/Q₁+ω₂²)) · (s+ω₃)ω₃/(s²+ω₃s/Q₂+ω₃²)",
+    "W_h = ξ²ω_b²/((ξ²+ξω_a/Q_a+ω_a²)(ξ²+ξω_b/Q_a+ω_b²)) · (ξ+ω_c)ω_c/(ξ²+ξω_c/Q_c+ω_c²)",
     "1",
-    where="s = iω; ω₁, ω₂, ω₃ = 2π·6.310, 2π·1258.9, 2π·15.915 1/s, Q₁ = 0.71, Q₂ = 0.64. Within 1 % of table A.2.",
+    where="Within 1 % of table A.2.",
     source="ISO 5349-1:2001, annex A",
 )
 def hand_arm_response(s: Any) -> Any:
@@ -169,9 +169,8 @@ WORKING_DAY = 8 * 3600.0
 
 @formula(
     "Daily exposure to hand-transmitted vibration",
-    "A(8) = a_hv·√(T/T₀)",
+    "A(8) = a_hv·√(t_d/t₀)",
     "m/s²",
-    where="a_hv vector total of the weighted accelerations, rms [m/s²], T time of exposure a day [s], T₀ = 8 h.",
     source="ISO 5349-1:2001, equation (2)",
 )
 def daily_exposure(total: float, seconds: float) -> float:

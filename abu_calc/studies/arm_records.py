@@ -46,7 +46,7 @@ class SwingArm(Record):
     joint_damping_N_s_per_m: Annotated[float, Quantity("joint damping given", "h_sh")]
     damping_limit_N_s_per_m: Annotated[float, Quantity("damping needed", "h_sh")]
     damping_limit_bunched_N_s_per_m: Annotated[float | None, Quantity("with the balls on the heavy side", "h_sh")]
-    parametric_growth_rate_per_s: Annotated[float, Quantity("growth rate at Ω = 2ω₀*", "κω₀/2 − h")]
+    parametric_growth_rate_per_s: Annotated[float, Quantity("growth rate at Ω = 2ω₀*", "κ_aω₀/2 − h_a")]
     parametric_contact_angles_deg: Annotated[tuple[float, ...], Quantity("rated speed is 2ω₀ at", "Z")]
     contact_angle_deg: Annotated[float, Quantity("contact angle given", "Z")]
     touch_angle_deg: Annotated[float, Quantity("touching angle", "φ₀")]
@@ -54,8 +54,8 @@ class SwingArm(Record):
     wheel_diameter_mm: Annotated[float, Quantity("wheel")]
     lifted_contact_angles_deg: Annotated[tuple[float, float] | None, Quantity("does not stand between", "Z", 3)]
     joint_stiffness_standing_N_per_m: Annotated[float, Quantity("joint that always stands", "c_sh")]
-    pressing_moment_N_m: Annotated[float, Quantity("pressing torque given", "T")]
-    least_pressing_moment_N_m: Annotated[float, Quantity("torque from which it presses", "T")]
+    pressing_moment_N_m: Annotated[float, Quantity("pressing torque given", "T_a")]
+    least_pressing_moment_N_m: Annotated[float, Quantity("torque from which it presses", "T_a")]
     pressed_angle_deg: Annotated[float | None, Quantity("resting angle while cutting", "φ")]
     press_force_N: Annotated[float | None, Quantity("presses with", "N")]
 
@@ -97,7 +97,7 @@ class ArmHarmonic(Record):
     """One order of the forced motion, 0–peak at the wheel; None: infinite, or no periodic motion was found."""
 
     order: Annotated[int, Quantity("order")]
-    resonance_rpm: Annotated[float, Quantity("forced resonance", "ω₀/i", 5)]
+    resonance_rpm: Annotated[float, Quantity("forced resonance", "ω₀/j", 5)]
     perturbation_um: Annotated[float | None, Quantity("by perturbation")]
     simulation_um: Annotated[float | None, Quantity("by simulation")]
 
@@ -116,12 +116,12 @@ class ArmMotion(Record):
     """The arm of a scene while nothing balances its imbalance; rates: how fast its free motions grow or die out."""
 
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    modulation: Annotated[float, Quantity("modulation", "κ")]
+    modulation: Annotated[float, Quantity("modulation", "κ_a")]
     natural_frequency_rpm: Annotated[float, Quantity("natural frequency", "ω₀", 6)]
     parametric_speed_rpm: Annotated[float, Quantity("parametric resonance", "2ω₀", 6)]
     joint_damping_N_s_per_m: Annotated[float, Quantity("joint damping", "h_sh")]
-    rate_per_s: Annotated[float, Quantity("rate away from it", "−h")]
-    parametric_rates_per_s: Annotated[tuple[float, float], Quantity("rates at 2ω₀", "−h ± κω₀/2")]
+    rate_per_s: Annotated[float, Quantity("rate away from it", "−h_a")]
+    parametric_rates_per_s: Annotated[tuple[float, float], Quantity("rates at 2ω₀", "−h_a ± κ_aω₀/2")]
     simulated_rates_per_s: Annotated[tuple[float, float] | None, Quantity("simulated at this speed", "ln|μ|/T")]
     harmonics: tuple[ArmHarmonic, ...]
     tongue: tuple[TongueEdge, ...]

@@ -48,7 +48,7 @@ class BalanceResult(Result):
     influence_coefficients: Annotated[
         tuple[tuple[Complex, Complex], tuple[Complex, Complex]],
         Quantity(
-            "influence of the planes on the sensors", "H", 5,
+            "influence of the planes on the sensors", "W", 5,
             "µm of displacement per g·mm at the speed of the first run, real and imaginary part; rows: left and right "
             "sensor, columns: left and right plane",
         ),

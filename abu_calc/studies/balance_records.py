@@ -11,15 +11,15 @@ Complex = tuple[float, float]
 class SensorReading(Record):
     """What a sensor showed, in the unit of the run's quantity."""
 
-    amplitude: Annotated[float, Quantity("amplitude", "A", 5, "0–peak, in the unit of the run")]
-    phase_deg: Annotated[float, Quantity("phase", "α", 5, "of A·cos(ωt − α), −180 … 180")]
+    amplitude: Annotated[float, Quantity("amplitude", "A_j", 5, "0–peak, in the unit of the run")]
+    phase_deg: Annotated[float, Quantity("phase", "ψ_j", 5, "of A·cos(ωt − α), −180 … 180")]
 
 
 @record
 class RunReadings(Record):
     """A run as it was taken; of a recorded one what its marks tell."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "n", 6)]
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
     quantity: Annotated[str, Quantity("quantity", "", 4, "displacement, velocity or acceleration")]
     unit: Annotated[str, Quantity("unit of amplitudes")]
     left: SensorReading
@@ -46,8 +46,8 @@ class Share(Record):
 class PlaneCorrection(Record):
     """One plane: its heavy spot and what to do about it. Angles from the zero mark, AGAINST rotation, 0 … 360."""
 
-    mass_g: Annotated[float, Quantity("mass of the heavy spot", "q", 4, "at the correction radius")]
-    angle_deg: Annotated[float, Quantity("heavy spot at", "φ", 5, "from the zero mark, against rotation")]
+    mass_g: Annotated[float, Quantity("mass of the heavy spot", "m_j", 4, "at the correction radius")]
+    angle_deg: Annotated[float, Quantity("heavy spot at", "φ_j", 5, "from the zero mark, against rotation")]
     mass_uncertainty_g: Annotated[float, Quantity("uncertainty of the mass", "", 2, "one standard deviation")]
     angle_uncertainty_deg: Annotated[
         float, Quantity("uncertainty of the angle", "", 2, "one standard deviation; 180: nothing tells it")
@@ -56,7 +56,7 @@ class PlaneCorrection(Record):
     add_at_deg: Annotated[float, Quantity("or put on at", "", 5, "opposite")]
     corrections: tuple[Share, ...]
     """What to do, by the metal and the places there are."""
-    imbalance_g_mm: Annotated[float, Quantity("imbalance", "q·R", 4)]
+    imbalance_g_mm: Annotated[float, Quantity("imbalance", "|Q|", 4)]
     permitted_g_mm: Annotated[float | None, Quantity("permitted imbalance", "U_per", 4)]
     rest_g_mm: Annotated[float, Quantity("imbalance to be expected after it", "", 2, "rms over the errors")]
     printed_mass_g: Annotated[float | None, Quantity("mass by the printed formula", "", 4, "readings as they stand")]
@@ -67,7 +67,7 @@ class PlaneCorrection(Record):
 class Verification(Record):
     """The run after the correction, as it is to be expected at the speed of a run, in the unit of its quantity."""
 
-    speed_rpm: Annotated[float, Quantity("speed", "n", 6)]
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
     quantity: Annotated[str, Quantity("quantity")]
     unit: Annotated[str, Quantity("unit of amplitudes")]
     left_before: Annotated[float, Quantity("left, as it is", "", 4)]

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Final
 
 from abu_calc.checks import Check, Status
 from abu_calc.errors import InputError, Place
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, silent, within
 from abu_calc.spec.bearing_file import BearingFile
 from abu_calc.spec.read import Machine
 from abu_calc.studies.arguments import checked
@@ -67,7 +67,7 @@ def compare(
     for letter, machine in zip(LETTERS, machines, strict=False):
         what = f"{letter} of {LETTERS[len(machines) - 1]}, {machine.title}"
         progress(what)
-        results.append(_judged(machine, accuracy, _told(progress, what), workers))
+        results.append(_judged(machine, accuracy, within(progress, what), workers))
     named = list(zip(LETTERS, machines, results, strict=False))
     designs = of_designs([_entries(result) for result in results])
     rows = (*of_files(machines), *designs, *of_checks([result.checks for result in results]))
@@ -87,10 +87,6 @@ def _judged(machine: Machine, accuracy: float, progress: Progress, workers: int 
     if isinstance(tables, BearingFile) or (tables.autobalancer is None and tables.bearing):
         return check_fit(machine)
     return size(machine, accuracy, progress, workers)
-
-
-def _told(progress: Progress, what: str) -> Progress:
-    return lambda text: progress(f"{what}: {text}")
 
 
 def _entries(result: SizeResult | CheckFitResult) -> Mapping[str, Any]:

@@ -97,7 +97,7 @@ class Autobalancer(Record):
     mass_fraction: Annotated[float, Quantity("share of the machine's mass", "", 3, percent=True)]
     ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
     contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
-    hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρv²", 3)]
+    hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3)]
     optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ)", 3)]
     slowest_decay_per_s: Annotated[float, Quantity("slowest decay of the balls' way", "", 3, "at the drag given")]
     carry_over_rpm: Annotated[float, Quantity("least speed that carries balls over", "√(g/R_p)", 3)]
@@ -152,7 +152,7 @@ class AccuracyBudget(Record):
     rolling_friction_worst_um: Annotated[
         float | None, Quantity("dry friction, worst", "", 3, "at the worst arrangement of the balls")
     ]
-    race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a", 3)]
+    race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a_k", 3)]
     plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
     capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from abu_calc.checks import Status
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, silent, within
 from abu_calc.spec.read import Machine, read
 from abu_calc.standards.factory import FactoryRow, Span, factory_rows, factory_source
 from abu_calc.standards.vibration import octave
@@ -83,7 +83,7 @@ def factory(progress: Progress = silent) -> FactoryResult:
         machine = read(row.machine)
         if row.machine not in sized:
             progress(row.short)
-            sized[row.machine] = size(machine, progress=progress)
+            sized[row.machine] = size(machine, progress=within(progress, row.short))
         rows.append(_row(row, _predicted(row, machine, sized[row.machine], progress)))
     source, background = factory_source()
     return FactoryResult(

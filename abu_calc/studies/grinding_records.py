@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from abu_calc.analysis.agreement import Agreement
 from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
 from abu_calc.analysis.grinding import Remedy
+from abu_calc.analysis.shaking import Shaken
 from abu_calc.analysis.under_load import Steady
 from abu_calc.analysis.wear import Stage, Wear
 from abu_calc.analysis.working import Working
@@ -94,7 +95,7 @@ class Printed(Record):
 
     resultant_g_mm: Annotated[float, Quantity("imbalance of the balls, printed formula", "|V|")]
     resultant_angle_deg: Annotated[float, Quantity("its angle", "arg V")]
-    ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "Θ", 5)]
+    ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "θ", 5)]
     error_deg: Annotated[float | None, Quantity("the printed formula is off by")]
     open_g_mm: Annotated[float | None, Quantity("imbalance it would leave of what is to be carried")]
 
@@ -106,9 +107,9 @@ class WearStage(Record):
     depth_um: Annotated[float, Quantity("worn off")]
     time_min: Annotated[float | None, Quantity("after")]
     runout_mm: Annotated[float, Quantity("runout", "ε")]
-    runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ₀")]
+    runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ_ε")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance of the wheel", "m₀e")]
-    variable_force_N: Annotated[float, Quantity("variable force", "|H|")]
+    variable_force_N: Annotated[float, Quantity("variable force", "|F_H|")]
 
     @classmethod
     def of(cls, stage: Stage, pace: float | None) -> Self:
@@ -129,9 +130,9 @@ class WearCourse(Record):
 
     centres: Annotated[bool, Quantity("wear centres the wheel")]
     runout_rate: Annotated[
-        float, Quantity("change of the runout per depth worn off", "dε/ds", 4, "as if wheel and work never parted")
+        float, Quantity("change of the runout per depth worn off", "dε/ds_w", 4, "as if wheel and work never parted")
     ]
-    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
+    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|F_H|")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
     ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
     depth_um: Annotated[float | None, Quantity("worn off until then")]
@@ -172,16 +173,23 @@ class FrictionBand(Record):
     typical_um: Annotated[float, Quantity("friction holds the axis off by, typically")]
     worst_um: Annotated[float | None, Quantity("at the worst")]
     threshold_um: Annotated[float, Quantity("shaken out by more than", "k_r·R_p/r")]
-    axial_um: Annotated[float, Quantity("shaking across the race, by axial runout", "a_z")]
+    axial_um: Annotated[float, Quantity("shaking across the race, by axial runout", "a_s")]
     axial_shakes: Annotated[bool, Quantity("axial runout shakes it out")]
     whirl_um: Annotated[float | None, Quantity("shaking along the race, by runout in the plane", "|X − iY|/2")]
     whirl_shakes: Annotated[bool, Quantity("runout in the plane shakes it out")]
     creep_s: Annotated[float | None, Quantity("balls then creep to their places within")]
+    simulated_way: Annotated[str | None, Quantity("shaken in the simulation", "", 4, "across the race or along it")]
+    simulated_um: Annotated[float | None, Quantity("by an amplitude of")]
+    simulated_given: Annotated[bool | None, Quantity("that of the file")]
+    simulated_s: Annotated[float | None, Quantity("for")]
+    unshaken_um: Annotated[float | None, Quantity("simulated: left without it", "", 3)]
+    shaken_um: Annotated[float | None, Quantity("simulated: left with it", "", 3)]
 
     @classmethod
-    def of(cls, found: Friction) -> Self:
+    def of(cls, found: Friction, run: Shaken | None) -> Self:
         """In user units."""
-        whirl = found.whirl
+        whirl, unshaken = found.whirl, None if run is None else run.unshaken
+        left = None if run is None else run.shaken
         return cls(
             typical_um=from_si(found.typical, "um"),
             worst_um=from_si(found.worst, "um") if math.isfinite(found.worst) else None,
@@ -191,6 +199,12 @@ class FrictionBand(Record):
             whirl_um=None if whirl is None else from_si(whirl, "um"),
             whirl_shakes=found.creep is not None,
             creep_s=found.creep,
+            simulated_way=None if run is None else run.way,
+            simulated_um=None if run is None else from_si(run.amplitude, "um"),
+            simulated_given=None if run is None else run.given,
+            simulated_s=None if run is None else run.seconds,
+            unshaken_um=None if unshaken is None else from_si(unshaken, "um"),
+            shaken_um=None if left is None else from_si(left, "um"),
         )
 
 
@@ -198,7 +212,7 @@ class FrictionBand(Record):
 class HodographPoint(Record):
     """Axis with the runout at another angle from the imbalance."""
 
-    runout_angle_deg: Annotated[float, Quantity("runout from the imbalance", "φ₀")]
+    runout_angle_deg: Annotated[float, Quantity("runout from the imbalance", "φ_ε")]
     without: AxisMotion
     fitted: AxisMotion
 

@@ -45,7 +45,7 @@ class AxisLevel(Record):
     level_db: Annotated[float | None, Quantity("level", "L")]
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
-    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s", 3)]
+    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3)]
     acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted")]
     weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3)]
 
@@ -76,7 +76,7 @@ class PlaceLevel(Record):
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octaves: tuple[OctaveLevel, ...]
     corrected_level_db: Annotated[float | None, Quantity("corrected level", "L", 4, "of the octaves that are known")]
-    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s", 3, "of the louder axis")]
+    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3, "of the louder axis")]
     acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted, louder axis")]
     weighted_axis_m_per_s2: Annotated[float | None, Quantity("weighted acceleration of one axis", "a_h", 3)]
     weighted_acceleration_m_per_s2: Annotated[

@@ -1,6 +1,7 @@
 """A run as who turns with the rotor sees it: balls on their way to rest, the axis, and what imbalance is left."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final, Self
 
@@ -8,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.analysis.course import axis_place, settling_times, total_imbalance
-from abu_calc.analysis.response import axis_velocity
+from abu_calc.analysis.response import axis_velocity, beginning
 from abu_calc.dynamics.race import balls_of
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
@@ -46,12 +47,11 @@ class RotorView:
 
     @classmethod
     def of(cls, scene: Scene, run: Trajectory, level: Level = level_from_velocity, most: int = MOST) -> Self | None:
-        """Of a run, in at most so many samples; None of one so long that its beginning is not held."""
-        times = settling_times(scene)
-        try:
-            states = run.at(times)
-        except ValueError:
+        """Of a run, in at most so many samples; of too long a one its beginning, None where that is not held."""
+        held = _held(run, settling_times(scene), beginning(scene))
+        if held is None:
             return None
+        times, states = held
         turn, speed = scene.rotor.turning(times, states, scene.speed)
         inner = (turn >= turn[0] + np.pi) & (turn <= turn[-1] - np.pi)
         if np.count_nonzero(inner) < 2:
@@ -78,6 +78,14 @@ class RotorView:
             pitch_radii_mm=tuple((from_si(1.0, "mm") * balls.radii).tolist()),
             ball_radii_mm=tuple((from_si(1.0, "mm") * balls.sizes).tolist()),
         )
+
+
+def _held(trajectory: Trajectory, *choices: Array) -> tuple[Array, Array] | None:
+    """The first of these times that are all held, and the states then."""
+    for times in choices:
+        with suppress(ValueError):
+            return times, trajectory.at(times)
+    return None
 
 
 def _angles(scene: Scene, states: Array) -> Array:

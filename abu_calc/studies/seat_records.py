@@ -60,11 +60,11 @@ class SeatResult(Record):
     recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
     rejected_fits: tuple[RejectedFit, ...]
     admissible_fits: tuple[AdmissibleFit, ...]
-    load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·R/b")]
+    load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
     creep: Creep
     requirements: Requirements
     asked_interference_um: Annotated[Pair | None, Quantity("interference asked of every pair")]
-    selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n")]
+    selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n_g")]
     selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
     sorting_groups: tuple[SortingGroup, ...]
     repair: Repair | None
@@ -73,7 +73,7 @@ class SeatResult(Record):
     bearing_verdict: Annotated[Grade, Quantity("verdict", "", 4, "the worst check of the bearing")]
     diameter_mm: Annotated[float, Quantity("diameter of the seat", "d")]
     ring_width_mm: Annotated[float, Quantity("width of the ring", "B")]
-    chamfer_mm: Annotated[float | None, Quantity("chamfer of the ring", "r")]
+    chamfer_mm: Annotated[float | None, Quantity("chamfer of the ring", "r_s")]
 
     @property
     def tightest_um(self) -> float:

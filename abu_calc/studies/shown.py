@@ -14,7 +14,7 @@ class Readings(Record):
     """One level as instruments show it, all rms; weighted values are null where W_h is not defined."""
 
     velocity_mm_per_s: Annotated[float, Quantity("velocity", "v")]
-    displacement_um: Annotated[float, Quantity("displacement", "s")]
+    displacement_um: Annotated[float, Quantity("displacement", "s_v")]
     acceleration_m_per_s2: Annotated[float, Quantity("acceleration", "a")]
     weighted_m_per_s2: Annotated[float | None, Quantity("weighted, one axis", "a_h", 3)]
     total_m_per_s2: Annotated[float | None, Quantity("weighted, three axes", "a_hv", 3)]

@@ -11,6 +11,7 @@ from abu_calc.analysis.response import Response
 from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
+from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing.compared import compared, compared_design, measured_place
 from abu_calc.studies.arguments import checked, one_of
@@ -22,6 +23,13 @@ from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SimulatedLevel, SimulatedScene
 from abu_calc.studies.subject import Source, Subject, subject_of
+from abu_calc.validity import Range
+
+WORK: Final = 10_000_000
+"""SciPy's evaluations that a simulation may take: a minute or two of SciPy's work, a quarter of that in compiled code.
+A preset takes some ten thousand, the swing arm a hundred thousand."""
+
+EVALUATIONS: Final = Range("most evaluations", 1, 10**12, key="most_evaluations")
 
 INTEGRATORS: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
 
@@ -48,7 +56,7 @@ class SimulateResult(SimulatedScene, Result):
     motion: Motion | None = field(compare=False, repr=False)
     """Axis and balls at the times asked for; None where none were."""
     view: RotorView | None = field(compare=False, repr=False)
-    """The way from start to rest, thinned; None of too long a run."""
+    """The way from start to rest, thinned; of too long a run its beginning."""
     run: Simulation = field(compare=False, repr=False)
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
@@ -66,22 +74,32 @@ def simulate(
     integrator: str = "auto",
     audit: bool = False,
     samples: int | None = None,
+    most_evaluations: int = WORK,
     progress: Progress = silent,
 ) -> SimulateResult:
     """Integrate one scene to `accuracy`: of amplitude and settling time relative, of ball angles in rad.
 
     `scene` and `start` choose among those of a machine (idle; balls bunched). The effects there is data for are in as
     far as their weights ask for it, and as `with_effects` and `without_effects` say; with `audit` all of them once
-    more. `samples`: equally spaced times to keep the motion at. Raises InputError for what is wrong in file or
-    arguments, NotTrustworthyError where the accuracy is not reached.
+    more. `samples`: equally spaced times to keep the motion at. `most_evaluations` bounds the work, see WORK: by
+    counting before it begins, and while it goes on. Raises InputError for what is wrong in file or arguments,
+    NotTrustworthyError where the accuracy is not reached, or not within that work.
     """
     ACCURACY.check(accuracy)
+    EVALUATIONS.check(most_evaluations)
     one_of("integrator", integrator, INTEGRATORS)
     subject = subject_of(source, scene, start).lasting(duration_s)
     times = equally_spaced(subject.scene, samples)
     ledger = subject.ledger(accuracy, with_effects, without_effects)
-    run = integrated(ledger.scene, accuracy - ledger.spared, times, integrator=integrator, progress=progress)
-    audited = with_all_effects(subject.scene, ledger, run, accuracy, integrator, progress) if audit else None
+    try:
+        run = integrated(
+            ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator, progress=progress
+        )
+        audited = None
+        if audit:
+            audited = with_all_effects(subject.scene, ledger, run, accuracy, most_evaluations, integrator, progress)
+    except TooMuchWorkError as error:
+        raise TooMuchWorkError(f"{error}; or allow more: --most-evaluations, Python: most_evaluations=") from None
     checks = (
         *_limits(subject, run, ledger.spared, duration_s),
         _reached(run, ledger.spared, accuracy),

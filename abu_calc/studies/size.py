@@ -212,7 +212,7 @@ def _arm(
     from abu_calc.analysis.arm_motion import arm_motion
     from abu_calc.scenes.from_design import scene_of_design
 
-    judged = judge_arm(design)
+    judged = judge_arm(design, progress)
     if judged is not None and judged.may_pass and any(one.scene.startswith("swing-arm") for one in failures):
         from abu_calc.analysis.arm_scenes import damping_to_simulate
 

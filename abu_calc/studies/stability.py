@@ -11,6 +11,7 @@ from abu_calc.dynamics.balanced.stability import stability as judged
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
+from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.arm_records import ArmMotion, SwingArm
 from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
@@ -91,7 +92,7 @@ class StabilityResult(Result):
 @checked
 def stability(
     source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None,
-    arrangement: str = "worst", crossings: bool = False,
+    arrangement: str = "worst", crossings: bool = False, progress: Progress = silent,
 ) -> StabilityResult:  # fmt: skip
     """Judge the balanced state of a scene by eigenvalues or Floquet multipliers, and say whether balls may hang.
 
@@ -112,10 +113,13 @@ def stability(
         rated = from_si(subject.scene.speed, "rpm")
         speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
     pressed = grinds(subject.scene)
+    progress("balanced state")
     found = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
+    if speeds_rpm:
+        progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
     limits = _limits(subject, speeds_rpm, way) if speeds_rpm and found.reason is None else None
-    arm = _on_arm(subject)
+    arm = _on_arm(subject, progress)
     return StabilityResult(
         title=subject.title,
         checks=(_check(found, way, pressed=pressed),),
@@ -153,7 +157,7 @@ class ArmAnswer(NamedTuple):
     warnings: tuple[str, ...] = ()
 
 
-def _on_arm(subject: Subject) -> ArmAnswer:
+def _on_arm(subject: Subject, progress: Progress) -> ArmAnswer:
     """Of a machine the bounds and what to change; of every arm its motion with its imbalance."""
     if subject.scene.support.standing_arm(subject.scene.balls) is None:
         return ArmAnswer()
@@ -161,7 +165,7 @@ def _on_arm(subject: Subject) -> ArmAnswer:
     from abu_calc.analysis.arm_motion import arm_motion
     from abu_calc.analysis.scene_arm import advise_scene
 
-    judged = None if subject.design is None else judge_arm(subject.design)
+    judged = None if subject.design is None else judge_arm(subject.design, progress)
     advice = advise_scene(subject.scene) if judged is None else judged.advice
     bounds = None if judged is None else SwingArm.of(judged)
     moved = arm_motion(subject.scene)

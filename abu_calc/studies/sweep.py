@@ -250,11 +250,8 @@ def _limits(plan: Plan) -> dict[str, float]:
     if plan.design is None:
         return {}
     limits = plan.design.case.table.limits
-    level, settling = limits.vibration_level_db, limits.settling_time_s
-    return {
-        "level_db": level, "level_after_db": level, "worst_level_db": level, "settling_time_s": settling,
-        "worst_settling_time_s": settling,
-    }  # fmt: skip
+    level = limits.vibration_level_db
+    return {"level_db": level, "level_after_db": level, "settling_time_s": limits.settling_time_s}
 
 
 def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:

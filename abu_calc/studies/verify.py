@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 
 from abu_calc.checks import Check, verdict
 from abu_calc.errors import InputError, Place
-from abu_calc.progress import Progress, silent
+from abu_calc.progress import Progress, Stage, silent
 from abu_calc.spec.bearing_file import BearingFile, HasExpectations, expected_tolerances, expected_values
 from abu_calc.spec.document import Reading
 from abu_calc.spec.read import Machine
@@ -46,7 +46,7 @@ def verify(machines: Sequence[Reading], progress: Progress = silent) -> VerifyRe
     """
     files = []
     for index, machine in enumerate(machines, 1):
-        progress(f"{index}/{len(machines)} {machine.file}")
+        progress(Stage(f"{index} of {len(machines)} files, {machine.file}", (index - 1) / len(machines)))
         files.append(_verified(machine))
     checks = tuple(map(_check, files))
     warnings = tuple(f"{machine.file}: {warning}" for machine in machines for warning in machine.warnings)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from abu_calc.analysis.batches import ENDED, Row, Workers, given, here, in_batches, processes
+from abu_calc.analysis.batches import ENDED, Here, Row, Workers, given, here, in_batches, processes
 from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.errors import NotTrustworthyError
 
@@ -63,6 +63,26 @@ def test_little_is_in_flight_and_batches_stay_short() -> None:
 
     in_batches(Squares(), members(), given(ThreadPoolExecutor(2), 2), take)
     assert sorted(taken) == list(range(10_000))
+
+
+@pytest.mark.parametrize(("each", "workers"), [(0.02, 1), (0.5, 1), (1e-3, 1), (0.02, 200), (0.1, 600)])
+def test_handing_out_stays_below_a_tenth_of_the_work(each: float, workers: int) -> None:
+    """Counted, not timed: so many batches for so much work. A batch costs whoever hands it out half a millisecond on
+    processes and 8 ms on a local cluster; with many workers, so many at a time, it must still find the time.
+    """
+    batches: list[int] = []
+
+    class Timed(Squares):
+        def rows(self, members: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
+            batches.append(len(members))
+            return [(member, 0) for member in members], each * len(members)
+
+    in_batches(Timed(), iter(range(20_000)), Workers(Here, workers), lambda rows: None)
+    handing = 8e-3 if each >= 0.02 else 0.5e-3
+    assert sum(batches) == 20_000
+    assert handing * len(batches) < 0.1 * each * 20_000
+    later = batches[12:-1]  # once it is known what one takes
+    assert not later or each * sum(later) / len(later) > workers * handing
 
 
 def test_a_batch_that_fails_on_anothers_executor_is_recorded_member_by_member() -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from abu_calc.cli.app import run
+from tests.remembered import remembered
 
 
 @dataclass(frozen=True)
@@ -40,10 +41,16 @@ def abu(*arguments: str) -> Seen:
     return Seen(status, out.getvalue(), err.getvalue())
 
 
+def again(*arguments: str) -> Seen:
+    """What `abu arguments…` does, with studies that were made before; for tests that patch nothing of them."""
+    with remembered():
+        return abu(*arguments)
+
+
 @cache
 def once(*arguments: str) -> Seen:
     """What `abu arguments…` does, run once for all tests that ask: for commands that write no file."""
-    return abu(*arguments)
+    return again(*arguments)
 
 
 EXTRAS = ("heyoka", "llvmlite")

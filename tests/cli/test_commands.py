@@ -16,8 +16,9 @@ from abu_calc.analysis import ensemble, machine
 from abu_calc.cli.signals import INTERRUPTED
 from abu_calc.report.explain import explanation_blocks
 from abu_calc.report.numbers import number
-from abu_calc.studies import size as size_module
-from tests.cli.runner import abu, once, without_extras
+from abu_calc.sizing import size as size_design
+from tests.cli.runner import abu, again, once, without_extras
+from tests.remembered import recalled
 from tests.sizing.machines import BASE
 from tests.sizing.test_properties import machines
 
@@ -92,13 +93,12 @@ def test_under_load_the_level_does_not_contradict_the_simulation(designs: dict[s
 )
 def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int, diameter: float, idle: bool) -> None:
     """Two for idling and four under load on the straight machine; three on the others."""
-    pins = ["--set", f"autobalancer.ball_count={count}", "--set", f"autobalancer.ball_diameter_mm={diameter}"]
-    rest = ["--set", "grinding.contact=face"] if idle else []
-    document = abu("size", name, "--json", *pins, *rest).document
-    assert document["result"]["autobalancer"]["ball_count"] == count
-    assert document["result"]["autobalancer"]["ball_diameter_mm"] == pytest.approx(diameter, abs=1e-3)
-    capacity = next(check for check in document["checks"] if check["code"] == "ABU201")
-    assert capacity["status"] == "pass", capacity
+    pins = {"autobalancer.ball_count": count, "autobalancer.ball_diameter_mm": diameter}
+    design = size_design(abu_calc.read(name).changed(pins | ({"grinding.contact": "face"} if idle else {})).whole())
+    found = design.autobalancer
+    assert (found.ball_count, found.ball_diameter) == (count, pytest.approx(1e-3 * diameter, abs=1e-6))
+    (capacity,) = (check for check in design.checks if check.code == "ABU201")
+    assert capacity.status == "pass", capacity
 
 
 def test_two_balls_do_not_suffice_under_load() -> None:
@@ -109,8 +109,8 @@ def test_two_balls_do_not_suffice_under_load() -> None:
 
 
 def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
-    seen = abu("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
-               "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
+    seen = once("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
+                "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
     document = seen.document
     failed = {check["code"]: check for check in document["checks"] if check["status"] == "fail"}
     assert seen.status == 1 and {"ABU101", "ABU701"} <= failed.keys()
@@ -146,7 +146,7 @@ def test_all_scenes_a_file_calls_for_are_simulated() -> None:
 
 def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
     """An arm that does not stand at the work: the design stands, its other scenes too."""
-    seen = abu("size", "swing-arm-grinder", "--set", "swing_arm.contact_angle_deg=5", "--json")
+    seen = once("size", "swing-arm-grinder", "--set", "swing_arm.contact_angle_deg=5", "--json")
     document = seen.document
     (check,) = [check for check in document["checks"] if check["code"] == "ABU703"]
     assert seen.status == 1 and check["status"] == "not-done" and "swing-arm-cutting" in check["name"]
@@ -178,16 +178,8 @@ def test_report_reads_like_a_calculation_note() -> None:
     assert places == sorted(places)
 
 
-def test_explain_puts_the_numbers_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    simulated, known = size_module.simulated, []
-
-    def simulated_once(*given):
-        if not known:
-            known.append(simulated(*given))
-        return known[0]
-
-    monkeypatch.setattr(size_module, "simulated", simulated_once)
-    plain, told = abu("size", "swing-arm-grinder", "--full").out, abu("size", "swing-arm-grinder", "--explain").out
+def test_explain_puts_the_numbers_in() -> None:
+    plain, told = once("size", "swing-arm-grinder", "--full").out, once("size", "swing-arm-grinder", "--explain").out
     assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
     assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)
     for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
@@ -196,7 +188,7 @@ def test_explain_puts_the_numbers_in(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_numbers_put_in_are_those_of_the_result() -> None:
-    result = abu_calc.size(abu_calc.read("avtovaz-707-222"))
+    result = recalled("size", abu_calc.read("avtovaz-707-222"))
     model, shown = result.model, [getattr(block, "text", "") for block in explanation_blocks(result)]
     assert model.runout_part_g_mm > 0 and model.eccentricity_part_g_mm > 0
     for kg_m, g_mm in (
@@ -222,7 +214,7 @@ def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:
 @pytest.mark.parametrize("suffix", [".json", ".toml", ".csv", ".txt"])
 def test_output_formats(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"design{suffix}"
-    assert abu("size", "avtovaz-707-370", "--output", str(path), "--quiet").out == ""
+    assert again("size", "avtovaz-707-370", "--output", str(path), "--quiet").out == ""
     text = path.read_text(encoding="utf-8")
     if suffix == ".json":
         assert json.loads(text)["result"]["autobalancer"]["ball_count"] == 5
@@ -235,9 +227,9 @@ def test_output_formats(tmp_path: Path, suffix: str) -> None:
     else:
         assert text.startswith("AvtoVAZ") and max(map(len, text.splitlines())) <= 80
     before = path.read_bytes()
-    seen = abu("size", "avtovaz-707-222", "--output", str(path))
+    seen = again("size", "avtovaz-707-222", "--output", str(path))
     assert seen.status == 2 and "--force" in seen.err and path.read_bytes() == before
-    assert abu("size", "avtovaz-707-222", "--output", str(path), "--force", "-q").status == 0
+    assert again("size", "avtovaz-707-222", "--output", str(path), "--force", "-q").status == 0
     assert path.read_bytes() != before and list(tmp_path.iterdir()) == [path]
 
 
@@ -292,7 +284,7 @@ def test_check_fit_of_the_source() -> None:
 
 # verify
 def test_presets_keep_what_they_expect() -> None:
-    seen = abu("verify")
+    seen = again("verify")
     assert seen.status == 0, seen.out
 
 
@@ -336,8 +328,8 @@ def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
         tables.setdefault(table, {}).update({key: value} if key else value)
     options = [f"{table}.{key}={json.dumps(value)}" for table, keys in tables.items() for key, value in keys.items()]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(machine, "WORK", 5_000)  # what takes more is a check not done, an answer too
-        patch.setattr(ensemble, "WORK", 500)
+        patch.setattr(machine, "WORK", 1_000)  # what takes more is a check not done, an answer too
+        patch.setattr(ensemble, "WORK", 100)
         without_extras(patch)
         seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
     document = seen.document

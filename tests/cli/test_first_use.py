@@ -79,12 +79,3 @@ def test_the_effects_of_a_new_scene_can_be_switched_on(tmp_path: Path) -> None:
     assert {one["name"] for one in document["result"]["effects"]} == {
         "gravity", "dry_rolling_friction", "ball_contact", "race_eccentricity",
     }  # fmt: skip
-
-
-def test_explain_says_user_units_and_has_one_sign_for_one_thing() -> None:
-    """ρ is density alone: neither the groove's radius nor a displacement; what a formula gives is told as in files."""
-    told = {step: " ".join(abu("explain", step).out.split()) for step in ("capacity", "track", "budget", "seats")}
-    assert "[kg m]. 1 kg m = 1000000 g·mm." in told["capacity"]
-    assert "[Pa]. 1 MPa = 1000000 Pa." in told["track"] and "[m]. 1 m = 1000 mm." in told["budget"]
-    assert "R_g = r + (5/7)(R − r)" in told["track"] and "ρ" not in told["budget"]
-    assert {told["track"][found.start() : found.end() + 3] for found in re.finditer("ρ", told["track"])} <= {"ρ·v²"}

@@ -10,7 +10,8 @@ import abu_calc
 from abu_calc.report.grinding import grinding_blocks
 from abu_calc.report.grinding_screen import grinding_screen
 from abu_calc.report.text import as_text
-from tests.cli.runner import abu
+from tests.cli.runner import abu, once
+from tests.remembered import recalled
 
 STRAIGHT = "avtovaz-707-222"
 GOLDEN = {
@@ -36,7 +37,7 @@ HELPS = {"wheel.runout_mm": 0.02, "wheel.life_min": 32.0, "wheel.usable_wear_mm"
 def worked(name: str, which: str = "", sense: int = -1) -> abu_calc.GrindingResult:
     """Each machine is worked once for all tests."""
     changes = {"": {}, "golden": {**GOLDEN, "grinding.rotation_sense": sense}, "helps": HELPS}[which]
-    return abu_calc.grinding(abu_calc.read(name).changed(changes))
+    return recalled("grinding", abu_calc.read(name).changed(changes))
 
 
 @pytest.fixture(autouse=True)
@@ -64,7 +65,7 @@ def test_one_screen_verdict_first(name: str, which: str, begins: str) -> None:
 
 
 def test_the_command_prints_the_screen_and_the_whole() -> None:
-    seen = abu("grinding", "avtovaz-707-370")
+    seen = once("grinding", "avtovaz-707-370")
     assert seen.status == 0
     assert seen.out.splitlines()[1].strip().startswith("The autobalancer helps under load")
     assert len(seen.out.splitlines()) <= 48

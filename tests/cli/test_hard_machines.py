@@ -5,7 +5,7 @@ import pytest
 from abu_calc.analysis import ensemble, machine
 from abu_calc.analysis.idle import WORK
 from abu_calc.dynamics.integrators.choice import COMPILED, LOOP_WORK, PLAIN
-from tests.cli.runner import abu, without_extras
+from tests.cli.runner import Seen, abu, once, without_extras
 
 GOOD = {"pass", "warn"}
 STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
@@ -21,7 +21,10 @@ def work(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def _checks(name: str, *entries: str) -> tuple[int, dict, dict]:
-    seen = abu("size", name, "--json", *(word for entry in entries for word in ("--set", entry)))
+    return _found(abu("size", name, *(word for entry in entries for word in ("--set", entry)), "--json"))
+
+
+def _found(seen: Seen) -> tuple[int, dict, dict]:
     assert seen.status in (0, 1), seen.err
     document = seen.document
     for run in document["result"]["simulation"]:
@@ -149,7 +152,7 @@ def test_edges_are_answered(entries: tuple[str, ...]) -> None:
 )
 def test_an_arm_that_does_not_press_or_stand(angle: float, codes: set[str]) -> None:
     """At 0.09 rad g(Z) is −0.02: static divergence; at 0 and 180° no normal force turns the arm."""
-    _, checks, _ = _checks(ARM, f"swing_arm.contact_angle_deg={angle}")
+    _, checks, _ = _found(once("size", ARM, "--set", f"swing_arm.contact_angle_deg={angle}", "--json"))
     assert {code for code, check in checks.items() if check["status"] not in GOOD} == codes
 
 

@@ -157,9 +157,9 @@ start_angles_deg = [55.0, 15.0]
 @pytest.mark.parametrize(
     ("friction", "sense", "golden"),
     [
-        (0.0, -1, [136.3550, 271.2639]),
+        pytest.param(0.0, -1, [136.3550, 271.2639], marks=pytest.mark.slow),
         (0.35, -1, [161.0753, 302.2060]),
-        (0.35, 1, [110.8259, 243.9415]),
+        pytest.param(0.35, 1, [110.8259, 243.9415], marks=pytest.mark.slow),
     ],
 )
 def test_balls_under_load(tmp_path: Path, friction: float, sense: int, golden: list[float]) -> None:

@@ -46,6 +46,18 @@ def test_who_interrupts_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest
     assert kept.status == 130 and "no member is kept" in kept.err
 
 
+def test_who_interrupts_the_trials_is_told_that_all_members_are_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*_: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("abu_calc.studies.sweep.loosened", stopped)
+    store = tmp_path / "members.sqlite"
+    seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "4", *CALM, "--store", str(store))
+    assert seen.status == 130 and f"4 of 4 members are in {store}. Go on with:" in seen.err
+
+
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [

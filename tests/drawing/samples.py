@@ -7,7 +7,8 @@ from abu_calc.sizing import size as size_design
 from abu_calc.spec.read import read_machine
 from abu_calc.studies.design_records import Autobalancer, DrawingLine
 from abu_calc.studies.section_records import Section
-from abu_calc.studies.size import SizeResult, size
+from abu_calc.studies.size import SizeResult
+from tests.remembered import recalled
 
 HOSTILE = '<script>alert("1")</script> & Schleifer ÄÖÜß ]]> %%c ^J \\U+0041 шлиф ' + "long " * 30
 MACHINES: dict[str, tuple[str, ...]] = {
@@ -41,7 +42,8 @@ MACHINES: dict[str, tuple[str, ...]] = {
 @cache
 def whole() -> SizeResult:
     """The straight grinder, sized and simulated."""
-    return size(read_machine("avtovaz-707-222"), 0.05)
+    found: SizeResult = recalled("size", read_machine("avtovaz-707-222"))
+    return found
 
 
 @cache

@@ -160,8 +160,13 @@ def test_two_tolerances_agree():
     np.testing.assert_allclose(loose, tight, atol=1e-4)
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.5])
-@pytest.mark.parametrize("coefficient", [1e-4, 1e-2])
+@pytest.mark.parametrize(
+    ("restitution", "coefficient"),
+    [
+        *((0.0, 1e-4), (0.5, 1e-2)),
+        *(pytest.param(*one, marks=pytest.mark.slow) for one in ((0.5, 1e-4), (0.0, 1e-2))),
+    ],
+)
 def test_twenty_balls_with_friction(restitution, coefficient):
     radius = 0.1
     beta = math.asin(radius)

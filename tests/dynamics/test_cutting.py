@@ -54,7 +54,9 @@ def states_of(scene: Scene, times: np.ndarray, names: tuple[str, ...] = PLAIN) -
     return [integrate_with(name, equations, 1e-8, times, 10**7).y for name in here]
 
 
-@pytest.mark.parametrize(("stall", "names"), [(0.8, ALL), (0.0001, PLAIN)])
+@pytest.mark.parametrize(
+    ("stall", "names"), [(0.8, PLAIN), (0.0001, PLAIN), pytest.param(0.8, ALL, marks=pytest.mark.slow)]
+)
 def test_a_rotor_that_the_motor_cannot_drive_comes_to_rest_and_stands(stall, names):
     """J Ω' = M (1 − Ω/Ω₀) − f N R_w until Ω = 0: Ω = Ω∞ + (Ω_s − Ω∞) e^{−t/τ}, τ = J Ω₀/M, Ω∞ = Ω₀ (1 − f N R_w/M)."""
     scene = cutting(Motor(stall, NO_LOAD, INERTIA), contact("face"))

@@ -13,6 +13,7 @@ from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import run, scipy_
+from abu_calc.dynamics.integrators.compiled.cache import FOLDER
 from abu_calc.dynamics.integrators.run import work
 from abu_calc.dynamics.scene import Scene, placed
 from abu_calc.dynamics.supports.planar import planar
@@ -69,7 +70,13 @@ def test_every_support_and_rotor(support):
     agree(replace(scene_on(support, *ROTORS[way]), duration=10.0))
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+SWITCHING = ("ball_contact", "grinding_contact", "dry_rolling_friction", "run_up")
+"""Effects that are more than a smooth force; those come into the code of heyoka all in one way."""
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in SWITCHING else pytest.param(name, marks=pytest.mark.slow) for name in EXAMPLES]
+)
 def test_every_effect(name):
     """On the supports in turn; a rigid contact lets errors pass into the motion along the constraint."""
     supports = ["planar", "tilting", "swing arm"]
@@ -113,6 +120,7 @@ def test_breaks_are_met():
     np.testing.assert_allclose(turn, [(7.0, 35.0, 44.0), (2.0, 2.0, 0.0)], atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrolled")
 def test_errors_fall_with_the_tolerance():
     """Three decades of tolerance are at least two of error, until rounding of some hundred steps is met."""
@@ -218,8 +226,9 @@ def test_every_order_keeps_the_tolerance(tolerance):
     assert off < 100 * tolerance
 
 
-def test_compiled_code_is_kept_apart_and_bounded(tmp_path):
+def test_compiled_code_is_kept_apart_and_bounded(tmp_path, monkeypatch):
     """In a folder of its own, in this process alone; where somebody has chosen one, there."""
+    monkeypatch.delenv(FOLDER, raising=False)
     state = heyoka.llvm_state
     before = state.get_diskcache_path()
     try:

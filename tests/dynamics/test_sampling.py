@@ -15,6 +15,7 @@ from abu_calc.dynamics.effect import Laws
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import recorder, scipy_
+from abu_calc.dynamics.integrators.choice import Choice
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Samples, Sampling
 from abu_calc.errors import InputError, NotTrustworthyError
@@ -25,6 +26,8 @@ SCENE = replace(dimensionless(3.0, 0.02, 0.02, 0.2, 0.3, (1.0, 2.5), 300.0), eff
 """Weights that pull the balls off their race: there is something to remark."""
 
 LIGHT = dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0)
+FIRST = 40
+"""Samples of the beginning that stay."""
 WANTED = (0.0, 1.5, 200.25, 300.0)
 
 
@@ -32,6 +35,7 @@ def both(monkeypatch: pytest.MonkeyPatch, scene: Scene, **how: object) -> tuple[
     """One simulation held whole, and one that is not, its blocks so small that steps go across them."""
     whole = simulate(scene, 0.02, **how)  # type: ignore[arg-type]
     monkeypatch.setattr(response_module, "HELD", 0)
+    monkeypatch.setattr(response_module, "BEGINNING", FIRST)
     monkeypatch.setattr(recorder, "BLOCK", 7)
     monkeypatch.setattr(response_module, "BLOCK", 13)
     return whole, simulate(scene, 0.02, **how)  # type: ignore[arg-type]
@@ -45,7 +49,7 @@ def test_results_of_long_runs_are_those_of_runs_held_whole(monkeypatch: pytest.M
     assert long.warnings == whole.warnings and "would fall off its race" in long.warnings[-1]
     assert (long.cost.evaluations, long.error_estimate) == (whole.cost.evaluations, whole.error_estimate)
     np.testing.assert_array_equal(whole.trajectory.t, np.union1d(needed_times(SCENE), WANTED))
-    held = np.union1d(amplitude_window(SCENE).times, WANTED)
+    held = np.union1d(amplitude_window(SCENE).times, (*WANTED, *settling_times(SCENE)[:FIRST]))
     np.testing.assert_array_equal(long.trajectory.t, held)
     np.testing.assert_array_equal(long.trajectory.y, whole.trajectory.at(held))
 
@@ -55,7 +59,8 @@ def test_long_envelopes_likewise(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("abu_calc.dynamics.slow.followed.AT_ONCE", 100)
     whole, long = both(monkeypatch, LIGHT)
     assert whole.rung == long.rung == "envelope"
-    np.testing.assert_array_equal(long.trajectory.t, amplitude_window(LIGHT).times)
+    held = np.union1d(amplitude_window(LIGHT).times, settling_times(LIGHT)[:FIRST])
+    np.testing.assert_array_equal(long.trajectory.t, held)
     scales = np.array(assemble(LIGHT).scales)[:, None]
     assert np.abs((long.trajectory.y - whole.trajectory.at(long.trajectory.t)) / scales).max() < 1e-4
     assert long.response.settling_time == pytest.approx(whole.response.settling_time, rel=1e-4)
@@ -108,6 +113,10 @@ def test_a_second_run_that_cannot_fit_is_not_begun(monkeypatch: pytest.MonkeyPat
         return replace(choice, integrate=integrate)
 
     monkeypatch.setattr(simulate_module, "choose", choose)
+    with pytest.raises(NotTrustworthyError, match=r"found about .*; allowed: .*\n.*shorten the run"):
+        simulate(scene, integrator="scipy", most_evaluations=int(0.3 * free))
+    assert begun == []
+    monkeypatch.setattr(Choice, "expected", lambda *_: 0.0)  # where more is needed than was to be expected
     with pytest.raises(NotTrustworthyError, match=r"found at least .*; allowed: .*\n.*shorten the run"):
         simulate(scene, integrator="scipy", most_evaluations=int(0.6 * free))
     assert begun == [2e-4]

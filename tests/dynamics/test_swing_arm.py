@@ -88,6 +88,7 @@ def test_above_its_natural_frequency_the_arm_is_balanced(ratio):
     assert np.abs(angle - angle.mean()).max() < 0.01 * without
 
 
+@pytest.mark.slow  # by the command in every run: tests/cli/test_published.py
 @pytest.mark.parametrize(("ratio", "larger"), [(0.75, 2.3), (0.5, 2.5)])
 def test_below_it_the_balls_make_it_worse(ratio, larger):
     """Both in one place on the heavy side: at most (400 + 2 · 300)/400 = 2.5, less as the drag holds them back."""

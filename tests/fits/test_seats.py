@@ -50,7 +50,7 @@ def test_both_criteria_are_named_and_the_larger_counts():
     shaft = seats().shaft
     assert um(shaft.required_interference) == pytest.approx(6.8224, abs=1e-4)  # 0.08·√(80·3000/33)
     assert "F_r/B" in shaft.required_by
-    assert "3.77 µm by 13·R·k/b (Afanasiev 2015), 6.82 µm by" in shaft.notes[0]
+    assert "3.77 µm by 13·F_r·k_B/b_s (Afanasiev 2015), 6.82 µm by" in shaft.notes[0]
     assert (check(shaft, 0).value, check(shaft, 0).limit) == (2.0, pytest.approx(6.8224, abs=1e-4))
     assert check(shaft, 0).remedy == "m6 passes."
 
@@ -95,7 +95,7 @@ def test_stress_of_the_example():
 def test_two_bearings_of_12_kn():
     """R = 6 kN each: N'min 7.53 µm, which m6 with 11 µm still passes."""
     shaft = seats(radial_load_kN=6.0, shaft_fit="m6").shaft
-    assert "7.53 µm by 13·R·k/b" in shaft.notes[0]
+    assert "7.53 µm by 13·F_r·k_B/b_s" in shaft.notes[0]
     assert um(shaft.required_interference) == pytest.approx(9.6483, abs=1e-4)  # 0.08·√(80·6000/33)
     assert check(shaft, 0).status == "pass"
 

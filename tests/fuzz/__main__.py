@@ -15,11 +15,11 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import seed as seeded
 from hypothesis import strategies as st
 
-from tests.fuzz.inputs import SOURCES, Input
+from tests.fuzz.inputs import SOURCES, Input, shared_out
 from tests.fuzz.judging import broken, described
 
 RUNS = 20_000
-BATCH = 100
+BATCH = 500
 CALM = tuple(HealthCheck)
 
 
@@ -34,9 +34,9 @@ def main() -> int:
     warnings.simplefilter("error")
     done, failed, number, started = 0, 0, asked.seed, time.monotonic()
     while done < asked.runs and time.monotonic() - started < asked.seconds:
-        for odd in SOURCES:
-            failed += _batch(odd, number, min(BATCH, asked.runs - done), asked.keep)
-            done += min(BATCH, asked.runs - done)
+        for odd, each in shared_out(min(BATCH, asked.runs - done)).items():
+            failed += _batch(odd, number, each, asked.keep)
+            done += each
         print(f"{done} inputs, {failed} kept, {time.monotonic() - started:.0f} s", flush=True)
         number += 1
     return 1 if failed else 0

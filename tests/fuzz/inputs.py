@@ -10,7 +10,7 @@ from typing import Any, Final
 import tomli_w
 from hypothesis import strategies as st
 
-from tests.fuzz.kinds import FILE, KINDS, Kind
+from tests.fuzz.kinds import FILE, KINDS, NAME, Kind
 
 Path = tuple[str | int, ...]
 
@@ -142,7 +142,7 @@ def damaged(draw: st.DrawFn, text: str) -> bytes:
 def contents(draw: st.DrawFn, kind: Kind) -> bytes:
     """The bytes of a file that once was one of a kind."""
     text = draw(st.sampled_from(kind.texts))
-    if draw(st.integers(0, 3)) == 0:
+    if kind.plain or draw(st.integers(0, 3)) == 0:
         return draw(damaged(text))
     document = draw(documents(text))
     try:
@@ -153,10 +153,36 @@ def contents(draw: st.DrawFn, kind: Kind) -> bytes:
 
 
 environments = st.dictionaries(
-    st.sampled_from(("COLUMNS", "LINES", "TERM", "NO_COLOR", "LANG", "LC_ALL", "PYTHONIOENCODING", "ABU_CALC_CACHE")),
-    st.sampled_from(("", "0", "-1", "1", "9" * 20, "dumb", "xterm-256color", "C", "²", "/dev/null", "ascii:strict")),
+    st.sampled_from((
+        "COLUMNS", "LINES", "TERM", "NO_COLOR", "FORCE_COLOR", "LANG", "LC_ALL", "PYTHONIOENCODING", "ABU_CALC_CACHE",
+        "HOME", "XDG_CACHE_HOME", "LOCALAPPDATA", "TMPDIR",
+    )),
+    st.sampled_from((
+        "", "0", "-1", "1", "20", "9" * 20, "dumb", "xterm-256color", "C", "²", "/dev/null", "/nowhere/at/all", "/proc",
+        "ascii:strict",
+    )),
     max_size=2,
-)
+)  # fmt: skip
+TARGETS: Final = (
+    "out.json", "out.toml", "out.csv", "out.txt", "out.html", "out.svg", "out.dxf", "out.exe", "no/out.json", NAME,
+    ".", "/dev/null", "/dev/full", "out\n.json", "\x1b[31m.json", "x" * 300 + ".json", "",
+)  # fmt: skip
+SHOWN: Final = ("--json", "--full", "--quiet", "--no-color", "--force")
+
+
+@st.composite
+def shown(draw: st.DrawFn) -> tuple[str, ...]:
+    """Mostly nothing; now and then how a result is shown, and the files it is written to."""
+    if draw(st.integers(0, 2)):
+        return ()
+    how = draw(st.lists(st.sampled_from(SHOWN), max_size=2, unique=True))
+    for _ in range(draw(st.integers(0, 1))):
+        how += ["--output", draw(st.sampled_from(TARGETS))]
+    if draw(st.integers(0, 9)) == 0:
+        how += ["--figure", draw(st.sampled_from(("x=out.svg", "motion=out.png", "out.svg", "=", "a=b=c.svg")))]
+    return tuple(how)
+
+
 PATHS: Final = (
     "machine.mass_kg", "wheel.mass_kg", "bearing[0].radial_load_kN", "bearing.0.name", "bearing[9].name",
     "machine.name", "machine.handle[0].name", "expected.status", "expected.\"fits.0.fit\"", "a.b.c",
@@ -172,7 +198,7 @@ WORDS: Final = (
     "out.txt", "no/out.json", "out.exe", "out.json\n",
 )  # fmt: skip
 QUICK: Final = ("check-fit", "validate", "verify", "effects", "presets", "schema", "explain", "init")
-SLOW: Final = frozenset({"size", "simulate", "stability", "accuracy", "verify"})
+SLOW: Final = frozenset({"size", "simulate", "stability", "accuracy", "verify", "factory", "grinding", "compare"})
 """Commands that take seconds where all is right."""
 
 
@@ -201,7 +227,7 @@ def command_lines(draw: st.DrawFn) -> tuple[str, ...]:
 
 def files_of(kind: Kind) -> st.SearchStrategy[Input]:
     """Commands for a file of a kind."""
-    commands = st.sampled_from(kind.commands)
+    commands = st.tuples(st.sampled_from(kind.commands), shown()).map(lambda both: both[0] + both[1])
     return st.builds(Input, commands, contents(kind), environments)
 
 
@@ -210,3 +236,9 @@ lines = st.builds(Input, command_lines(), st.sampled_from(KINDS).flatmap(content
 
 SOURCES: Final = {**{kind.name: files_of(kind) for kind in KINDS}, "command line": lines}
 """All inputs, by what is odd about them."""
+
+
+def shared_out(total: int) -> dict[str, int]:
+    """How many of so many inputs each kind has: as many as any other."""
+    each, more = divmod(total, len(SOURCES))
+    return {name: each + (rank < more) for rank, name in enumerate(SOURCES) if each + (rank < more)}

@@ -1,5 +1,6 @@
-"""The kinds of files there are: what a right one looks like, and which quick commands take it."""
+"""The kinds of files there are: what a right one looks like, and which commands take it, by cheap settings."""
 
+import math
 from typing import Final, NamedTuple
 
 from abu_calc.spec.presets import text_of
@@ -8,14 +9,23 @@ from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING
 
 FILE: Final = "@"
 """Stands for the file in a command."""
+NAME: Final = "machine.toml"
+RECORDED: Final = "@csv"
+"""Stands for it by a name of its own."""
+RECORDING_NAME: Final = "signal.csv"
+"""What they are called: who reads a recording looks at the ending."""
 
 
 class Kind(NamedTuple):
-    """Texts that are right, from which others are made, and commands for them."""
+    """Texts that are right, from which others are made, and commands for them.
+
+    `plain`: no TOML, so that texts alone are damaged.
+    """
 
     name: str
     texts: tuple[str, ...]
     commands: tuple[tuple[str, ...], ...]
+    plain: bool = False
 
 
 # One ball size and one count, so that sizing has little to choose from.
@@ -76,6 +86,20 @@ status = "fail"
 "fits.0.interference_um" = 0.01
 """
 
+RECORDING: Final = "t_s,x_m_per_s2,y_m_per_s2\n" + "".join(
+    f"{k / 2000:.4f},{3 * math.sin(k / 3):.4f},{2 * math.cos(k / 3):.4f}\n" for k in range(1000)
+)
+"""Half a second, so that one octave is enough."""
+
+SHORT: Final = ("--duration", "0.05")
+VARIED: Final = ("--vary", "wheel.mass_kg=0.5:0.7:2", "--runs", "2", "--seed", "1")
+TURNED: Final = ("--vary", "scene.speed_rpm=1000:2000:2", "--runs", "2", "--seed", "1")
+
+FAST: Final = (
+    SCENE.replace("19.0985931710274", "3000").replace("700.0", "0.5").replace("[1.0, 1.0]", "[2e3, 2e3]")
+    + "[scene.effects]\ngravity = { }\n"
+)
+
 KINDS: Final = (
     Kind("machine", (MACHINE,), (("validate", FILE), ("check-fit", FILE), ("validate", FILE, FILE, "--json"))),
     Kind("bearings", (BEARINGS,), (("validate", FILE), ("check-fit", FILE), ("check-fit", FILE, "--json"))),
@@ -86,5 +110,49 @@ KINDS: Final = (
         (("validate", FILE), ("balance", FILE), ("balance", FILE, "--json")),
     ),
     Kind("expected", (BEARINGS + EXPECTATIONS,), (("verify", FILE), ("verify", FILE, "--json"), ("verify", "."))),
+    Kind(
+        "recording",
+        (RECORDING, RECORDING.replace(",", ";").replace(".", ",")),
+        (
+            ("levels", RECORDED),
+            ("levels", RECORDED, "--quantity", "acceleration", "--minutes", "60"),
+            ("levels", RECORDED, "--scale", "9.81", "--json"),
+        ),
+        plain=True,
+    ),
+    Kind(
+        "computed machine",
+        (MACHINE,),
+        (
+            ("size", FILE),
+            ("size", FILE, "--json"),
+            ("simulate", FILE, *SHORT),
+            ("simulate", FILE, "--scene", "grinding", *SHORT, "--json"),
+            ("simulate", FILE, *SHORT, "--trajectory", "motion.csv", "--samples", "50"),
+            ("stability", FILE),
+            ("stability", FILE, "--speeds", "1000:6000", "--json"),
+            ("accuracy", FILE, "--budget", "0.2"),
+            ("grinding", FILE),
+            ("levels", FILE, "--duration", "0.1"),
+            ("effects", FILE, "--json"),
+            ("compare", FILE, "--variant", "wheel.imbalance_g_mm=140"),
+            ("sweep", FILE, *VARIED),
+            ("sweep", FILE, *VARIED, "--json"),
+        ),
+    ),
+    Kind(
+        "computed scene",
+        (TILTING, ARM.replace("duration_s = 12", "duration_s = 0.2"), FAST),
+        (
+            ("simulate", FILE),
+            ("simulate", FILE, "--json"),
+            ("stability", FILE, "--json"),
+            ("stability", FILE, "--speeds", "500:5000"),
+            ("accuracy", FILE, "--budget", "0.2"),
+            ("levels", FILE),
+            ("effects", FILE),
+            ("sweep", FILE, *TURNED),
+        ),
+    ),
 )
 """All kinds of files."""

@@ -7,17 +7,17 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.fuzz.inputs import SOURCES
+from tests.fuzz.inputs import SOURCES, shared_out
 from tests.fuzz.judging import broken, described, seed
 
-EACH = 100
+INPUTS = 500
 SEEDS = sorted((Path(__file__).parent / "seeds").glob("*.json"))
 CALM = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example, HealthCheck.filter_too_much)
 
 
-@pytest.mark.parametrize("odd", SOURCES)
-def test_nothing_breaks_a_command(odd: str) -> None:
-    @settings(max_examples=EACH, derandomize=True, deadline=None, database=None, suppress_health_check=CALM)
+@pytest.mark.parametrize(("odd", "each"), shared_out(INPUTS).items())
+def test_nothing_breaks_a_command(odd: str, each: int) -> None:
+    @settings(max_examples=each, derandomize=True, deadline=None, database=None, suppress_health_check=CALM)
     @given(st.data())
     def commands_end_well(data: st.DataObject) -> None:
         one = data.draw(SOURCES[odd])

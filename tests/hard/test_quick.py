@@ -18,7 +18,7 @@ QUICK: Final[dict[str, Callable[[], None]]] = {
     "between two resonances": partial(resonance.test_between_two_natural_frequencies, 460.0, True),
     "a ball that hangs": partial(resonance.test_a_ball_hangs_at_the_natural_frequency, 1.0, True),
     "all balls stuck": partial(balls.test_dry_friction_from_a_trace_to_a_brake, 1e-2),
-    "balls from one place": partial(balls.test_balls_from_exactly_one_place, 5),
+    "balls from one place": partial(balls.test_balls_from_exactly_one_place, 3),
     "balls that overlap": balls.test_balls_that_overlap_or_fill_their_race,
     "too little capacity": partial(balls.test_too_little_capacity, 1.5),
     "a stiff contact": partial(contact.test_contact_stiffness, 7),

@@ -1,5 +1,6 @@
 """Sweeps that are killed, again and again, and go on to the same members."""
 
+import ctypes
 import importlib.util
 import os
 import random
@@ -8,12 +9,15 @@ import sqlite3
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import abu_calc
+from abu_calc.analysis.batches import ENDED, Row, given, in_batches
+from abu_calc.analysis.time_limit import limited
 
 RUNS = 60
 SWEEP = [sys.executable, "-m", "abu_calc", "sweep", "avtovaz-707-222", "--tolerances", "--runs", str(RUNS), "--quiet"]
@@ -94,3 +98,38 @@ def test_a_cluster_whose_worker_is_killed_gives_the_same_members(whole: list[Any
             executor=client.get_executor(pure=False), progress=kill,
         )  # fmt: skip
     assert killed and rows(store) == whole
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """A study with a member whose code never returns to Python, nor lets other threads run."""
+
+    member: int
+
+    def rows(self, members: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
+        for member in members:
+            with limited(0.5, may_end_process=may_end_process):
+                if member == self.member:
+                    ctypes.PyDLL(None).pause()
+        return [(member, member**2) for member in members], 0.01 * len(members)
+
+    def lost(self, member: int, reason: str) -> Row:
+        return (member, reason)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="the extra `cluster` is not installed")
+@pytest.mark.skipif(os.name == "nt", reason="no such call there")
+@pytest.mark.filterwarnings("ignore")
+def test_a_member_that_never_returns_is_passed_over_on_a_cluster() -> None:
+    """Its worker ends, the cluster starts another, and after some of them the member is recorded."""
+    from distributed import Client, LocalCluster
+
+    from abu_calc.studies.sweeping.who import is_ours_to_end
+
+    found: list[Row] = []
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        executor = client.get_executor(pure=False)
+        assert is_ours_to_end(executor)
+        in_batches(Stuck(7), iter(range(20)), given(executor, 2, ends=True), found.extend, size=4)
+    assert dict(found) == {k: k**2 if k != 7 else ENDED for k in range(20)}  # type: ignore[arg-type]

@@ -88,9 +88,8 @@ def test_a_new_effect_goes_the_whole_way(copy: Copy) -> None:
 HONEST = "        return -self.coefficient * (m.static_moments"
 
 
-@pytest.mark.parametrize(
-    "lie", [None, pytest.param("        return 0.0\n", marks=pytest.mark.slow)], ids=["honest", "lies of its power"]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("lie", [None, "        return 0.0\n"], ids=["honest", "lies of its power"])
 def test_a_new_effect_is_held_to_the_contract_of_effects(copy: Copy, lie: str | None) -> None:
     """By its example alone."""
     add_churning(copy)

@@ -2,6 +2,8 @@
 
 import pytest
 
+DRAG, IMBALANCE = "autobalancer.rolling_drag_per_s", "wheel.imbalance_g_mm"
+GRID = ("--vary", f"{DRAG}=1:20:4", "--vary", f"{IMBALANCE}=200:1300:6", "--grid", IMBALANCE, DRAG)
 COMMANDS = {
     "size": ("size", "avtovaz-707-222", "--set", "autobalancer.capacity_margin=1.3"),
     "check-fit": ("check-fit", "mmg-3200k-knife-shaft"),
@@ -16,6 +18,8 @@ COMMANDS = {
     "face": ("grinding", "msh-230"),
     "accuracy": ("accuracy", "avtovaz-707-222", "--budget", "4"),
     "sweep": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "12"),
+    "sweep-many": ("sweep", "avtovaz-707-222", "--tolerances", "--runs", "130", "--workers", "1"),
+    "sweep-grid": ("sweep", "avtovaz-707-222", "--workers", "1", *GRID),
     "arm-size": ("size", "swing-arm-grinder"),
 }
 """By the names that tests call them."""

@@ -17,6 +17,7 @@ from abu_calc.studies.effects import known_effects
 from abu_calc.studies.result import Result
 from abu_calc.studies.subject import subject_of
 from tests.cli.runner import abu
+from tests.remembered import recalled
 from tests.results.test_face import without_clock
 from tests.spec.scenes import SCENE
 
@@ -81,8 +82,7 @@ def test_accuracy_returns_what_the_command_prints(file: Path, monkeypatch: pytes
 def test_sizing_and_simulating_agree_on_a_scene() -> None:
     """With the same effects, to the last digit."""
     machine = abu_calc.read("avtovaz-707-222")
-    sized = abu_calc.size(machine).simulation[0].to_dict()
-    alone = abu_calc.simulate(machine).to_dict()
+    sized, alone = recalled("size", machine).simulation[0].to_dict(), recalled("simulate", machine).to_dict()
     for key in sized.keys() - {"effects", "cost", "settling_estimates"}:
         assert alone[key] == sized[key], key
     assert {each["name"]: each["included"] for each in alone["effects"]} == {

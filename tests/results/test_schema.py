@@ -91,7 +91,7 @@ WRONG = (
 @pytest.fixture(scope="module")
 def documents() -> dict[str, dict[str, Any]]:
     """A document of each command."""
-    return {command: abu(command, "msh-230", "--json").document for command in ("size", "stability")}
+    return {command: once(command, "msh-230", "--json").document for command in ("size", "stability")}
 
 
 @pytest.mark.parametrize(("command", "spoil"), WRONG, ids=range(len(WRONG)))

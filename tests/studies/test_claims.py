@@ -5,16 +5,16 @@ import pytest
 from tests.studies import claims
 from tests.studies.claims import ACCURACIES, averaged_and_judged, judged, study
 
-QUICK = (3, 12, 17, 37, 38)
+QUICK = (3, 17, 37, 38)
 """Seeds of short scenes without many switches."""
 
-MORE = (7, 14, 19, 23, 49, 53, 39, 43)
+MORE = (7, 12, 14, 19, 23, 49, 53, 39, 43)
 """More of them."""
 
-AVERAGED = (45, 62)
-"""Seeds whose smooth part the envelope may take."""
+AVERAGED = (45,)
+"""A seed whose smooth part the envelope may take."""
 
-MORE_AVERAGED = (14, 53, 107)
+MORE_AVERAGED = (14, 53, 62, 107)
 """More of them, which take longer."""
 
 

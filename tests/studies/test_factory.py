@@ -10,6 +10,7 @@ import abu_calc
 from abu_calc.standards.factory import factory_rows
 from abu_calc.standards.vibration import octaves
 from tests.cli.runner import once
+from tests.remembered import recalled
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -56,12 +57,13 @@ def test_presets_assume_alike() -> None:
 def test_predictions_are_those_of_the_other_commands_and_the_readme_shows_them() -> None:
     document = once("factory", "--json").document
     rows = {(row["machine"], row["state"], row["octave_hz"]): row for row in document["result"]["rows"]}
-    sized = abu_calc.size(abu_calc.read("avtovaz-707-222"))
+    sized = recalled("size", abu_calc.read("avtovaz-707-222"))
     idle, loaded = rows["avtovaz-707-222", "idle", 125.0], rows["avtovaz-707-222", "loaded", 125.0]
     assert sized.ensemble is not None
     assert idle["with_predicted_db"] == pytest.approx(sized.ensemble.level_db.typical, abs=1e-9)
     assert idle["without_predicted_db"] == pytest.approx(111.0, abs=1e-9)
-    work = {one.nominal_hz: one.level_db for one in abu_calc.levels("avtovaz-707-222", "grinding").octaves}
+    settled = abu_calc.levels("avtovaz-707-222", "grinding", start="settled")
+    work = {one.nominal_hz: one.level_db for one in settled.octaves}
     assert loaded["with_predicted_db"] == pytest.approx(work[125], abs=1e-9)
     assert rows["msh-230", "not said", 16.0]["with_predicted_db"] is None
     gap = idle["with_measured_db"][0] - idle["with_predicted_worst_db"]

@@ -11,6 +11,7 @@ from abu_calc.analysis.one_run import one_run_checks
 from abu_calc.checks import Check
 from abu_calc.sizing import size as sized
 from abu_calc.studies.simulate import SimulateResult
+from tests.remembered import recalled
 from tests.spec.scenes import ARM, SCENE, TILTING
 
 J, WHEEL, HANDLES = 0.1, 200.0, {"rear": -150.0, "front": 90.0}
@@ -22,7 +23,7 @@ HELD = {
 
 
 def run(changes: dict[str, Any] | None = None, **given: Any) -> SimulateResult:
-    return abu_calc.simulate(abu_calc.read("msh-230").changed(changes or {}), **given)
+    return recalled("simulate", abu_calc.read("msh-230").changed(changes or {}), **given)
 
 
 def found(result: SimulateResult) -> dict[str, Check]:
@@ -35,7 +36,7 @@ def idle() -> SimulateResult:
 
 
 def test_a_machine_is_judged_as_it_is_sized(idle: SimulateResult) -> None:
-    checks = {check.code: check for check in abu_calc.size(abu_calc.read("msh-230")).checks}
+    checks = {check.code: check for check in recalled("size", abu_calc.read("msh-230")).checks}
     judged = found(idle)
     assert judged.keys() == {"ABU701", "ABU702", "ABU401", "ABU801"} and idle.status == "pass"
     for code in ("ABU701", "ABU702"):

@@ -9,8 +9,8 @@ from typing import Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.estimates import START, Seconds, held_by_decay, seconds
-from abu_calc.dynamics.integrators.run import Array, work
+from abu_calc.dynamics.integrators.estimates import START, Seconds, counts, held_by_decay, seconds
+from abu_calc.dynamics.integrators.run import EVENT, Array, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError
@@ -40,6 +40,11 @@ class Choice:
     def evaluations(self, work: int) -> int:
         """How many make up so much work."""
         return int(work / self.share)
+
+    def expected(self, equations: Equations, tolerance: float) -> float:
+        """About the work of the two runs that a result takes, in SciPy's evaluations, by counting."""
+        about = counts(equations, tolerance)
+        return self.share * ((about.loop if self.name in (COMPILED, PLAIN) else about.scipy) + EVENT * about.events)
 
     def work(self, run: Trajectory) -> int:
         """What a run took, counted in SciPy's evaluations."""

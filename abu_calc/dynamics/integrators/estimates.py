@@ -56,13 +56,9 @@ class Seconds:
 
 def seconds(equations: Equations, tolerance: float) -> Seconds:
     """About how long each takes."""
-    scene = equations.scene
-    turns, balls = RUNS * scene.duration / scene.revolution, len(scene.ball_masses)
-    switches = watches(equations)
-    shaken = any(effect.kind == "conservative" for effect in scene.effects)
-    events = turns * balls * (SHAKEN if shaken else LOOSE) if switches else 0.0
-    smooth = turns * EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER) * (EVALUATION + BALL * balls)
-    own = turns * LOOP_EVALUATIONS * (2e-4 / tolerance) ** (1 / LOOP_ORDER)
+    balls, counted, switches = len(equations.scene.ball_masses), counts(equations, tolerance), watches(equations)
+    events, own = counted.events, counted.loop
+    smooth = counted.scipy * (EVALUATION + BALL * balls)
     general = asks_python(equations)
     plain = (own + (0 if general else LOOP_EVENT * events)) * (PLAIN + PLAIN_BALL * balls)
     asked = EVENT * events
@@ -71,6 +67,31 @@ def seconds(equations: Equations, tolerance: float) -> Seconds:
         plain=plain + general * asked,
         compiled=COMPILED * plain + general * asked,
         switches=switches,
+    )
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Two runs of a scene: evaluations of SciPy's and of the loop, events on their way left out, and these."""
+
+    scipy: float
+    loop: float
+    events: float
+
+
+def counts(equations: Equations, tolerance: float) -> Counts:
+    """About how many there are.
+
+    Of 30 runs of the presets none was overestimated by more than a third; a swing arm, whose balls are caught again and
+    again, takes up to five times as many.
+    """
+    scene = equations.scene
+    turns, balls = RUNS * scene.duration / scene.revolution, len(scene.ball_masses)
+    shaken = any(effect.kind == "conservative" for effect in scene.effects)
+    return Counts(
+        scipy=turns * EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER),
+        loop=turns * LOOP_EVALUATIONS * (2e-4 / tolerance) ** (1 / LOOP_ORDER),
+        events=turns * balls * (SHAKEN if shaken else LOOSE) if watches(equations) else 0.0,
     )
 
 

@@ -42,12 +42,21 @@ class Recorder:
             filled, self.done = filled + part.shape[1], self.done + part.shape[1]
             if self.done - self.read == self.block.shape[1]:
                 self._hand_on()
+        if self.sampling.told:
+            self.sampling.told(self.done / len(self.sampling.times))
 
     def samples(self) -> Samples:
         """What is held, when the run is over."""
         self._hand_on()
         times, held = self.sampling.times, self.sampling.held
-        return Samples(times, self.block) if held is None else Samples(held, self.held)
+        return Samples(times[: self.done], self.block[:, : self.done]) if held is None else Samples(held, self.held)
+
+    def enough(self, t: float) -> bool:
+        """Whether the run may end at a time, up to which all samples are filled."""
+        until = self.sampling.until
+        if until is None or t not in until.times:
+            return False
+        return until.enough(Samples(self.sampling.times[: self.done], self.block[:, : self.done]))
 
     def _begin(self, states: int) -> None:
         times, held = self.sampling.times, self.sampling.held

@@ -91,12 +91,18 @@ class Run(ABC):
         """The next samples, one column each."""
         self.recorder.fill(states)
 
+    def ends(self) -> list[float]:
+        """Times [s] up to which a segment goes at most: of breaks, of what may be enough, and of the run."""
+        end, until = float(self.samples[-1]), self.recorder.sampling.until
+        inner = {*self.equations.breaks, *(until.times if until else ())}
+        return [*sorted(moment for moment in inner if 0 < moment < end), end]
+
     def _go(self) -> None:
-        equations, end = self.equations, float(self.samples[-1])
+        equations, ends = self.equations, self.ends()
+        end = ends[-1]
         state, modes = starting(equations)
         if self.samples[0] == 0:
             self.fill(state[:, None])
-        ends = [*(time for time in equations.breaks if 0 < time < end), end]
         t, stalled = 0.0, 0
         while t < end:
             before, bound = t, next(time for time in ends if time > t)
@@ -109,6 +115,8 @@ class Run(ABC):
                 if self.evaluations + EVENT * self.events > self.most_evaluations:
                     raise exceeded(t, self.evaluations, self.events)
             if t == bound:
+                if self.recorder.enough(t):
+                    return
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)
@@ -130,7 +138,7 @@ def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
 
 
 def too_much(found: str, most: int) -> TooMuchWorkError:
-    """The error for a run that is not begun, since so many evaluations are not allowed."""
+    """The error for a run that is not begun, since so many of SciPy's evaluations are not allowed."""
     return TooMuchWorkError(
         f"the run takes more work than allowed (found {found} evaluations; allowed: {most:.3g})\n"
         "  shorten the run, or ask for less accuracy"

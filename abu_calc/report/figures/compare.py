@@ -62,7 +62,7 @@ def _figure(result: CompareResult, one: _Compared, rows: dict[str, Difference]) 
         for k, path in enumerate(one.paths)
         if path in rows and is_number(value := rows[path].values[index])
     ]  # fmt: skip
-    if len(bars) < 2:
+    if len({bar.name[0] for bar in bars}) < 2:  # of one machine alone there is nothing to compare
         return
     limit = _limit(result, one.code, unit)
     values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]

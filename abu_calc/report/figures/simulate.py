@@ -23,8 +23,10 @@ def simulate_extras(result: SimulateResult) -> Extras:
 def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
     limits = {one.code: one.limit for one in result.checks}
     if view.pitch_radii_mm:
+        whole = view.t_s[-1] > 0.9 * result.duration_s
+        seen = "The run" if whole else "The beginning of the run"
         caption = (
-            "The run, seen in the rotor, which turns anticlockwise: balls and imbalance (red); beside them how the "
+            f"{seen}, seen in the rotor, which turns anticlockwise: balls and imbalance (red); beside them how the "
             "axis goes round, drift taken off. Space plays, arrows move in time."
         )
         yield Figure("motion", SECTION, Motion(view), caption)

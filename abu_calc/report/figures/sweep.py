@@ -32,6 +32,8 @@ WIDE: Final = 60
 HIGH: Final = 40
 """The most cells beside and above one another."""
 STEPS: Final = 4
+CLEAR: Final = 0.15
+"""Of an axis, beside the limit."""
 
 
 def sweep_extras(result: SweepResult) -> Extras:
@@ -96,10 +98,15 @@ def _distribution(name: str, one: Distribution, known: Sequence[tuple[float, flo
     bound = [] if one.limit is None else [one.limit]
     up = Axis.around(f"{words_of(name)} [{unit or '1'}]", [*(y for _, y in known), *bound])
     across = Axis("share of members [%]", 0.0, 100.0)
-    points = [Point(x, y, f"{number(y)}", 1) for x, y in known if x in NAMED]
+    points = [Point(x, y, "" if _hidden(up, y, one.limit) else number(y)) for x, y in known if x in NAMED]
     told = "; ".join(f"{x:g} % of the members at most {number(y)} {unit}".rstrip() for x, y in known if x in NAMED)
     told += f"; {limit[1]}" if limit else ""
     return Plot(f"{title} of the members", told, across, up, (Line(known),), points, limit)
+
+
+def _hidden(up: Axis, value: float, limit: float | None) -> bool:
+    """Whether a word there would stand in the limit's."""
+    return limit is not None and abs(up.share(value) - up.share(limit)) < CLEAR
 
 
 def _kept(name: str, one: Distribution, known: Sequence[tuple[float, float]]) -> str:

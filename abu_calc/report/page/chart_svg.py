@@ -22,6 +22,8 @@ SAMPLE: Final = 34.0
 """What a piece of line takes in a legend."""
 FILLED: Final = (1, 6, 7, 8)
 """Series whose points are."""
+FORBIDDEN: Final = "not stable"
+"""What stands in bands, where they are wide enough."""
 LEGEND_ROW: Final = 18.0
 
 
@@ -41,7 +43,11 @@ def plot(name: str, one: Plot) -> str:
         for first, last in one.bands:
             start, end = (max(LEFT, min(right, at(x, one.up.low)[0])) for x in (first, last))
             yield f'<rect class="band" x="{start:.1f}" y="{TOP}" width="{end - start:.1f}" height="{low - TOP}"/>'
-            yield f'<text class="soft" x="{(start + end) / 2:.1f}" y="{low - 6}" text-anchor="middle">not stable</text>'
+            wide = LETTER * len(FORBIDDEN)
+            if end - start > wide:
+                middle = (start + end) / 2
+                choices = [Word(middle, y, "middle", wide) for y in (low - 6, TOP + 14)]
+                yield _written(FORBIDDEN, places.put(choices), "soft")
         if one.limit:
             yield f'<path class="limit" d="M{LEFT} {bound[0][1]:.1f}H{right}"/>'
         for line, course in zip(one.lines, lines, strict=True):
@@ -162,7 +168,11 @@ def _beside(words: str, x: float, y: float, right: float) -> list[Word]:
     wide = LETTER * len(words)
     sides = [Word(x + 9, y + 4, "start", wide), Word(x - 9, y + 4, "end", wide)]
     sides = sides if x + 9 + wide <= right else sides[::-1]
-    corners = [Word(x + dx, y + dy, anchor, wide) for dy in (-9.0, 17.0) for dx, anchor in ((5, "start"), (-5, "end"))]
+    corners = [
+        Word(x + dx, y + dy, anchor, wide)
+        for dy in (-9.0, 17.0, -23.0, 31.0)
+        for dx, anchor in ((5, "start"), (-5, "end"))
+    ]
     return [*sides, *corners, Word(x, y - 10, "middle", wide), Word(x, y + 19, "middle", wide)]
 
 

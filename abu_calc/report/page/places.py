@@ -57,11 +57,13 @@ class Places:
         self.words.append(chosen.box)
         return chosen
 
-    def _covered(self, box: Box) -> tuple[bool, bool, int]:
+    def _covered(self, box: Box) -> tuple[bool, bool, bool, int]:
+        """The worst first: beside the field, upon other words, above or below the field, upon so much of the rest."""
         field = self.field
-        outside = box.left < field.left or box.right > field.right or box.top < field.top or box.bottom > field.bottom
+        beside = box.left < field.left or box.right > field.right
+        outside = box.top < field.top or box.bottom > field.bottom
         inside = sum(box.left <= x <= box.right and box.top <= y <= box.bottom for x, y in self.taken)
-        return any(box.meets(other) for other in self.words), outside, inside
+        return beside, any(box.meets(other) for other in self.words), outside, inside
 
 
 def _along(line: Sequence[Place]) -> Iterator[Place]:

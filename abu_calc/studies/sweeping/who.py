@@ -61,7 +61,7 @@ def _computed(
 ) -> None:
     if executor is not None:
         count = getattr(executor, "_max_workers", None) or _cluster_size(executor) or os.cpu_count() or 1
-        in_batches(study, missing, given(executor, count, ends=_is_ours_to_end(executor)), told)
+        in_batches(study, missing, given(executor, count, ends=is_ours_to_end(executor)), told)
         return
     if workers is None or workers < 2:
         in_batches(study, missing, here(), told)
@@ -85,7 +85,7 @@ def _cluster_size(executor: Executor) -> int | None:
     return sum(client.nthreads().values()) if client is not None else None
 
 
-def _is_ours_to_end(executor: Executor) -> bool:
+def is_ours_to_end(executor: Executor) -> bool:
     """Whether who computes is a process of a Dask cluster that is started anew when it ends."""
     client: Any = getattr(executor, "_client", None)
     if client is None:

@@ -7,6 +7,7 @@ LanguageError. What is written so is Python as well, and does there what it does
 """
 
 import ast
+import threading
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
@@ -16,6 +17,15 @@ from abu_calc.dynamics.integrators.compiled.writer import TYPES, shown, signatur
 
 Part = tuple[str, Mapping[str, Any]]
 """A text, and what its names from outside stand for."""
+
+
+_PARSING = threading.Lock()
+
+
+def _parsed(text: str) -> list[ast.stmt]:
+    """The statements of a text; threads take turns, since `ast.parse` of CPython 3.11 fails where they meet in it."""
+    with _PARSING:
+        return ast.parse(text).body
 
 
 def numbers(names: Mapping[str, Any]) -> dict[str, float]:
@@ -29,9 +39,9 @@ def translated(parts: Sequence[Part], exported: Collection[str], given: str = ""
     `given`: functions, as their text declares them, that another module exports; their addresses are given to
     `connect`, in order. Raises LanguageError where a text is more than the language.
     """
-    outside = {one.name: signature(one) for one in ast.parse(given).body if isinstance(one, ast.FunctionDef)}
+    outside = {one.name: signature(one) for one in _parsed(given) if isinstance(one, ast.FunctionDef)}
     functions = [
-        (one, numbers(names)) for text, names in parts for one in ast.parse(text).body
+        (one, numbers(names)) for text, names in parts for one in _parsed(text)
         if isinstance(one, ast.FunctionDef)
     ]  # fmt: skip
     known = outside | {one.name: signature(one) for one, _ in functions}
@@ -86,8 +96,9 @@ class _Function(Calls):
         self.store(node.target, (TYPES[kind], self.number(node.value, TYPES[kind])))
 
     def do_AugAssign(self, node: ast.AugAssign) -> None:  # noqa: N802
-        read = ast.parse(ast.unparse(node.target), mode="eval").body
-        whole = ast.copy_location(ast.BinOp(read, node.op, node.value), node)
+        (read,) = _parsed(ast.unparse(node.target))
+        assert isinstance(read, ast.Expr)
+        whole = ast.copy_location(ast.BinOp(read.value, node.op, node.value), node)
         self.store(node.target, self.value(ast.fix_missing_locations(whole)))
 
     def do_Return(self, node: ast.Return) -> None:  # noqa: N802

@@ -154,13 +154,13 @@ class _Run(Run):
         return int(how)
 
     def _go(self) -> None:
-        equations, end = self.equations, float(self.samples[-1])
+        equations, ends = self.equations, self.ends()
+        end = ends[-1]
         state, modes = np.array(equations.initial, dtype=float), self.modes
         if decides(equations.scene.effects, modes, rules(equations, modes)):
             self.counts[arrays.START] = 1
         else:
             state, modes = starting(equations)
-        ends = [*(moment for moment in equations.breaks if 0 < moment < end), end]
         t = 0.0
         while t < end:
             first, bound = bool(self.counts[arrays.START]), next(moment for moment in ends if moment > t)
@@ -170,6 +170,8 @@ class _Run(Run):
                 continue
             modes = self._taken(modes)
             if t == bound:
+                if self.recorder.enough(t):
+                    return
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)

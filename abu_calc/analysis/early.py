@@ -1,0 +1,101 @@
+"""When a run of a start may end before its time: its balls rest where they balance, and nothing that is left moves."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from abu_calc.analysis.course import SAMPLES_PER_REVOLUTION, Course, settling_times, total_imbalance
+from abu_calc.analysis.response import Response, amplitude_window, axis_velocity, evaluate, needed_times
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.receptance import reference_imbalance
+from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Until
+
+LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
+"""Shares of the time at full speed after which a run may end."""
+
+SEEN: Final = 0.25
+"""Of the time at full speed so far: what happened last is looked at."""
+
+CREEP: Final = 0.05
+"""Of the imbalance, or of what it is small against: the way that what is left may still go, at the pace of late."""
+
+RISE, FALL = 0.3, 0.1
+"""By how much [dB] the second half of what is looked at may be louder than the first, or less loud."""
+
+
+@dataclass(frozen=True)
+class Early:
+    """Where a run of a scene, at full speed from a time [s] on, may end.
+
+    `decided(response, creep, rise)`: whether a response can be judged where what is left may change by `creep` [kg m]
+    and the level rise [dB], both at the pace of late.
+    """
+
+    scene: Scene
+    at_speed: float
+    decided: Callable[[Response, float, float], bool]
+
+    @cached_property
+    def looks(self) -> tuple[float, ...]:
+        """Times [s], those of settling."""
+        times, length = settling_times(self.scene), self.scene.duration - self.at_speed
+        near = np.searchsorted(times, [self.at_speed + share * length for share in LOOKS])
+        return tuple(float(times[k]) for k in dict.fromkeys(near.tolist()) if times[k] >= self.scene.revolution)
+
+    def sampling(self) -> Sampling:
+        """With what must be known of a run that ends early."""
+        windows = [amplitude_window(replace(self.scene, duration=one)).times for one in self.looks]
+        times = np.unique(np.concatenate([needed_times(self.scene), *windows]))
+        return Sampling(times, until=Until(self.looks, self.enough))
+
+    def response(self, samples: Samples) -> Response:
+        """Of a run that ended where it might."""
+        end = float(samples.t[-1])
+        if end == self.scene.duration:
+            return evaluate(self.scene, samples)
+        course = Course(self.scene)
+        course(samples)
+        return evaluate(replace(self.scene, duration=end), samples, course.until(end))
+
+    def enough(self, samples: Samples) -> bool:
+        """Whether nothing will change what is judged."""
+        creep, rise = self.moving(samples)
+        if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
+            return False
+        return self.decided(self.response(samples), creep, self.rising(samples))
+
+    def rising(self, samples: Samples) -> float:
+        """By how much [dB] the level may rise until the run's time is over; 0 where it is."""
+        end = float(samples.t[-1])
+        if end == self.scene.duration:
+            return 0.0
+        return 2 * (self.scene.duration - end) / (SEEN * (end - self.at_speed)) * max(self.moving(samples)[1], 0.0)
+
+    def moving(self, samples: Samples) -> tuple[float, float]:
+        """How far what is left may go until then [kg m], and by how much the level rose of late [dB]; at first all."""
+        end = float(samples.t[-1])
+        seen = SEEN * (end - self.at_speed)
+        times = settling_times(self.scene)
+        times = times[(times >= end - seen) & (times <= end)]
+        if len(times) < 4 * SAMPLES_PER_REVOLUTION:
+            return math.inf, math.inf
+        states = samples.at(times)
+        left, speed = _over_turns(self._left(states)), _over_turns((axis_velocity(self.scene, states) ** 2).sum(axis=0))
+        ahead = (self.scene.duration - end) / seen
+        half = len(speed) // 2
+        before, after = float(speed[:half].mean()), float(speed[half:].mean())
+        rise = 10 * math.log10(after / before) if before > 0 and after > 0 else 0.0
+        return ahead * float(np.abs(left - left[-1]).max()), rise
+
+    def _left(self, states: Array) -> np.ndarray:
+        first = 2 * len(self.scene.support.names)
+        return total_imbalance(self.scene, states[first : first + len(self.scene.ball_masses)])
+
+
+def _over_turns(values: np.ndarray) -> np.ndarray:
+    """Means over one turn each."""
+    return np.convolve(values, np.full(SAMPLES_PER_REVOLUTION, 1 / SAMPLES_PER_REVOLUTION), "valid")
