@@ -5,7 +5,7 @@ import statistics
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from typing import Any
+from typing import Any, NamedTuple
 
 from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.hanging import hanging_bounds
@@ -14,6 +14,7 @@ from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
@@ -80,6 +81,14 @@ class Lost:
     member: Member
     reason: str
     work: int
+
+
+class StartRun(NamedTuple):
+    """What one start came to, and the run that says so."""
+
+    outcome: Outcome
+    scene: Scene
+    trajectory: Trajectory
 
 
 @dataclass(frozen=True)
@@ -151,15 +160,24 @@ def simulate_members(
 
 def start_once(design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK) -> Outcome | Lost:
     """One start, by one run; `work`: evaluations that it may take, in SciPy's."""
-    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    most = work * MANY // max(MANY, len(scene.ball_masses))
     try:
-        equations = assemble(scene)
-        choice = choose(equations, "auto", tolerance)
-        run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(most))
-        return replace(outcome_of(design, member, scene, evaluate(scene, run)), work=choice.work(run))
+        return run_of_start(design, member, accuracy, tolerance, work).outcome
     except NotTrustworthyError as error:
-        return Lost(member, str(error).splitlines()[0], most)
+        return Lost(member, str(error).splitlines()[0], _most(design, work))
+
+
+def run_of_start(design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK) -> StartRun:
+    """The same with the run itself; raises NotTrustworthyError."""
+    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    equations = assemble(scene)
+    choice = choose(equations, "auto", tolerance)
+    run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(_most(design, work)))
+    found = outcome_of(design, member, scene, evaluate(scene, run))
+    return StartRun(replace(found, work=choice.work(run)), scene, run)
+
+
+def _most(design: Design, work: int) -> int:
+    return work * MANY // max(MANY, design.autobalancer.ball_count)
 
 
 def _found(

@@ -14,6 +14,7 @@ import typer
 
 from abu_calc.cli.asked import asked
 from abu_calc.cli.deliver import Delivery, deliver
+from abu_calc.cli.figures import asked_figures, figure_option
 from abu_calc.cli.filing import write_files
 from abu_calc.errors import InputError, Place
 from abu_calc.report.outcome import Outcome
@@ -42,8 +43,9 @@ def _shared(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report; the exit status tells.")] = False,
     no_color: Annotated[bool, typer.Option("--no-color", help="No colors (also: NO_COLOR).")] = False,
     full: Annotated[bool, typer.Option("--full", help="Print the whole report, not one screen of it.")] = False,
+    figure: list[str] | None = None,
 ) -> Delivery:
-    return Delivery(json, output, force, quiet, not no_color, full)
+    return Delivery(json, output, force, quiet, not no_color, full, asked_figures(figure or ()))
 
 
 def add_command(
@@ -59,12 +61,12 @@ def add_command(
     """
     named = inspect.signature(function, eval_str=True).parameters.values()
     own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
-    shared = inspect.signature(_shared, eval_str=True).parameters
+    shared = _shared_by(name)
     options = dict(_options(own))
 
     def run(**given: Any) -> None:
         how = _shared(**{key: given[key] for key in shared})
-        how.check(drawn)
+        how.check(name, drawn)
         wanted = {"how": how} if "how" in own else {}
         with _naming_options(options):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
@@ -83,6 +85,17 @@ def add_command(
     run.__doc__ = function.__doc__
     # Given by itself it is wrapped, not cut.
     app.command(name, short_help=inspect.cleandoc(run.__doc__ or "").partition("\n\n")[0])(run)
+
+
+def _shared_by(command: str) -> dict[str, inspect.Parameter]:
+    """The shared options; that of figures tells a command's own, and stands behind --output."""
+    shared = dict(inspect.signature(_shared, eval_str=True).parameters)
+    del shared["figure"]
+    option = figure_option(command)
+    if option is None:
+        return shared
+    rest = {name: shared.pop(name) for name in list(shared) if name not in ("json", "output")}
+    return {**shared, "figure": option, **rest}
 
 
 def _options(parameters: Mapping[str, inspect.Parameter]) -> Iterator[tuple[str, str]]:

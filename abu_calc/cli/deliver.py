@@ -22,9 +22,14 @@ class Delivery(NamedTuple):
     quiet: bool = False
     color: bool = True
     full: bool = False
+    figures: tuple[tuple[str, Path], ...] = ()
 
-    def check(self, drawn: tuple[str, ...] = ()) -> None:
+    def check(self, command: str, drawn: tuple[str, ...] = ()) -> None:
         """Refuse before computing what could not be written after; `drawn`: formats of the command's drawing."""
+        if self.figures:
+            from abu_calc.cli.figures import check_figures
+
+            check_figures(command, self.figures, self.output, force=self.force)
         if self.output is not None:
             from abu_calc.report.files import FORMATS, check_extra
             from abu_calc.report.write import check_target

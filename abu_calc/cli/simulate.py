@@ -89,6 +89,8 @@ def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) ->
     check_target(trajectory, force=how.force, suffixes=(".csv",))
     if how.output is not None and how.output.resolve() == trajectory.resolve():
         raise InputError("--output and --trajectory name the same file", found=str(trajectory))
+    if trajectory.resolve() in {path.resolve() for _, path in how.figures}:
+        raise InputError("--figure and --trajectory name the same file", found=str(trajectory))
 
 
 def _extras(result: "SimulateResult") -> "Extras":

@@ -14,7 +14,7 @@ from abu_calc.formula import formula
         "whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
     ),
     assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(R_g−r), across it at resonance",
-    source="derived, and seen in simulations",
+    source="derived; simulated of every machine by abu grinding",
     printed=(
         "Kladiev 1996 has axial runout alone shake friction out; the whirl by runout in the plane does, too, but slowly"
     ),

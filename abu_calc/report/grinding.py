@@ -9,7 +9,7 @@ from abu_calc.report.parts import check_blocks, facts, notices, provenance_block
 from abu_calc.report.screen import verdict_line
 from abu_calc.report.shown_text import measured_after_blocks
 from abu_calc.studies.grinding import GrindingResult
-from abu_calc.studies.grinding_records import AxisMotion, Simulated
+from abu_calc.studies.grinding_records import AxisMotion, FrictionBand, Simulated
 
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
 MARKS: Final = {True: "pass", False: "fail", None: "not-done"}
@@ -124,13 +124,28 @@ def friction_blocks(result: GrindingResult) -> list[Block]:
         return [Heading("Dry friction of the balls"), Paragraph("None.")]
     held = f"It holds the axis off by {number(found.typical_um, 3)} µm, typically"
     held += "." if found.worst_um is None else f", {number(found.worst_um, 3)} µm at the worst."
-    told = [f"axial runout of the wheel, {number(found.axial_um, 3)} µm, {_shakes(found.axial_shakes)}"]
-    if result.contact_stiffness_regions_N_per_m is not None and found.whirl_um is not None:
-        along = f"the whirl by its runout in the plane, {number(found.whirl_um, 3)} µm, {_shakes(found.whirl_shakes)}"
-        told.append(f"{along}, slowly, in some {number(found.creep_s, 2)} s" if found.creep_s else along)
-    shaken = "; ".join(told)
+    plane = result.contact_stiffness_regions_N_per_m is not None
+    told = "Axial runout of a wheel that is pressed in the plane does not shake the balls"
+    if not plane:
+        told = f"Axial runout of the wheel, {number(found.axial_um, 3)} µm, {_shakes(found.axial_shakes)}"
+    if plane and found.whirl_um is not None:
+        told += f"; the whirl by its runout there, {number(found.whirl_um, 3)} µm, {_shakes(found.whirl_shakes)}"
+        told += f", slowly, in some {number(found.creep_s, 2)} s" if found.creep_s else ""
     need = f"It takes more than {number(found.threshold_um, 3)} µm."
-    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaken[0].upper()}{shaken[1:]}. {need}")]
+    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {told}. {need}{_shaken(found)}")]
+
+
+def _shaken(found: FrictionBand) -> str:
+    """What the simulation shows."""
+    if found.simulated_way is None or found.simulated_um is None or found.simulated_s is None:
+        return ""
+    left = [
+        f"{number(each, 2)} µm" if each is not None else "not known" for each in (found.unshaken_um, found.shaken_um)
+    ]
+    by = (
+        "this runout" if found.simulated_given else f"an axial runout of {number(found.simulated_um, 2)} µm, as a trial"
+    )
+    return f" Simulated from bunched balls: {left[0]} without, {left[1]} with {by}, after {found.simulated_s:g} s."
 
 
 def _shakes(does: bool) -> str:

@@ -12,10 +12,10 @@ from abu_calc.errors import OutputError, Place
 
 
 class Target(NamedTuple):
-    """A file to be written, and its text, which may come in pieces."""
+    """A file to be written, and its text, which may come in pieces, or its bytes."""
 
     path: Path
-    text: str | Iterable[str]
+    text: str | bytes | Iterable[str | bytes]
 
 
 def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> None:
@@ -47,7 +47,7 @@ def write(targets: Iterable[Target], *, force: bool) -> None:
     path, named = Path(), ""
     try:
         for path, text in targets:
-            ready.append((_beside(path, [text] if isinstance(text, str) else text), path))
+            ready.append((_beside(path, [text] if isinstance(text, (str, bytes)) else text), path))
         for temporary, path in ready:
             _place(temporary, path, force=force)
             named += f"{', ' if named else 'Written is: '}{path}"
@@ -75,13 +75,13 @@ def _check_kind(path: Path) -> None:
             raise OutputError("this is not a regular file", place=Place(str(path)), remedy="Give a file's name.")
 
 
-def _beside(path: Path, pieces: Iterable[str]) -> Path:
-    """A file with the text, in the folder where it will stand."""
+def _beside(path: Path, pieces: Iterable[str | bytes]) -> Path:
+    """A file with the text in UTF-8, in the folder where it will stand."""
     final = _final(path)
     handle, name = tempfile.mkstemp(prefix=".abu-", suffix=final.suffix, dir=final.parent)
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", errors="replace", newline="\n") as file:
-            file.writelines(pieces)
+        with os.fdopen(handle, "wb") as file:
+            file.writelines(one.encode("utf-8", "replace") if isinstance(one, str) else one for one in pieces)
         Path(name).chmod(stat.S_IMODE(final.stat().st_mode) if final.exists() else 0o666 & ~_umask())
     except BaseException:
         Path(name).unlink(missing_ok=True)

@@ -12,6 +12,7 @@ from abu_calc.analysis.agreement import agreement
 from abu_calc.analysis.grinding import Side, Work
 from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
 from abu_calc.analysis.grinding_verdict import in_words, shortest
+from abu_calc.analysis.shaking import shaken
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.analysis.under_load import Steady, bare, contact_presses, fitted, fixed, runout_of
 from abu_calc.analysis.wear import Wear, needed_exponent, worn
@@ -124,7 +125,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         design = size_design(tables)
         work = analysis.at_work(design, accuracy, progress)
         tried = () if work.always else analysis.remedies(work, accuracy, progress)
-        compared = agreement(work, accuracy, progress)
+        compared, friction = agreement(work, accuracy, progress), shaken(work, progress)
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None
@@ -173,7 +174,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         contact_stiffness_regions_N_per_m=_regions(design, steady),
         flutter_drag_limit_per_s=None if limits is None else limits[0],
         flutter_drag_worst_per_s=None if limits is None else limits[1],
-        friction=FrictionBand.of(facts.friction(work)),
+        friction=FrictionBand.of(facts.friction(work), friction),
         cutting_power_W=_cutting_power(design),
         simulation=None if work.fitted.run is None else Simulated.of(work.fitted.run),
         simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),

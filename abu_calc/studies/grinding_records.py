@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from abu_calc.analysis.agreement import Agreement
 from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_runout
 from abu_calc.analysis.grinding import Remedy
+from abu_calc.analysis.shaking import Shaken
 from abu_calc.analysis.under_load import Steady
 from abu_calc.analysis.wear import Stage, Wear
 from abu_calc.analysis.working import Working
@@ -177,11 +178,18 @@ class FrictionBand(Record):
     whirl_um: Annotated[float | None, Quantity("shaking along the race, by runout in the plane", "|X − iY|/2")]
     whirl_shakes: Annotated[bool, Quantity("runout in the plane shakes it out")]
     creep_s: Annotated[float | None, Quantity("balls then creep to their places within")]
+    simulated_way: Annotated[str | None, Quantity("shaken in the simulation", "", 4, "across the race or along it")]
+    simulated_um: Annotated[float | None, Quantity("by an amplitude of")]
+    simulated_given: Annotated[bool | None, Quantity("that of the file")]
+    simulated_s: Annotated[float | None, Quantity("for")]
+    unshaken_um: Annotated[float | None, Quantity("simulated: left without it", "", 3)]
+    shaken_um: Annotated[float | None, Quantity("simulated: left with it", "", 3)]
 
     @classmethod
-    def of(cls, found: Friction) -> Self:
+    def of(cls, found: Friction, run: Shaken | None) -> Self:
         """In user units."""
-        whirl = found.whirl
+        whirl, unshaken = found.whirl, None if run is None else run.unshaken
+        left = None if run is None else run.shaken
         return cls(
             typical_um=from_si(found.typical, "um"),
             worst_um=from_si(found.worst, "um") if math.isfinite(found.worst) else None,
@@ -191,6 +199,12 @@ class FrictionBand(Record):
             whirl_um=None if whirl is None else from_si(whirl, "um"),
             whirl_shakes=found.creep is not None,
             creep_s=found.creep,
+            simulated_way=None if run is None else run.way,
+            simulated_um=None if run is None else from_si(run.amplitude, "um"),
+            simulated_given=None if run is None else run.given,
+            simulated_s=None if run is None else run.seconds,
+            unshaken_um=None if unshaken is None else from_si(unshaken, "um"),
+            shaken_um=None if left is None else from_si(left, "um"),
         )
 
 

@@ -1,6 +1,7 @@
 """What all results share: the verdict, what to know, and what is needed to repeat them."""
 
 import datetime
+import importlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -9,8 +10,13 @@ from abu_calc.studies.quantity import Record, as_plain, record
 from abu_calc.version import __version__
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from abu_calc.spec.document import Reading
 
+
+FIGURES: Final = "abu_calc.report.figures.of_result"
+"""Who draws results: a room above this one, asked for by its name when somebody wants a figure, as a plugin is."""
 
 NOTHING: Final = Record()
 """A model of results that stand on no equations."""
@@ -76,6 +82,21 @@ class Result(Record):
     def status(self) -> Status:
         """The worst of the checks."""
         return overall(self.checks)
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """Names of the figures that this result has, for `figure`."""
+        found: tuple[str, ...] = importlib.import_module(FIGURES).names(self)
+        return found
+
+    def figure(self, name: str) -> "Figure":
+        """A figure of this result as one of matplotlib, to be shown, changed or saved; units stand on its axes.
+
+        Charts have axes with the numbers of the result, drawings are to scale in mm of paper. Raises InputError, with
+        the names there are, for another name, and OutputError where matplotlib (extra `report`) is not installed.
+        """
+        drawn: Figure = importlib.import_module(FIGURES).figure(self, name)
+        return drawn
 
     @classmethod
     def json_type(cls) -> Any:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from abu_calc.analysis.course import axis_place, settling_times, total_imbalance
 from abu_calc.analysis.response import axis_velocity, beginning
-from abu_calc.analysis.simulate import Simulation
 from abu_calc.dynamics.race import balls_of
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
@@ -47,10 +46,9 @@ class RotorView:
     ball_radii_mm: tuple[float, ...]
 
     @classmethod
-    def of(cls, run: Simulation, level: Level = level_from_velocity) -> Self | None:
-        """Of a run, of too long a one its beginning; None where that is not held."""
-        scene = run.scene
-        held = _held(run.trajectory, settling_times(scene), beginning(scene))
+    def of(cls, scene: Scene, run: Trajectory, level: Level = level_from_velocity, most: int = MOST) -> Self | None:
+        """Of a run, in at most so many samples; of too long a one its beginning, None where that is not held."""
+        held = _held(run, settling_times(scene), beginning(scene))
         if held is None:
             return None
         times, states = held
@@ -63,7 +61,7 @@ class RotorView:
         squares = _over_a_turn(axis_velocity(scene, states) ** 2, times, turn)[:, inner]
         times, turn, states = times[inner], turn[inner], states[:, inner]
         # Denser at the start, where all moves.
-        index = np.unique(((len(times) - 1) * np.linspace(0, 1, MOST) ** 2).round().astype(np.intp))
+        index = np.unique(((len(times) - 1) * np.linspace(0, 1, most) ** 2).round().astype(np.intp))
         seen = (from_si(1.0, "um") * (swinging[0] + 1j * swinging[1]) * np.exp(-1j * turn))[index]
         angles = _angles(scene, states[:, index])
         changes = bool(scene.rotor.states) or scene.start_speed != scene.speed

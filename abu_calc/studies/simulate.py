@@ -126,8 +126,8 @@ def simulate(
 def _view(subject: Subject, run: Simulation) -> RotorView | None:
     """With levels as the limits of a machine's file are for."""
     if subject.design is None:
-        return RotorView.of(run)
-    return RotorView.of(run, loudest(subject.design, run.response))
+        return RotorView.of(run.scene, run.trajectory)
+    return RotorView.of(run.scene, run.trajectory, loudest(subject.design, run.response))
 
 
 def _limits(subject: Subject, run: Simulation, spared: float, duration_s: float | None) -> tuple[Check, ...]:

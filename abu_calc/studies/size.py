@@ -38,6 +38,7 @@ from abu_calc.studies.section_records import Section
 from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SettlingEstimate, SimulatedScene
 from abu_calc.studies.size_model import SizeModel
+from abu_calc.studies.starts import Starts
 from abu_calc.units import from_si
 from abu_calc.validity import Range
 
@@ -51,7 +52,7 @@ class SizeResult(Result):
 
     command: ClassVar[str] = "size"
     optional: ClassVar[frozenset[str]] = frozenset({"measured_after", "arm_motion"})
-    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run"}
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
@@ -76,6 +77,10 @@ class SizeResult(Result):
     drawing: tuple[DrawingLine, ...]
     idle_run: RotorView | None = field(compare=False, repr=False)
     """The idle machine's way to rest, thinned; None: it was not simulated, or for too long."""
+    grinding_run: RotorView | None = field(compare=False, repr=False)
+    """The same at work."""
+    starts: Starts = field(compare=False, repr=False)
+    """Some starts of the ensemble, run again when they are asked for."""
 
 
 WORKERS: Final = Range("workers", 1, 1024, key="workers")
@@ -149,13 +154,16 @@ def size(
             DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
             for line in design.drawing
         ),
-        idle_run=next((_idle_view(design, run) for run in runs if run.ledger.scene.name == "idle"), None),
+        idle_run=_view(design, runs, "idle"),
+        grinding_run=_view(design, runs, "grinding"),
+        starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
     )
 
 
-def _idle_view(design: Design, run: Run) -> RotorView | None:
+def _view(design: Design, runs: Sequence[Run], scene: str) -> RotorView | None:
     """With levels as the limit of the file is for."""
-    return RotorView.of(run.simulation, loudest(design, run.simulation.response))
+    run = next((run.simulation for run in runs if run.ledger.scene.name == scene), None)
+    return None if run is None else RotorView.of(run.scene, run.trajectory, loudest(design, run.response))
 
 
 def _grinding(runs: Sequence[Run], failures: Sequence[Failure]) -> Run | Failure | None:

@@ -107,6 +107,23 @@ def test_motion_moves_and_stops_by_keys(name: str, written: Any, browser: Browse
     assert browser.value("document.activeElement.id") == "motion-play"
 
 
+def test_another_start_can_be_chosen(written: Any, browser: Browser) -> None:
+    browser.load(written("size").file)
+    count = int(browser.value("document.getElementById('motion-start').options.length"))
+    assert 5 <= count <= 13
+    seen = set()
+    for index in range(count):
+        browser.value(
+            f"var start = document.getElementById('motion-start'); start.value = {index};"
+            "start.dispatchEvent(new Event('change')); document.getElementById('motion').focus()"
+        )
+        assert float(browser.value("document.getElementById('motion-time').value")) < 0.2
+        browser.press("End")
+        seen.add(_drawn(browser))
+    assert len(seen) >= count - 1
+    assert browser.errors == []
+
+
 def _drawn(browser: Browser) -> tuple[str, str]:
     """What the canvas shows, and what is told below it."""
     words = "document.getElementById('motion-told').textContent"

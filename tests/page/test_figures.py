@@ -1,177 +1,289 @@
-"""What figures are made of, against numbers and places computed anew."""
+"""Figures alone: as files, and from Python. They show the result's numbers, alike each time, and name their units."""
 
-import math
-from dataclasses import replace
+import importlib.util
+import re
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from abu_calc.dynamics.balanced.boundaries import boundaries, growth_over
-from abu_calc.dynamics.balanced.stability import stability
-from abu_calc.report.blocks import Grid
-from abu_calc.report.drawing.planes import RADIUS, planes_drawing
-from abu_calc.report.drawing.shapes import Arc, Region, Text
-from abu_calc.report.drawing.zones import zones_drawing
-from abu_calc.report.figures.chart import FIELD, Axis, Bar, Bars, Line, Plot, Point, alike
-from abu_calc.report.figures.check_fit import check_fit_figures
-from abu_calc.report.page.chart_svg import bars, plot
-from abu_calc.report.page.places import Box, Places, Word
-from abu_calc.spec.read import read_machine
-from abu_calc.studies.balance import balance
-from abu_calc.studies.check_fit import check_fit
-from tests.dynamics.scenes import dimensionless
-from tests.page.reader import read
+import abu_calc
+from abu_calc.errors import InputError, OutputError
+from abu_calc.report.drawing.shapes import Drawing
+from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot, Point
+from abu_calc.report.figures.figure import Figure
+from abu_calc.report.figures.names import KNOWN, known
+from abu_calc.report.figures.of_result import figures_of
+from abu_calc.report.plotting.draw import figure_file
+from abu_calc.report.plotting.style import colors
+from tests.cli.runner import abu
+from tests.page.sized import sized
 
+pytest.importorskip("matplotlib")
 
-def test_decades_are_even_along_a_logarithmic_axis() -> None:
-    axis = Axis.decades("time [s]", [0.003, 40.0])
-    assert (axis.low, axis.high) == pytest.approx((1e-3, 1e2))
-    assert axis.ticks == pytest.approx([1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0])
-    shares = [axis.share(tick) for tick in axis.ticks]
-    assert np.diff(shares) == pytest.approx([0.2] * 5)
-    many = Axis.decades("error", [3e-16, 0.5]).ticks
-    assert len(many) <= 8
-    page = read(plot("a", Plot("A", "told", axis, Axis.decades("error", [1e-12, 1.0]))))
-    words = [words for tag, words in page.texts if tag == "text"]
-    assert {"1e-12", "1", "0.001", "100"} <= set(words)
-    assert "0" not in words
-
-
-def test_axes_alike_have_one_scale() -> None:
-    across, up = alike("x", "y", [(3.0, 0.0), (0.0, -2.0)])
-    assert (across.high - across.low) / (up.high - up.low) == pytest.approx(FIELD)
-    assert across.low <= -3.0 < 3.0 <= across.high
-    assert up.low <= -2.0
-
-
-def test_spans_begin_where_they_say() -> None:
-    rows = [Bar("a", 3.0, "1 … 3", 1, 1.0), Bar("b", -1.0, "-2 … -1", 2, -2.0)]
-    page = read(bars("a", Bars("A", "told", Axis("x", -2.0, 4.0), rows, (0.0, "none"))))
-    boxes = [(float(str(a["x"])), float(str(a["width"]))) for tag, a in page.tags if tag == "rect"]
-    per_unit = boxes[0][1] / 2
-    assert boxes[1][1] == pytest.approx(per_unit, abs=0.2)
-    assert boxes[0][0] - boxes[1][0] == pytest.approx(3 * per_unit, abs=0.2)
-
-
-@settings(max_examples=40, deadline=None)
-@given(
-    st.lists(st.text("ab1.", max_size=14), min_size=3, max_size=7).flatmap(
-        lambda header: st.tuples(
-            st.just(tuple(header)),
-            st.lists(st.tuples(*(st.text("xyz9", max_size=25) for _ in header)), min_size=1, max_size=4),
-        )
-    ),
-    st.integers(20, 120),
+NAMES = (
+    *("section", "face", "levels", "speeds", "budget", "motion", "settling", "level", "level-loaded", "run-up"),
+    *("candidates", "costs"),
 )
-def test_parted_tables_have_every_column_once_and_the_first_each_time(
-    table: tuple[tuple[str, ...], list[tuple[str, ...]]], width: int
+SVG = "{http://www.w3.org/2000/svg}"
+ODD = Plot(
+    "No $x$ math, <b>no</b> elements & no \x1b signs, but a title that goes on, far beyond what a line has room for",
+    "told", Axis("time [s]", 0, 1), Axis("a name as long as some names of quantities are, and longer [g·mm]", 0, 1),
+    [Line([(0, 0), (1, 1)], f"$line {k}$", k) for k in range(1, 9)],
+    [Point(k / 8, 0.5, f"$p{k}", k) for k in range(1, 9)], (0.5, "limit $"), [(-1, 0.2), (0.9, 7), (3, 4)],
+)  # fmt: skip
+CELLS = Cells("Field", "told", "speed_rpm [rpm]", "mass_kg [kg]", ["1", "2"], ["3", "4", "5"],
+              [[0, 1], [2, 3], [4, None]], [(0, "none"), (4, "all"), (None, "not computed")])  # fmt: skip
+SPANS = Bars("Spans", "told", Axis("x [µm]", -5, 5), [Bar("$a", 2, "2 µm", 1, -3, (1, 3)), Bar("b", -1, "-1 µm", 2)],
+             (0.0, "neither"))  # fmt: skip
+DECADES = Plot("Work", "told", Axis.decades("time [s]", [1e-4, 3]), Axis.decades("error", [1e-9, 1]),
+               [Line([(1e-4, 1), (3, 1e-9)])])  # fmt: skip
+
+
+@cache
+def _figures() -> dict[str, Figure]:
+    return {one.name: one for one in figures_of(sized())}
+
+
+def _texts(file: str | bytes) -> list[str]:
+    root = ElementTree.fromstring(file)
+    return ["".join(one.itertext()).strip() for one in root.iter(f"{SVG}text")]
+
+
+def test_size_has_these_figures_and_the_help_knows_them() -> None:
+    assert sized().figures == NAMES
+    told = " ".join(abu("size", "--help").out.split())
+    assert all(one.name in told for one in KNOWN["size"])
+    assert {known("size", name).name for name in (*NAMES, "arm", "seats-12")} == {one.name for one in KNOWN["size"]}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_svg_is_well_formed_alike_each_time_and_its_texts_are_texts(name: str) -> None:
+    one = _figures()[name]
+    file = figure_file(one, ".svg")
+    assert isinstance(file, str)
+    if name == "run-up":
+        assert file == figure_file(one, ".svg")
+    texts = _texts(file)
+    if isinstance(one.shown, Drawing):
+        return
+    assert one.caption.split(":")[0] in " ".join(file.split())
+    assert "<dc:date>" not in file
+    axes = [text for text in texts if re.search(r"\[.+\]$", text)]
+    assert len(axes) == (1 if isinstance(one.shown, Bars) else 2), texts
+    told = set(re.findall(r"#[0-9a-f]{6}", file))
+    assert told <= {*(color[:7] for color in colors().values()), "#ffffff", "#000000"}, told
+    if isinstance(one.shown, Bars):
+        assert {row.told for row in one.shown.rows} | {row.name for row in one.shown.rows} <= set(texts)
+    if isinstance(one.shown, Plot):
+        assert {line.name for line in one.shown.legend} <= set(texts)
+
+
+@pytest.mark.parametrize("shown", [ODD, CELLS, SPANS, DECADES], ids=["odd", "cells", "spans", "decades"])
+def test_whatever_stands_in_a_chart_is_drawn(shown: Plot | Cells | Bars) -> None:
+    file = figure_file(Figure("odd", "", shown, "A caption with $, \x00 and <."), ".svg")
+    texts = " ".join(_texts(file))
+    if shown is ODD:
+        assert "$line 8$" in texts
+        assert "limit $" in texts
+        assert texts.count("not stable") == 2
+    if shown is CELLS:
+        assert "not computed" in texts
+        assert "mass_kg [kg]" in texts
+    if shown is DECADES:
+        assert {"0.0001", "10", "1e-07"} <= set(_texts(file))
+
+
+@pytest.mark.parametrize(
+    ("name", "suffix", "begins"),
+    [("settling", ".png", b"\x89PNG"), ("costs", ".pdf", b"%PDF"), ("section", ".pdf", b"%PDF")],
+)
+def test_png_and_pdf_have_a_title_and_no_date(name: str, suffix: str, begins: bytes) -> None:
+    one = _figures()[name]
+    file = figure_file(one, suffix)
+    assert isinstance(file, bytes)
+    assert file.startswith(begins)
+    assert one.shown.title.encode() in file  # type: ignore[union-attr]
+    assert b"CreationDate" not in file
+
+
+def test_drawing_is_as_large_as_on_paper() -> None:
+    shown = _figures()["section"].shown
+    assert isinstance(shown, Drawing)
+    wide, high = sized().figure("section").get_size_inches()
+    assert (25.4 * wide, 25.4 * high) == pytest.approx(shown.size)
+
+
+def test_figure_from_python_has_the_numbers_of_the_result() -> None:
+    result = sized()
+    axes = result.figure("settling").axes[0]
+    course = max(axes.lines, key=lambda line: len(np.asarray(line.get_xdata())))
+    assert result.idle_run is not None
+    assert np.asarray(course.get_ydata()) == pytest.approx(result.idle_run.residual_g_mm)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "imbalance left [g·mm]")
+    speeds = result.figure("speeds").axes[0]
+    assert result.measured_after is not None
+    points = {tuple(map(float, np.ravel(line.get_data()))) for line in speeds.lines if len(line.get_data()[0]) == 1}
+    assert any(y == pytest.approx(result.measured_after.measured_level_db) for _, y in points)
+    assert {round(x) for x, y in points if y == result.measured_after.measured_level_db} == {5800}
+
+
+def test_run_up_ends_at_full_speed_with_little_left() -> None:
+    shown = _figures()["run-up"].shown
+    assert isinstance(shown, Plot)
+    speed, left = (dict(line.points) for line in shown.lines)
+    assert speed[max(speed)] == pytest.approx(100, abs=0.1)
+    assert left[max(left)] < 30 < left[min(left)]
+    assert shown.legend[0].name == "speed, of 5800 rpm"
+
+
+def test_motion_stands_still_as_the_angles_of_the_balls() -> None:
+    result = sized()
+    assert result.idle_run is not None
+    lines = [line for line in result.figure("motion").axes[0].lines if len(line.get_xdata()) > 1]  # type: ignore[arg-type]
+    ends = sorted(float(line.get_ydata()[-1]) for line in lines)  # type: ignore[index]
+    angles = result.idle_run.ball_angles_deg[:, -1] % 360
+    assert ends == pytest.approx(sorted(angles))
+
+
+def test_starts_are_those_of_the_ensemble() -> None:
+    result = sized()
+    views = result.starts.views
+    assert views is result.starts.views
+    assert [one.why for one in views[:2]] == ["worst", "typical"]
+    assert len(views) <= 12
+    ensemble = result.ensemble
+    assert ensemble is not None
+    times = {(one.start, one.drag_per_s): one.settling_time_s for one in ensemble.settling_by_start}
+    given = {one.start: one for one in views if one.drag_per_s == result.starts.drag_per_s}
+    assert {start for start, drag in times if drag == result.starts.drag_per_s} == set(given)
+    slowest = [one for one in views if not one.why]
+    assert [one.settling_time_s for one in slowest] == [times[one.start, one.drag_per_s] for one in slowest]
+    for one in views:
+        assert one.view.level_db[-1] == pytest.approx(one.level_db, abs=0.5)
+        assert len(one.view.t_s) <= 250
+    assert ensemble.level_db.worst == max(one.level_db for one in views)
+
+
+def test_a_name_that_is_not_there_is_refused_with_those_there_are() -> None:
+    with pytest.raises(InputError) as refused:
+        sized().figure("arm")
+    assert "[swing_arm]" in str(refused.value)
+    assert "settling" in str(refused.value)
+    known = abu_calc.effects(abu_calc.read("avtovaz-707-222"))
+    assert known.figures == ()
+    with pytest.raises(InputError, match="no figure levels"):
+        known.figure("levels")
+
+
+WRONG: dict[str, tuple[tuple[str, ...], str]] = {
+    "no file": (("levels",), "NAME=FILE"),
+    "no name": (("=a.svg",), "NAME=FILE"),
+    "no name of a file": (("levels=",), "NAME=FILE"),
+    "another name": (("level-s=a.svg",), "candidates"),
+    "of another command": (("precision=a.svg",), "candidates"),
+    "number nought": (("seats-0=a.svg",), "seats-N"),
+    "number in words": (("seats-N=a.svg",), "seats-N"),
+    "in capitals": (("LEVELS=a.svg",), "levels"),
+    "suffix": (("levels=a.jpg",), ".svg .png .pdf"),
+    "no suffix": (("levels=a",), ".svg .png .pdf"),
+    "no folder": (("levels=none/a.svg",), "folder does not exist"),
+    "a folder": (("levels=folder.svg",), "this is a folder"),
+    "exists": (("levels=there.svg",), "--force"),
+    "exists, second": (("face=a.svg", "levels=there.svg"), "--force"),
+    "twice": (("levels=a.svg", "face=./a.svg"), "same file"),
+    "as output": (("levels=out.svg",), "same file"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_cannot_be_written_is_refused_before_anything_is_read(
+    case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    header, rows = table
-    parts = Grid(header, tuple(rows), frozenset({1, 2}), kept=2).within(width)
-    assert all(part.header[:2] == header[:2] for part in parts)
-    assert tuple(name for part in parts for name in part.header[2:]) == header[2:]
-    for k, row in enumerate(rows):
-        assert tuple(cell for part in parts for cell in part.rows[k][2:]) == row[2:]
-    for part in parts:
-        wide = sum(max(map(len, column)) + 2 for column in zip(part.header, *part.rows, strict=True))
-        assert wide <= width or len(part.header) == 3
-    assert Grid(header, tuple(rows)).within(1) == [Grid(header, tuple(rows))]
+    monkeypatch.chdir(tmp_path)
+    Path("there.svg").write_text("mine")
+    Path("folder.svg").mkdir()
+    given, part = WRONG[case]
+    options = [word for one in given for word in ("--figure", one)]
+    seen = abu("size", "no-such-machine", *options, "--output", "out.svg")
+    assert seen.status == 2
+    assert part in seen.err
+    assert "no-such-machine" not in seen.err
+    assert sorted(path.name for path in Path().iterdir()) == ["folder.svg", "there.svg"]
+    assert Path("there.svg").read_text() == "mine"
 
 
-def test_words_keep_clear_of_lines_and_of_one_another() -> None:
-    field = Box(0, 0, 400, 200)
-    right, left = Word(109, 104, "start", 60), Word(91, 104, "end", 60)
-    assert Places(field, [], [(100, 100)]).put([right, left]) == right
-    assert Places(field, [[(100, 100), (300, 100)]], [(100, 100)]).put([right, left]) == left
-    places = Places(field, [], [])
-    assert places.put([right, left]) == right
-    assert places.put([right, left]) == left
-    # Beside the field is worse than upon a line, and than upon other words.
-    outside = Word(395, 104, "start", 60)
-    assert Places(field, [[(100, 100), (300, 100)]], []).put([outside, right]) == right
+def test_commands_without_figures_have_no_such_option() -> None:
+    seen = abu("presets", "--figure", "levels=a.svg")
+    assert seen.status == 2
+    assert "--figure" in seen.err
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.lists(st.tuples(st.floats(0, 1), st.floats(0, 1)), min_size=2, max_size=5, unique=True))
-def test_a_words_box_stays_inside_the_chart(places: list[tuple[float, float]]) -> None:
-    axes = Axis("x", 0.0, 1.0), Axis("y", 0.0, 1.0)
-    points = [Point(x, y, "a word", k % 8 + 1) for k, (x, y) in enumerate(places)]
-    page = read(plot("a", Plot("A", "told", *axes, [Line(places)], points, (0.5, "limit"))))
-    words = [one for one in page.tags if one[0] == "text"]
-    texts = [text for tag, text in page.texts if tag == "text"]
-    for (_, attributes), text in zip(words, texts, strict=True):
-        if text == "a word":
-            x, wide = float(str(attributes["x"])), 6.8 * 6
-            left = x - {"start": 0.0, "middle": 0.5, "end": 1.0}[str(attributes["text-anchor"])] * wide
-            assert left >= 0 and left + wide <= 420
+def test_missing_matplotlib_is_named_with_what_installs_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    found: Callable[[str], object] = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "matplotlib" else found(name))
+    asked = ("check-fit", "mmg-3200k-knife-shaft", "--quiet", "--figure")
+    seen = abu(*asked, f"interference-1={tmp_path / 'a.svg'}")
+    assert seen.status == 2
+    assert "matplotlib" in seen.err and 'pip install "abu-calc[report]"' in seen.err
+    assert abu(*asked, f"seats-1={tmp_path / 'b.svg'}").status == 0
+    with pytest.raises(OutputError, match="matplotlib"):
+        sized().figure("levels")
 
 
-def test_zones_stand_at_their_limits_and_say_them() -> None:
-    result = check_fit(read_machine("mmg-3200k-knife-shaft"))
-    shaft, housing = result.seats[:2]
-    drawing = zones_drawing("zones-1", shaft, housing)
-    regions = [one for one in drawing.shapes if isinstance(one, Region)]
-    heights = [(min(y for _, y, _ in one.corners), max(y for _, y, _ in one.corners)) for one in regions]
-    assert heights == [shaft.ring_limits_um, shaft.part_limits_um, housing.ring_limits_um, housing.part_limits_um]
-    words = [one.text for one in drawing.shapes if isinstance(one, Text)]
-    assert {"+21", "+2", "-15", "0", "+40", "-18", "k6", "H7"} <= set(words)
-    assert any("2 … 36" in word for word in words)
-    assert any(word.startswith("clearance 0 … 58") for word in words)
-    named = [one.name for one in check_fit_figures(result)]
-    assert len(named) == len(set(named)) == 9
+def test_all_files_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    files = ("--figure", "zones-1=zones.png", "--figure", "interference-1=bars.pdf", "--output", "fit.json")
+    asked = ("check-fit", "mmg-3200k-knife-shaft", "--quiet", *files)
+    seen = abu(*asked, "--figure", "seats-9=seats.svg")
+    assert seen.status == 2
+    assert "such a bearing" in seen.err and "zones-1" in seen.err and "What was computed" in seen.err
+    assert list(tmp_path.iterdir()) == []
+    assert abu(*asked).status == 0
+    written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert set(written) == {"zones.png", "bars.pdf", "fit.json"}
+    assert abu(*asked).status == 2
+    assert abu(*asked, "--force").status == 0
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == written
 
 
-def test_planes_show_what_to_do_where_it_is_done() -> None:
-    """Seen from the left end the roll turns counterclockwise: degrees run clockwise, from the right the other way."""
-    result = balance("sapropel-screw-rig")
-    assert result.turns_from_left == "counterclockwise"
-    drawing = planes_drawing(result.left, result.right, result.turns_from_left)
-    rims = [one for one in drawing.shapes if isinstance(one, Arc) and one.radius == RADIUS]
-    heavy = [one for one in drawing.shapes if isinstance(one, Arc) and one.radius < 2]
-    for rim, spot, plane, clockwise in zip(rims, heavy, (result.left, result.right), (1, -1), strict=True):
-        angle = math.radians(plane.angle_deg)
-        away = spot.centre[0] - rim.centre[0], spot.centre[1] - rim.centre[1]
-        assert away == pytest.approx((clockwise * RADIUS * math.sin(angle), RADIUS * math.cos(angle)))
-    words = [one.text for one in drawing.shapes if isinstance(one, Text)]
-    assert "− 12.00 g at 205.0°" in words
-    assert "take off 12.00 g at 205.0°" in drawing.description
-
-
-def test_growth_over_speeds_is_that_of_each_speed() -> None:
-    scene = dimensionless(3.0, 0.02, 0.02, 0.2, 0.3, (1.0, 2.5), 100.0)
-    speeds = [0.5, 0.9, 1.7, 2.6, 3.0]
-    found = growth_over(scene, speeds)
-    assert [speed for speed, _ in found] == speeds
-    for speed, rate in found:
-        alone = stability(replace(scene, speed=speed)).growth_rate
-        assert rate == pytest.approx(alone, abs=1e-9)
-    edges = boundaries(scene, 0.5, 3.0)
-    at_edges = growth_over(scene, [one.speed for one in edges])
-    assert edges
-    assert [rate for _, rate in at_edges] == pytest.approx([0.0] * len(edges), abs=1e-6)
+def test_nothing_opens_a_window() -> None:
+    package = Path(abu_calc.__file__).parent
+    assert [
+        path for path in package.rglob("*.py") if re.search(r"(import|from).*pyplot", path.read_text("utf-8"))
+    ] == []
 
 
 @pytest.mark.slow
-def test_orbits_reach_as_far_as_the_amplitudes_say() -> None:
-    from abu_calc.studies.grinding import grinding
-
-    result = grinding(read_machine("avtovaz-707-222"))
-    amplitudes = {"without": result.axis_without, "balls fixed": result.axis_fixed, "with": result.axis}
-    for one in result.orbits:
-        x, y = (max(map(abs, each)) / 1e3 for each in zip(*one.points_um, strict=True))
-        told = result.simulation if one.simulated else amplitudes[one.name]
-        assert told is not None
-        assert (x, y) == pytest.approx((told.x_amplitude_mm, told.y_amplitude_mm), rel=0.05 if one.simulated else 2e-3)
-
-
-def test_long_names_lose_their_middle_and_stay_inside() -> None:
-    name = "A  " + 30 * "machine " + ", after"
-    rows = [Bar(name, 1.0, "1"), Bar("B  short", 2.0, "2")]
-    page = read(bars("a", Bars("A", "told", Axis("x", 0.0, 2.0), rows)))
-    shown = next(words for tag, words in page.texts if tag == "text" and words.startswith("A  machine"))
-    assert shown.endswith("machine , after")
-    assert "…" in shown
-    assert 6.8 * len(shown) < 420
-    assert "B  short" in [words for _, words in page.texts]
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ("simulate", "avtovaz-707-222", "--duration", "0.3"),
+        ("stability", "avtovaz-707-222", "--speeds", "1000:6000"),
+        ("grinding", "avtovaz-707-222"),
+        ("accuracy", "avtovaz-707-222"),
+        ("balance", "sapropel-screw-rig"),
+        ("compare", "avtovaz-707-222", "msh-230"),
+        ("sweep", "msh-230", "--runs", "8"),
+        ("size", "swing-arm-grinder"),
+    ],
+    ids=lambda asked: asked[0],
+)
+def test_every_command_knows_the_names_of_its_figures(asked: tuple[str, ...], tmp_path: Path) -> None:
+    """Those that a result has are told where one is asked for that it has not."""
+    command = asked[0]
+    absent = {"size": "speeds", "simulate": "run-up", "balance": "verification-99", "stability": "multipliers"}
+    names = [one.name.replace("-N", "-99").replace("QUANTITY", "nothing") for one in KNOWN[command]]
+    there: list[str] = []
+    for name in [absent[command]] if command in absent else names:
+        seen = abu(*asked, "--quiet", "--figure", f"{name}={tmp_path / f'{name}.pdf'}")
+        assert seen.status in (0, 1, 2), seen.err
+        if seen.status == 2:
+            there = seen.err.split("allowed: ")[1].split(")")[0].split(", ")
+            break
+    for name in there:
+        known(command, name)
+        assert abu(*asked, "--quiet", "--figure", f"{name}={tmp_path / f'{name}.svg'}").status in (0, 1)

@@ -7,11 +7,11 @@ import pytest
 
 from abu_calc.spec.read import read_machine
 from abu_calc.studies.rotor_view import MOST
-from tests.remembered import recalled
+from tests.page.sized import sized
 
 
 def test_thinned_run_is_the_one_that_was_made() -> None:
-    result = recalled("size", read_machine("avtovaz-707-222"))
+    result = sized()
     view, idle = result.idle_run, result.simulation[0]
     assert view is not None
     assert 100 < len(view.t_s) <= MOST

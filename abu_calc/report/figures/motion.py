@@ -1,5 +1,7 @@
 """The balls on their way from start to rest, and imbalance, level and speed meanwhile."""
 
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.report.figures.chart import Axis, Line, Plot, Point, db
@@ -9,12 +11,16 @@ if TYPE_CHECKING:
 
 SMALLEST: Final = 0.05
 """Radius of a ball as drawn, over that of its circle: of smaller ones, and of those whose size is not known."""
+SERIES: Final = 8
+"""Looks of lines; those of further balls begin again."""
 
 
 class Motion(NamedTuple):
-    """A run as seen in the rotor; races of several planes lie over one another."""
+    """A run as seen in the rotor; races of several planes lie over one another. `others`: by what they are called."""
 
     view: "RotorView"
+    name: str = ""
+    others: Sequence[tuple[str, "RotorView"]] = ()
 
     @property
     def balls_mm(self) -> tuple[float, ...]:
@@ -47,6 +53,38 @@ def level(view: "RotorView", limit: float | None, measured: float | None = None)
     points = () if measured is None else (Point(course[-1][0], measured, "measured", 3),)
     told += "" if measured is None else f"; measured {db(measured)}"
     return Plot("Level against time", told, _time(view), up, (Line(course),), points, bound)
+
+
+def angles(view: "RotorView") -> Plot:
+    """Where the balls stand, from the imbalance, against time: the still picture of a motion.
+
+    From 0 to 360°, so that balls about the place opposite the imbalance, where they gather, do not jump.
+    """
+    turned = (view.ball_angles_deg - view.imbalance_angle_deg) % 360.0
+    lines = [line for index, row in enumerate(turned) for line in _without_jumps(view, row, index + 1)]
+    last = ", ".join(f"{value:.0f}°" for value in turned[:, -1])
+    told = f"The balls end at {last} from the imbalance" if len(turned) else "There are no balls"
+    up = Axis("angle of the balls from the imbalance [°]", 0.0, 360.0)
+    return Plot("Angles of the balls", told, _time(view), up, lines)
+
+
+def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Line]:
+    """A course in pieces: behind 360° it goes on at 0°."""
+    points = list(zip(view.t_s.tolist(), angle.tolist(), strict=True))
+    jumps = [k for k in range(1, len(points)) if abs(points[k][1] - points[k - 1][1]) > 180.0]
+    for start, end in pairwise((0, *jumps, len(points))):
+        yield Line(points[start:end], f"ball {index}", (index - 1) % SERIES + 1)
+
+
+def caught(view: "RotorView", speed: "Array") -> Plot:
+    """Speed of the rotor and imbalance left against time, both of their largest."""
+    courses = ((speed, "speed", "{:.0f} rpm"), (view.residual_g_mm, "imbalance left", "{:.3g} g·mm"))
+    lines, told = [], []
+    for series, (values, name, form) in enumerate(courses, 1):
+        most = float(values.max()) or 1.0
+        lines.append(Line(_course(view, 100 * values / most, form)[0], f"{name}, of {form.format(most)}", series))
+        told.append(f"{name}: {_course(view, values, form)[1]}")
+    return Plot("Run-up", "; ".join(told), _time(view), Axis("share of the largest [%]", 0.0, 105.0), lines)
 
 
 def run_up(view: "RotorView", speed: "Array") -> Plot:

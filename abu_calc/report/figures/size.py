@@ -9,12 +9,14 @@ from abu_calc.report.explain import explanation_blocks
 from abu_calc.report.figures.chart import Axis, Bar, Bars, Line, Plot, Point, db, micrometres
 from abu_calc.report.figures.drawings import seat_figures
 from abu_calc.report.figures.figure import Extras, Figure
-from abu_calc.report.figures.motion import Motion, settling
+from abu_calc.report.figures.motion import Motion, caught, level, settling
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import value_of
 from abu_calc.report.size_screen import balls
 from abu_calc.studies.quantity import quantities
 from abu_calc.studies.size import SizeResult
+from abu_calc.studies.starts import StartView
+from abu_calc.units import from_si
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
 ROOM: Final = 130.0
@@ -27,8 +29,8 @@ SUMS: Final = ("residual_um", "worst_um")
 def size_extras(result: SizeResult) -> Extras:
     """Figures, and the calculation note."""
     figures = (
-        *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_settling(result),
-        *_candidates(result), *_costs(result),
+        *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
+        *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),
     )  # fmt: skip
     return Extras(figures, explanation_blocks(result)[1:])
 
@@ -82,16 +84,25 @@ def _over_speed(result: SizeResult) -> Iterator[Figure]:
     course = sorted((one.speed_rpm, one.level_after_db) for one in levels)
     limit = _limit(result, "ABU401")
     bands = _forbidden(result)
-    across = Axis.around("speed [rpm]", (speed for speed, _ in course))
-    up = Axis.around("level [dB]", [*(level for _, level in course), *([limit[0]] if limit else [])])
-    told = "; ".join(f"{speed:.0f} rpm {db(level)}" for speed, level in course) + (f"; {limit[1]}" if limit else "")
+    points = [*(Point(*one) for one in course), *_measured(result)]
+    across = Axis.around("speed [rpm]", (one.x for one in points))
+    up = Axis.around("level [dB]", [*(one.y for one in points), *([limit[0]] if limit else [])])
+    told = "; ".join(f"{f'{one.word} ' if one.word else ''}{one.x:.0f} rpm {db(one.y)}" for one in points)
+    told += f"; {limit[1]}" if limit else ""
     caption = (
         "Level with the autobalancer at the loudest place over the speed range, 0 dB = 5e-8 m/s rms: the line should "
         f"stay below the dashed limit{', and out of shaded speeds, where the balls do not balance' if bands else ''}."
     )
-    points = [Point(*one) for one in course]
     chart = Plot("Level against speed", told, across, up, (Line(course),), points, limit, bands)
     yield Figure("speeds", "Vibration level", chart, caption)
+
+
+def _measured(result: SizeResult) -> Iterator[Point]:
+    """What was measured with the autobalancer, at the rated speed."""
+    one = result.measured_after
+    if one is not None:
+        speed = from_si(result.model.speed_rad_per_s, "rpm")
+        yield Point(speed, one.measured_level_db, f"measured, {one.place}", 3)
 
 
 def _forbidden(result: SizeResult) -> list[tuple[float, float]]:
@@ -127,17 +138,63 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
     yield Figure("budget", "Accuracy budget", Bars("Accuracy budget", told, axis, rows, limit), caption)
 
 
+def _motion(result: SizeResult) -> Iterator[Figure]:
+    if result.idle_run is None:
+        return
+    others = [(_start(one), one.view) for one in result.starts.views]
+    chosen = " Other starts of the machine can be chosen, from their beginning." if others else ""
+    caption = (
+        "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
+        "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
+        f"{chosen}"
+    )
+    yield Figure("motion", "Simulation: idle", Motion(result.idle_run, "simulated: idle", others), caption)
+
+
+def _start(one: StartView) -> str:
+    """A start in a line."""
+    ends = "does not balance"
+    if one.balanced:
+        ends = "balances" if one.settling_time_s is None else f"settles in {number(one.settling_time_s, 2)} s"
+    why = f"{one.why}: " if one.why else ""
+    return f"{why}{one.start}, drag {number(one.drag_per_s, 3)} 1/s, {ends}, {db(one.level_db)}"
+
+
 def _settling(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
     limit = next((one.limit for one in result.checks if one.code == "ABU701"), None)
-    caption = (
-        "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
-        "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
-    )
-    yield Figure("motion", "Simulation: idle", Motion(result.idle_run), caption)
     caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
     yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
+
+
+def _over_time(result: SizeResult) -> Iterator[Figure]:
+    """Levels of the simulated runs: idle with the limit and what was measured, at work without."""
+    where = "at the loudest place, 0 dB = 5e-8 m/s rms"
+    if result.idle_run is not None:
+        found, measured = _limit(result, "ABU401"), result.measured_after
+        limit = None if found is None else found[0]
+        shown = None if measured is None else measured.measured_level_db
+        caption = f"Velocity level over each revolution, idle, {where}"
+        caption += ": it should end below the dashed limit." if limit is not None else ": it should fall, and stay low."
+        caption += "" if measured is None else f" Lozenge: as measured with the autobalancer, {measured.place}."
+        yield Figure("level", "Simulation: idle", level(result.idle_run, limit, shown), caption)
+    if result.grinding_run is not None:
+        caption = f"Velocity level over each revolution at work, {where}: what is left when the balls have settled."
+        chart = level(result.grinding_run, None)._replace(title="Level against time, at work")
+        yield Figure("level-loaded", "Simulation: grinding", chart, caption)
+
+
+def _run_up(result: SizeResult) -> Iterator[Figure]:
+    """Of the start among those of the ensemble that runs up, at the drag given."""
+    for one in result.starts.views:
+        if one.view.speed_rpm is not None and one.drag_per_s == result.starts.drag_per_s:
+            caption = (
+                f"{one.start[0].upper()}{one.start[1:]} from standstill, balls side by side: the imbalance that is "
+                "left should fall, and stay low, when the speed is up."
+            )
+            yield Figure("run-up", "Many starts", caught(one.view, one.view.speed_rpm), caption)
+            return
 
 
 def _candidates(result: SizeResult) -> Iterator[Figure]:

@@ -1,0 +1,93 @@
+"""Names of figures by command: what can be asked for before anything is computed, and when a result has it."""
+
+import re
+from collections.abc import Iterable
+from typing import Final, NamedTuple
+
+from abu_calc.errors import InputError, Place
+
+
+class Known(NamedTuple):
+    """A figure's name, N standing for a number and QUANTITY for a word; `when` a result has it; `drawn` to scale."""
+
+    name: str
+    when: str = ""
+    drawn: bool = False
+
+    def fits(self, name: str) -> bool:
+        """Whether a name is this one."""
+        pattern = re.escape(self.name).replace("QUANTITY", r"[\w.\[\]-]+").replace(r"\-N", r"\-[1-9]\d*")
+        return re.fullmatch(pattern, name) is not None
+
+
+SETTLES: Final = "the run was simulated, and held from its beginning"
+RUNS_UP: Final = "the rotor runs up in it"
+SEVERAL: Final = "more than one machine has the number"
+
+KNOWN: Final[dict[str, tuple[Known, ...]]] = {
+    "size": (
+        Known("section", "", True), Known("face", "", True),
+        Known("arm", "the machine has a [swing_arm]", True), Known("seats-N", "the machine has such a bearing", True),
+        Known("levels", "a level is known at a place"), Known("speeds", "the machine has a range of speeds"),
+        Known("budget", "something keeps the balls from balancing to nothing"), Known("motion", SETTLES),
+        Known("settling", SETTLES), Known("level", SETTLES),
+        Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
+        Known("run-up", "a start that runs up was simulated"), Known("candidates", "there are runners-up"),
+        Known("costs", "the drawing's tolerances cost something"),
+    ),
+    "simulate": (
+        Known("motion", SETTLES + ", with balls"), Known("settling", SETTLES + ", with balls"), Known("level", SETTLES),
+        Known("run-up", RUNS_UP),
+    ),
+    "check-fit": (
+        Known("seats-N", "there is such a bearing", True), Known("zones-N", "there is such a bearing", True),
+        Known("interference-N", "there is such a bearing"),
+        Known("clearance-N", "there is such a bearing, of a type whose clearance is in a table"),
+    ),
+    "grinding": (
+        Known("levels", "a level at work is known"), Known("orbit"), Known("orbit-simulated", "it was simulated"),
+        Known("hodograph", "the wheel runs out"), Known("response", "amplitudes over the speeds are known"),
+        Known("force", "forces over the speeds are known"), Known("reaction", "the force round the wheel is known"),
+        Known("wear", "wear is known"), Known("wear-imbalance", "wear is known"),
+    ),
+    "stability": (
+        Known("growth", "growth rates over more than one speed are known"), Known("eigenvalues", "there are such"),
+        Known("multipliers", "the support is not isotropic"),
+    ),
+    "accuracy": (Known("precision", "a way to compute gave an error"),),
+    "balance": (
+        Known("planes", "", True), Known("residual", "there is imbalance"),
+        Known("verification-N", "the readings have so many speeds and quantities"),
+        Known("uncertainty", "the readings say how far off they may be"),
+    ),
+    "compare": tuple(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+    "sweep": (
+        Known("shares"), Known("basins", "starts of several kinds were drawn"),
+        Known("percentiles-QUANTITY", "two of its percentiles are known"),
+        Known("decides-QUANTITY", "its variance is split"), Known("tighten", "prices are known"),
+        Known("loosen", "prices are known"), Known("cells", "it went over two keys with --grid"),
+        Known("cells-meets", "it went over two keys with --grid, with several members in a cell"),
+        Known("cells-level", "it went over two keys with --grid"),
+    ),
+}  # fmt: skip
+"""Of the commands that have figures; a name without a condition stands in every result of its command."""
+
+
+def names_of(command: str) -> str:
+    """All that a command knows, as helps tell them."""
+    return ", ".join(one.name for one in KNOWN[command])
+
+
+def known(command: str, name: str) -> Known:
+    """What a name stands for; raises InputError for one that no result of the command has."""
+    found = next((one for one in KNOWN.get(command, ()) if one.fits(name)), None)
+    if found is None:
+        raise InputError("no such figure", place=Place(key="--figure"), found=name, allowed=names_of(command))
+    return found
+
+
+def absent(command: str, name: str, there: Iterable[str]) -> InputError:
+    """The error about a name that this result does not have, with the reason."""
+    when = next((one.when for one in KNOWN.get(command, ()) if one.fits(name)), "")
+    reason = f"; one is there where {when}" if when else ""
+    return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
