@@ -165,7 +165,7 @@ def simulate_members(
 def start_once(
     design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = True
 ) -> Outcome | Lost:
-    """One start, by one run; `work`: evaluations that it may take, in SciPy's; `early_end`: whether it may end early."""
+    """One start, by one run; `work`: evaluations that it may take, in SciPy's; `early_end`: whether it may end soon."""
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     most = work * MANY // max(MANY, len(scene.ball_masses))
     try:
@@ -239,7 +239,7 @@ LATE: tuple[Order, ...] = ((lambda one: (one.time,), 0.0),)
 
 
 def _deciding(found: Sequence[Outcome | Lost], drag: float, orders: Iterable[Order]) -> list[int]:
-    """Which are worst, among those at the drag given and among all, and neither confirmed nor as good as one that is."""
+    """Which are worst, among those at the drag given and among all, and not confirmed, nor as bad as one that is."""
     done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
     groups = done, [(k, one) for k, one in done if one.member.drag == drag]
     needed = set()
