@@ -259,7 +259,7 @@ LATE: tuple[Order, ...] = ((lambda one: (one.time,), 0.0),)
 
 
 def _deciding(found: Sequence[Outcome | Lost], drag: float, orders: Iterable[Order]) -> list[int]:
-    """Which are worst, of those at the drag given and of all, and neither confirmed nor as good as one that is."""
+    """Which are worst, among those at the drag given and among all, and not confirmed, nor as bad as one that is."""
     done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
     groups = done, [(k, one) for k, one in done if one.member.drag == drag]
     needed = set()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from abu_calc import analysis
-from abu_calc.analysis.ensemble import Ensemble, Lost, Outcome, simulate_members
+from abu_calc.analysis.ensemble import TOLERANCE, WORK, Ensemble, Lost, Outcome, simulate_members, start_once
 from abu_calc.analysis.idle import ensemble_checks, level_check
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.remedies import changes, other_drags, passes
@@ -304,3 +304,19 @@ def test_a_pause_lets_balls_that_hang_catch_up(drag: float) -> None:
     (change,) = [one for one in changes(found, first) if one.dips != (None,)]
     for dip in change.dips:
         assert passes(found, simulate_members(found, shares=(1.0,), doubtful=ALL, dip=dip))
+
+
+def test_a_start_that_rests_ends_early() -> None:
+    """With the same answer as at the very end, and by no more work; nearer to the level allowed none does."""
+    found = design("msh-230")
+    for member in (Member("spread", 5.0), Member("bunched", 15.0, 1.0), Member("behind", 15.0)):
+        early, whole = (start_once(found, member, 0.01, TOLERANCE, WORK, early_end) for early_end in (True, False))
+        assert isinstance(early, Outcome)
+        assert isinstance(whole, Outcome)
+        assert early.work < 0.8 * whole.work
+        assert early.balanced and whole.balanced and not early.hanging
+        assert early.time == pytest.approx(whole.time, rel=0.02)
+        assert early.level == pytest.approx(whole.level, abs=0.3)
+        strict = replace(found, case=replace(found.case, level_limit=whole.level + 0.5))
+        followed = start_once(strict, member, 0.01, TOLERANCE, WORK, True)
+        assert (followed.work, followed.level) == pytest.approx((whole.work, whole.level), rel=0.01)  # type: ignore[union-attr]

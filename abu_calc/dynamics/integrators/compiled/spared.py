@@ -1,0 +1,81 @@
+"""The same equations without the terms that are zero while modes stay as they are: less for plain Python to do.
+
+Most gaps are open and most torques between balls nothing; their terms are products with parameters that are zero then.
+Left out are x·0, x + 0, 0 + x, x − 0, x·1 and x/1, which change no digit of a finite number.
+"""
+
+import ast
+from collections.abc import Mapping
+from copy import copy
+from typing import Final
+
+FOLDED: Final = (0.0, 1.0)
+"""Values of parameters by which terms go or stay as they are."""
+
+
+def spared(function: ast.FunctionDef, known: Mapping[int, float]) -> ast.FunctionDef:
+    """One of the functions of a program, where parameters par[…] have these values; of one that stores in arrays."""
+    folding = _Folding(known)
+    lines = [one for one in map(folding.line, function.body) if one is not None]
+    kept, needed = [], set[str]()
+    for line in reversed(lines):
+        if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name) and line.targets[0].id not in needed:
+            continue
+        needed |= {one.id for one in ast.walk(line) if isinstance(one, ast.Name)}
+        kept.append(line)
+    found = copy(function)
+    found.body = kept[::-1]
+    return found
+
+
+class _Folding:
+    """Expressions with what is known put in."""
+
+    def __init__(self, known: Mapping[int, float]) -> None:
+        self.known, self.names = known, dict[str, ast.expr]()
+
+    def line(self, line: ast.stmt) -> ast.stmt | None:
+        """None for a name that is a number or another name."""
+        if not isinstance(line, ast.Assign):
+            return line
+        (target,) = line.targets
+        value = self.folded(line.value)
+        if isinstance(target, ast.Name) and isinstance(value, ast.Constant | ast.Name):
+            self.names[target.id] = value
+            return None
+        return ast.Assign(targets=[target], value=value, lineno=1, col_offset=0)
+
+    def folded(self, node: ast.expr) -> ast.expr:
+        """The same with fewer operations."""
+        if isinstance(node, ast.Name):
+            return self.names.get(node.id, node)
+        if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id == "par":
+            assert isinstance(node.slice, ast.Constant)
+            place = node.slice.value
+            return ast.Constant(self.known[place]) if place in self.known else node  # type: ignore[index]
+        if isinstance(node, ast.Call):
+            return ast.Call(func=node.func, args=[self.folded(one) for one in node.args], keywords=[])
+        if isinstance(node, ast.UnaryOp):
+            return ast.UnaryOp(op=node.op, operand=self.folded(node.operand))
+        if isinstance(node, ast.BinOp):
+            return _fewer(self.folded(node.left), node.op, self.folded(node.right))
+        return node
+
+
+def _fewer(left: ast.expr, operator: ast.operator, right: ast.expr) -> ast.expr:
+    """One operation, unless it is none."""
+    a, b = _number(left), _number(right)
+    if isinstance(operator, ast.Mult):
+        if a == 0.0 or b == 0.0:
+            return ast.Constant(0.0)
+        if a == 1.0 or b == 1.0:
+            return right if a == 1.0 else left
+    elif isinstance(operator, ast.Add) and (a == 0.0 or b == 0.0):
+        return right if a == 0.0 else left
+    elif (isinstance(operator, ast.Sub) and b == 0.0) or (isinstance(operator, ast.Div) and b == 1.0):
+        return left
+    return ast.BinOp(left=left, op=operator, right=right)
+
+
+def _number(node: ast.expr) -> float | None:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, float) else None

@@ -1,0 +1,39 @@
+"""Functions without what is zero: the same digits as the whole ones."""
+
+import ast
+import math
+import random
+
+from abu_calc.dynamics.integrators.compiled.spared import spared
+
+WHOLE = """
+def rates(t, y, par, dy):
+ a = (y[0] * par[0])
+ b = (a + (par[1] * (y[1] - par[0])))
+ c = ((b * par[2]) - par[0])
+ d = (c / par[2])
+ e = sin((d * par[3]))
+ dy[0] = ((par[0] + e) + (a * y[1]))
+ dy[1] = (-(d + (c * par[3])))
+ return
+"""
+
+
+def test_the_same_digits_with_less() -> None:
+    """Whichever parameters are 0 or 1."""
+    (whole,) = ast.parse(WHOLE).body
+    assert isinstance(whole, ast.FunctionDef)
+    source = random.Random(3)
+    for known in ({}, {0: 0.0}, {0: 0.0, 2: 1.0}, {1: 0.0, 3: 1.0}, {0: 0.0, 1: 0.0, 2: 1.0, 3: 0.0}):
+        less = spared(whole, known)
+        par = [known.get(k, source.uniform(-2, 2)) for k in range(4)]
+        y, found = [source.uniform(-2, 2), source.uniform(-2, 2)], []
+        for function in (whole, less):
+            scope: dict[str, object] = {"sin": math.sin}
+            exec(compile(ast.fix_missing_locations(ast.Module([function], [])), "<test>", "exec"), scope)
+            dy = [9.0, 9.0]
+            scope["rates"](0.5, y, par, dy)  # type: ignore[operator]
+            found.append(dy)
+        assert found[0] == found[1]
+        size = len(ast.unparse(less))
+        assert size < len(ast.unparse(whole)) if 0 in known else size <= len(ast.unparse(whole))
