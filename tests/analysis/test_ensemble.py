@@ -87,12 +87,11 @@ def test_hands_are_not_chaotic() -> None:
     assert found == {"ABU401": "warn", "ABU701": "pass", "ABU702": "pass", "ABU704": "pass"}
 
 
-def test_workers_change_nothing() -> None:
+@pytest.mark.parametrize("workers", [Workers(3), pytest.param(Workers(2, processes=True), marks=pytest.mark.slow)])
+def test_workers_change_nothing(workers: Workers) -> None:
     """One after the other, by threads, by processes: the same numbers."""
     found = design("msh-230")
-    alone = simulate_members(found)
-    assert simulate_members(found, workers=Workers(3)) == alone
-    assert simulate_members(found, workers=Workers(2, processes=True)) == alone
+    assert simulate_members(found, workers=workers) == simulate_members(found)
 
 
 def test_plain_runs_go_side_by_side() -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.balanced import floquet
+from abu_calc.dynamics.balanced.blocks import diagonal, span_of
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.scene import Scene
@@ -90,14 +91,14 @@ class BalancedMotion:
             masses = np.array(race.ball_masses)
             theta = np.array(self.angles[first : first + len(masses)])
             rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self._turns else [])]
-            found.append(np.eye(len(masses)) if self.motion else _span(np.array(rows), self.span))
+            found.append(np.eye(len(masses)) if self.motion else span_of(np.array(rows), self.span))
             first += len(masses)
         return tuple(found)
 
     @cached_property
     def basis(self) -> Array:
         """Those of all races."""
-        return _diagonal(*self.coupled)
+        return diagonal(*self.coupled)
 
     @cached_property
     def held(self) -> Array:
@@ -106,7 +107,7 @@ class BalancedMotion:
         places = np.array([race.plane_offset for race in self.scene.races for _ in race.ball_masses])
         shares = places / (np.abs(places).max(initial=0.0) or 1.0)
         x, y = -static_moments * np.sin(theta), static_moments * np.cos(theta)
-        return _span(np.array((x, y, shares * x, shares * y)) @ self.basis, self.span)
+        return span_of(np.array((x, y, shares * x, shares * y)) @ self.basis, self.span)
 
     @cached_property
     def scales(self) -> Array:
@@ -279,7 +280,7 @@ class BalancedMotion:
             spun[:size, :size] = spun[size : 2 * size, size : 2 * size] = spin
             matrix = np.asarray(np.linalg.solve(B, matrix @ B - spun @ B), dtype=float)
         scaled = matrix * self.scales / self.scales[:, None] / speed
-        counted = _diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
+        counted = diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
         return np.asarray(counted.T @ scaled @ counted, dtype=float)
 
 
@@ -287,24 +288,6 @@ def growth_of(multipliers: tuple[complex, ...], speed: float) -> float:
     """ln|μ|/T of the largest multiplier over a revolution T [1/s]."""
     largest = max((abs(value) for value in multipliers), default=0.0)
     return math.log(largest) * speed / (2 * math.pi) if largest > 0 else -math.inf
-
-
-def _span(rows: Array, least: float) -> Array:
-    """Orthonormal columns that span the rows of a matrix; less than a share `least` of it is none."""
-    if 0 in rows.shape:
-        return np.zeros((rows.shape[1], 0))
-    _, sizes, directions = np.linalg.svd(rows)
-    return np.asarray(directions[: int((sizes > least * np.abs(rows).sum()).sum())].T, dtype=float)
-
-
-def _diagonal(*blocks: Array) -> Array:
-    """A matrix of blocks along its diagonal."""
-    total = np.zeros((sum(len(block) for block in blocks), sum(block.shape[1] for block in blocks)))
-    row = column = 0
-    for block in blocks:
-        total[row : row + len(block), column : column + block.shape[1]] = block
-        row, column = row + len(block), column + block.shape[1]
-    return total
 
 
 def _inverse_powers() -> Array:

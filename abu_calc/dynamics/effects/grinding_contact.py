@@ -19,6 +19,7 @@ tells where that cannot be. There T = s f N may feed the balls: N grows with the
 with its cube, so that it is infinite after a finite time. Compliance, one-sided contact and torque are derived.
 """
 
+import cmath
 import math
 import sys
 from dataclasses import dataclass, replace
@@ -28,9 +29,10 @@ import numpy as np
 
 from abu_calc.dynamics.circumstances import Circumstances
 from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
+from abu_calc.dynamics.effects.pressed import BRAKES, DRIVEN, PARTING, moved, pulls, stopped
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance, weighing_amplitude
+from abu_calc.dynamics.supports.receptance import weighing_amplitude
 from abu_calc.dynamics.switching.cutting import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
@@ -44,11 +46,6 @@ TOUCHING, APART = 1.0, 0.0
 
 NEAR = 1e-9
 """Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
-
-REMEDY = ": press harder, or run the wheel truer"
-
-STOPPED = 0.01
-"""Of the scene's speed: a rotor slower than this stands."""
 
 LEAST_DEPTH = 1e-9
 """A depth [m] that counts as something where there is neither press nor runout."""
@@ -116,7 +113,7 @@ class GrindingContact(Effect):
         """N and T on the frame, or the constraint."""
         if self.contact == "rigid":
             loads.own(bound=self._bound(m, mode, p))
-            loads.add(frame=-self.press_force * self._held(p))
+            loads.add(frame=-self.press_force * self._rows(0.0, 1.0, 0.0, p))
         elif self.contact == "compliant" or p.rotor.rows:
             loads.add(frame=self._force(m, mode, p, self.pressed(m, mode, p)))
             if isinstance(mode, Cutting):
@@ -146,10 +143,6 @@ class GrindingContact(Effect):
         """A force (x, y) at the wheel and a torque on the rotor, as the frame feels them."""
         return p.rotor.on_frame(p.geometry.forces(x, y, self.plane_offset), turning)
 
-    def _held(self, p: Parameters) -> Array:
-        """The press."""
-        return self._rows(0.0, 1.0, 0.0, p)
-
     def _direction(self, m: Motion, mode: Any, p: Parameters) -> Array:
         """What the frame feels per unit N."""
         drag = mode.slides * self.drag if isinstance(mode, Cutting) else self.drag
@@ -161,7 +154,7 @@ class GrindingContact(Effect):
     def _force(self, m: Motion, mode: Any, p: Parameters, normal: Any) -> Array:
         """All that acts on the frame."""
         force: Array = normal * self._direction(m, mode, p)
-        return force if self.contact == "face" else force - self.press_force * self._held(p)
+        return force if self.contact == "face" else force - self.press_force * self._rows(0.0, 1.0, 0.0, p)
 
     def slip(self, m: Motion, p: Parameters) -> Slip:
         """How the wheel's surface moves over the work; on a face by the turning alone."""
@@ -265,73 +258,31 @@ class GrindingContact(Effect):
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """How long a rigid contact pulls; whether a compliant one parts in the last twentieth of the run; a stop."""
-        stops = (*self._drives(equations.scene), *self._stops(equations, samples))
+        scene, stops = equations.scene, self._turning(equations.scene, samples)
         if self.contact == "face":
             return stops
         if self.contact == "rigid":
-            return (*_pulls(samples.t, self.normal_forces(equations, samples)), *stops)
-        late = samples.t >= 0.95 * equations.scene.duration
-        last = Samples(samples.t[late], samples.y[:, late])
-        if not late.any() or self.normal_forces(equations, last).min() > 0:
-            return stops
-        doubt = "; nothing damps their contact, so how far they bounce may depend on the start"
-        return (f"wheel and work part again and again{REMEDY}{doubt}", *stops)
+            return (*pulls(samples.t, self.normal_forces(equations, samples)), *stops)
+        late = samples.t >= 0.95 * scene.duration
+        parts = late.any() and self.normal_forces(equations, Samples(samples.t[late], samples.y[:, late])).min() <= 0
+        return (PARTING, *stops) if parts else stops
 
-    def _drives(self, scene: Circumstances) -> tuple[str, ...]:
-        """That friction of the printed sign drives a rotor whose speed the scene leaves to torques."""
-        if self.drag <= 0 or not self.wheel_radius or not scene.rotor.rows:
-            return ()
-        return (
-            "with rotation_sense = 1 the work drives the rotor, as printed in Kladiev 1996; a wheel that cuts is "
-            "braked: rotation_sense = -1",
-        )
-
-    def _stops(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """That cutting has stopped the rotor before anything switched its motor off."""
-        scene = equations.scene
-        if not self._may_stop(scene) or scene.run_down:
-            return ()
-        _, speeds = scene.rotor.turning(samples.t, samples.y, scene.speed)
-        moves = np.flatnonzero(np.abs(speeds) > STOPPED * scene.speed)
-        if not len(samples.t) or (len(moves) and moves[-1] == len(speeds) - 1):
-            return ()
-        since = samples.t[moves[-1] + 1] if len(moves) else samples.t[0]
-        most = self.cutting_coefficient * self.press_force * self.wheel_radius
-        return (
-            f"the rotor stands on the work from t = {since:.4g} s on: cutting takes up to {most:.3g} N·m; "
-            "press less, or take a stronger motor",
-        )
+    def _turning(self, scene: Circumstances, samples: Samples) -> tuple[str, ...]:
+        """That cutting stops a rotor that a torque drives, or that friction of the printed sign drives it."""
+        if self._may_stop(scene):
+            return stopped(scene, samples, self.cutting_coefficient * self.press_force * self.wheel_radius)
+        return (DRIVEN,) if self.drag > 0 and self.wheel_radius and scene.rotor.rows else ()
 
     def weight(self, scene: Circumstances) -> Weight:
-        """Change of the axis's motion without balls, by the receptance at the wheel, as if they never parted.
-
-        N~ = −(y + E)/(1/c_n + h_wn), y of the wheel without contact, E = −iε e^{iφ₀}, h_wn its motion by the contact.
-        And what is left near the end of swinging about the place to which T moves it.
-        """
+        """Change of the axis's motion without balls, as if wheel and work never parted: see `moved`."""
         self._row(scene)
+        braking = BRAKES[self.wheel_radius > 0]
         if self.contact == "face":
-            braked = scene.rotor.rows
-            return Weight(None, self._braking) if braked else Weight(0.0, "presses along the spindle alone")
-        h = receptance(scene.support, scene.speed)
-        wheel = np.vstack([np.eye(2), self.plane_offset * np.eye(2)])[: len(h)]
-        pull = reference_imbalance(scene) * scene.speed**2 * np.exp(1j * scene.imbalance_angle)
-        free = (wheel[:, 1] @ h)[:2] @ (pull * np.array((1, -1j)))
-        answer = h[:2] @ (wheel @ np.array((self.drag, 1.0)))
-        seen = wheel[:, 1] @ h @ (wheel @ np.array((self.drag, 1.0)))
+            return Weight(None, braking) if scene.rotor.rows else Weight(0.0, "presses along the spindle alone")
         give = 1 / self.contact_stiffness if self.contact == "compliant" else 0.0
-        normal = -(free - 1j * self.runout * np.exp(1j * self.runout_angle)) / (give + seen)
-        X, Y = normal * answer
-        changed = float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
-        changed += scene.small_motion.swinging(wheel @ (self.drag * self.press_force, 0.0), 0.95 * scene.duration)
-        return Weight(changed / weighing_amplitude(scene), f"holds the axis, and runout drives it; {self._braking}")
-
-    @property
-    def _braking(self) -> str:
-        return (
-            "cutting brakes a driven rotor"
-            if self.wheel_radius
-            else "no wheel radius: cutting does not brake the rotor"
-        )
+        surface = -1j * cmath.rect(self.runout, self.runout_angle)
+        changed = moved(scene, self.plane_offset, self.drag, surface, give, self.press_force)
+        return Weight(changed / weighing_amplitude(scene), f"holds the axis, and runout drives it; {braking}")
 
     def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """On the constraint of a rigid contact, h = h' = 0, by the shortest way."""
@@ -345,15 +296,3 @@ class GrindingContact(Effect):
             for now, target in zip(start, wanted, strict=True)
         )
         return position, velocity
-
-
-def _pulls(t: Array, normal: Array) -> tuple[str, ...]:
-    """For how much of the time a rigid contact would have to pull, and the least force; samples may stand unevenly."""
-    if not len(t) or normal.min() >= 0:
-        return ()
-    spans = np.diff(t, prepend=t[0], append=t[-1])
-    share = float(((spans[:-1] + spans[1:]) * (normal < 0)).sum() / spans.sum() / 2) if len(t) > 1 else 1.0
-    return (
-        f"wheel and work would part if they could: the rigid contact pulls for {100 * share:.2g} % of the time, its "
-        f"least force {normal.min():.3g} N{REMEDY}, or give it a stiffness",
-    )
