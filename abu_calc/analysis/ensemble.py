@@ -175,7 +175,7 @@ def simulate_members(
 def start_once(
     design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = True
 ) -> Outcome | Lost:
-    """One start, by one run; `work`: evaluations that it may take, in SciPy's; `early_end`: whether it may end early."""
+    """One start, by one run; `work`: evaluations it may take, in SciPy's; `early_end`: whether it may end early."""
     try:
         return run_of_start(design, member, accuracy, tolerance, work, early_end).outcome
     except NotTrustworthyError as error:

@@ -142,10 +142,11 @@ def _shaken(found: FrictionBand) -> str:
     left = [
         f"{number(each, 2)} µm" if each is not None else "not known" for each in (found.unshaken_um, found.shaken_um)
     ]
-    by = (
-        "this runout" if found.simulated_given else f"an axial runout of {number(found.simulated_um, 2)} µm, as a trial"
-    )
-    return f" Simulated from bunched balls: {left[0]} without, {left[1]} with {by}, after {found.simulated_s:g} s."
+    tried = f"an axial runout of {number(found.simulated_um, 2)} µm, as a trial"
+    by, after = "this runout" if found.simulated_given else tried, f"after {found.simulated_s:g} s"
+    worse = found.unshaken_um is not None and found.shaken_um is not None and found.shaken_um > found.unshaken_um
+    more = " So much of it throws the balls off their places." if worse else ""
+    return f" Simulated from bunched balls: {left[0]} without, {left[1]} with {by}, {after}.{more}"
 
 
 def _shakes(does: bool) -> str:

@@ -5,7 +5,7 @@ from typing import Final
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.numbers import number
 from abu_calc.studies.grinding import GrindingResult
-from abu_calc.studies.grinding_records import WearCourse
+from abu_calc.studies.grinding_wear import WearCourse
 
 ENDS: Final = {
     "halved": "runout halved after",

@@ -9,20 +9,17 @@ from typing import Annotated, ClassVar
 from abu_calc.analysis import contact_facts as facts
 from abu_calc.analysis import grinding as analysis
 from abu_calc.analysis.agreement import agreement
-from abu_calc.analysis.grinding import Side, Work
+from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
 from abu_calc.analysis.grinding_verdict import in_words, shortest
 from abu_calc.analysis.shaking import shaken
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.analysis.under_load import Steady, bare, contact_presses, fitted, fixed, runout_of
-from abu_calc.analysis.wear import Wear, needed_exponent, worn
-from abu_calc.analysis.working import harmonic_force
 from abu_calc.errors import InputError, Place
-from abu_calc.formulas.grinding import printed_resultant, runout_rate, stiffness_regions
+from abu_calc.formulas.grinding import printed_resultant, stiffness_regions
 from abu_calc.formulas.suspension import natural_frequency
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
-from abu_calc.sizing.budget import permitted_displacement
 from abu_calc.sizing.compared import compared_design, level_where_measured
 from abu_calc.sizing.design import Design
 from abu_calc.spec.machine import MachineFile
@@ -31,7 +28,6 @@ from abu_calc.studies.arguments import checked
 from abu_calc.studies.grinding_model import GrindingModel
 from abu_calc.studies.grinding_records import (
     AxisMotion,
-    Claim,
     Comparison,
     FrictionBand,
     HodographPoint,
@@ -42,17 +38,20 @@ from abu_calc.studies.grinding_records import (
     ResponsePoint,
     Simulated,
     TriedRemedy,
+)
+from abu_calc.studies.grinding_wear import (
+    Claim,
     WearCourse,
+    bouncing_course,
+    claim,
+    press_of,
+    rigid_course,
+    wear_course,
 )
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.shown import MeasuredAfter
-from abu_calc.units import from_si, to_si, wrapped_deg
-
-USABLE = 0.2
-"""Of the wheel's radius, taken as the depth that may be worn off where the file does not say."""
-CLAIMED = 32.0, 48.0
-"""Minutes a wheel lasts without and with the autobalancer of the MSh-230, Kladiev 1996."""
+from abu_calc.units import from_si, wrapped_deg
 
 
 @record
@@ -129,9 +128,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None
-    sides = (work.fitted, work.without)
     resonance = facts.loaded_resonance(design)
-    wears, rigid = [_wear(work, side.steady) for side in sides], _rigid_wear(work)
     return GrindingResult(
         title=tables.machine.name,
         checks=work_checks(work, shortest(tried), compared),
@@ -164,13 +161,13 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         hodograph=tuple(map(HodographPoint.of, facts.hodograph(design))),
         response=tuple(map(ResponsePoint.of, facts.response(design))),
         resonance_rpm=None if resonance is None else from_si(resonance, "rpm"),
-        wear=_course(design, wears[0]),
-        wear_without=_course(design, wears[1]),
-        wear_rigid=_course(design, rigid[0]),
-        wear_rigid_without=_course(design, rigid[1]),
-        wear_bouncing=_course(design, _bouncing(design, work.fitted)),
-        wear_bouncing_without=_course(design, _bouncing(design, work.without)),
-        claim=_claim(work),
+        wear=wear_course(work, work.fitted.steady),
+        wear_without=wear_course(work, work.without.steady),
+        wear_rigid=rigid_course(work, fitted),
+        wear_rigid_without=rigid_course(work, bare),
+        wear_bouncing=bouncing_course(design, work.fitted),
+        wear_bouncing_without=bouncing_course(design, work.without),
+        claim=claim(work),
         contact_stiffness_regions_N_per_m=_regions(design, steady),
         flutter_drag_limit_per_s=None if limits is None else limits[0],
         flutter_drag_worst_per_s=None if limits is None else limits[1],
@@ -210,10 +207,6 @@ def _regions(design: Design, steady: Steady) -> tuple[float, float] | None:
     return stiffness_regions(steady.contact.dynamic_stiffness) if contact_presses(design.case) else None
 
 
-def _press(design: Design) -> float:
-    return design.case.contact.press_force if design.case.contact else math.inf
-
-
 def _cutting_power(design: Design) -> float:
     case = design.case
     drag = case.contact.cutting_coefficient * case.contact.press_force if case.contact else 0.0
@@ -245,64 +238,7 @@ def _profile(work: Work) -> tuple[ProfilePoint, ...] | None:
     if not contact_presses(work.design.case):
         return None
     runs = [{} if side.run is None else dict(side.run.profile) for side in (work.fitted, work.without)]
-    return ProfilePoint.round(_press(work.design), work.fitted.steady, work.without.steady, runs[0], runs[1])
-
-
-def _wear(work: Work, steady: Steady) -> Wear | None:
-    design = work.design
-    if not contact_presses(design.case) or steady.imbalance is None:
-        return None
-    mass = 0.0 if steady.balls is None else design.autobalancer.mass
-    allowed, rest = permitted_displacement(design.case, mass, design.case.speed), work.rest if mass else 0.0
-    permitted = math.sqrt(max(allowed**2 - rest**2, 0.0))
-    return worn(steady, _press(design), design.case.table.wheel.mass_kg, _usable(design), permitted)
-
-
-def _rigid_wear(work: Work) -> tuple[Wear | None, Wear | None]:
-    design = work.design
-    if not contact_presses(design.case):
-        return None, None
-    runout = runout_of(design.case)
-    return _wear(work, fitted(design, runout, rigid=True)), _wear(work, bare(design, runout, rigid=True))
-
-
-def _usable(design: Design) -> float:
-    given = design.case.table.wheel.usable_wear_mm
-    return USABLE * design.case.wheel_radius if given is None else to_si(given, "mm")
-
-
-def _bouncing(design: Design, side: Side) -> Wear | None:
-    """The rate of a wheel that parts from its work, by the simulated force."""
-    contact = design.case.contact
-    if side.run is None or not side.parts or contact is None or contact.kind != "compliant":
-        return None
-    pressure, runout = side.run.pressure, runout_of(design.case)
-    centres = (pressure * runout.conjugate()).real > 0
-    return Wear(pressure, runout_rate(pressure, runout, contact.press_force), centres, None, ())
-
-
-def _course(design: Design, wear: Wear | None) -> WearCourse | None:
-    wheel = design.case.table.wheel
-    pace = wheel.life_min / to_si(wheel.usable_wear_mm, "mm") if wheel.life_min and wheel.usable_wear_mm else None
-    return None if wear is None else WearCourse.of(wear, runout_of(design.case), pace)
-
-
-def _claim(work: Work) -> Claim | None:
-    """What it would take for the wheel to live as much longer as the source has it."""
-    if not contact_presses(work.design.case):
-        return None
-    press, (before, after) = _press(work.design), CLAIMED
-    forces = [
-        side.run.force if side.parts and side.run is not None else harmonic_force(press, side.steady.pressure or 0j)
-        for side in (work.without, work.fitted)
-    ]
-    return Claim(
-        life_without_min=before,
-        life_with_min=after,
-        ratio_by_archard=1.0,
-        needed_exponent=needed_exponent(forces[0], forces[1], after / before),
-        needed_press_N=press * before / after,
-    )
+    return ProfilePoint.round(press_of(work.design), work.fitted.steady, work.without.steady, runs[0], runs[1])
 
 
 def _warnings(work: Work) -> list[str]:

@@ -14,7 +14,6 @@ from abu_calc.analysis.contact_facts import AtAngle, AtSpeed, Friction, largest_
 from abu_calc.analysis.grinding import Remedy
 from abu_calc.analysis.shaking import Shaken
 from abu_calc.analysis.under_load import Steady
-from abu_calc.analysis.wear import Stage, Wear
 from abu_calc.analysis.working import Working
 from abu_calc.sizing.case import Case
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -98,72 +97,6 @@ class Printed(Record):
     ball_angles_deg: Annotated[tuple[float, float] | None, Quantity("balls by the printed formula", "θ", 5)]
     error_deg: Annotated[float | None, Quantity("the printed formula is off by")]
     open_g_mm: Annotated[float | None, Quantity("imbalance it would leave of what is to be carried")]
-
-
-@record
-class WearStage(Record):
-    """The wheel after some wear."""
-
-    depth_um: Annotated[float, Quantity("worn off")]
-    time_min: Annotated[float | None, Quantity("after")]
-    runout_mm: Annotated[float, Quantity("runout", "ε")]
-    runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ_ε")]
-    imbalance_g_mm: Annotated[float, Quantity("imbalance of the wheel", "m₀e")]
-    variable_force_N: Annotated[float, Quantity("variable force", "|F_H|")]
-
-    @classmethod
-    def of(cls, stage: Stage, pace: float | None) -> Self:
-        """That of a stage; `pace` in minutes per metre."""
-        return cls(
-            depth_um=from_si(stage.depth, "um"),
-            time_min=None if pace is None else pace * stage.depth,
-            runout_mm=from_si(abs(stage.runout), "mm"),
-            runout_angle_deg=wrapped_deg(cmath.phase(stage.runout)),
-            imbalance_g_mm=from_si(abs(stage.imbalance), "g_mm"),
-            variable_force_N=abs(stage.pressure),
-        )
-
-
-@record
-class WearCourse(Record):
-    """How the wheel wears: the rate of its runout is below zero where wear centres it."""
-
-    centres: Annotated[bool, Quantity("wear centres the wheel")]
-    runout_rate: Annotated[
-        float, Quantity("change of the runout per depth worn off", "dε/ds_w", 4, "as if wheel and work never parted")
-    ]
-    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|F_H|")]
-    hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
-    ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
-    depth_um: Annotated[float | None, Quantity("worn off until then")]
-    time_min: Annotated[float | None, Quantity("until then")]
-    stages: tuple[WearStage, ...]
-
-    @classmethod
-    def of(cls, wear: Wear, runout: complex, pace: float | None) -> Self:
-        """`pace` in minutes per metre of depth."""
-        away = cmath.phase(wear.pressure) - cmath.phase(runout)
-        return cls(
-            centres=wear.centres,
-            runout_rate=wear.rate,
-            pressure_amplitude_N=abs(wear.pressure),
-            hardest_at_deg=wrapped_deg(away) if wear.pressure else None,
-            ends=wear.event,
-            depth_um=None if wear.depth is None else from_si(wear.depth, "um"),
-            time_min=None if wear.depth is None or pace is None else pace * wear.depth,
-            stages=tuple(WearStage.of(stage, pace) for stage in wear.stages),
-        )
-
-
-@record
-class Claim(Record):
-    """The source's claim that a wheel lives 48 minutes with an autobalancer and 32 without, and what it would take."""
-
-    life_without_min: Annotated[float, Quantity("life without, as printed")]
-    life_with_min: Annotated[float, Quantity("life with, as printed")]
-    ratio_by_archard: Annotated[float, Quantity("ratio of lives if wear goes with the force")]
-    needed_exponent: Annotated[float | None, Quantity("power of the force that wear would go with")]
-    needed_press_N: Annotated[float, Quantity("mean force that would do it, by the same law")]
 
 
 @record

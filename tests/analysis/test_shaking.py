@@ -73,6 +73,13 @@ def test_above_the_threshold_the_plane_shakes_too_but_takes_seconds(monkeypatch:
     assert across.shaken < 0.5 * soon.shaken
 
 
+def test_too_much_of_it_throws_the_balls_off() -> None:
+    """The report says so, since the closed threshold does not know it."""
+    found, threshold = _shaken(**FACE, wheel__axial_runout_mm=0.3)
+    assert found.amplitude > 20 * threshold
+    assert found.unshaken is not None and found.shaken is not None and found.shaken > found.unshaken
+
+
 def test_without_friction_nothing_is_asked() -> None:
     design = size(machine(**FACE, autobalancer__rolling_friction_mm=0.0))
     side = Side(fitted(design, 0j))

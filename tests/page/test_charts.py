@@ -164,3 +164,14 @@ def test_orbits_reach_as_far_as_the_amplitudes_say() -> None:
         told = result.simulation if one.simulated else amplitudes[one.name]
         assert told is not None
         assert (x, y) == pytest.approx((told.x_amplitude_mm, told.y_amplitude_mm), rel=0.05 if one.simulated else 2e-3)
+
+
+def test_long_names_lose_their_middle_and_stay_inside() -> None:
+    name = "A  " + 30 * "machine " + ", after"
+    rows = [Bar(name, 1.0, "1"), Bar("B  short", 2.0, "2")]
+    page = read(bars("a", Bars("A", "told", Axis("x", 0.0, 2.0), rows)))
+    shown = next(words for tag, words in page.texts if tag == "text" and words.startswith("A  machine"))
+    assert shown.endswith("machine , after")
+    assert "…" in shown
+    assert 6.8 * len(shown) < 420
+    assert "B  short" in [words for _, words in page.texts]

@@ -43,7 +43,7 @@ def test_each_number_in_tables_is_one_of_the_document(name: str, written: Any) -
     text, document, _ = written(name)
     cells = read(text).cells
     found = [token for cell in cells for token in NUMBER.findall(cell)]
-    assert len(found) > 10
+    assert len(found) > 10 or _nothing_measured(document)
     assert _unknown(found, name, document) == []
 
 
@@ -52,9 +52,14 @@ def test_each_number_that_a_figure_tells_is_one_of_the_document(name: str, writt
     """But of motions: their samples are in no document."""
     text, document, _ = written(name)
     told = re.findall(r'<desc id="chart-([\w-]+)-d">(.*?)</desc>', text)
-    assert told or name == "compare-seats"
+    assert told or name == "compare-seats" or _nothing_measured(document)
     found = [token for which, words in told if not which.startswith(MOVING) for token in NUMBER.findall(words)]
     assert _unknown(found, name, document, rounded=True) == []
+
+
+def _nothing_measured(document: dict[str, Any]) -> bool:
+    """What a busy computer measures within a budget may be nothing."""
+    return document["abu"]["command"] == "accuracy" and not document["result"]["points"]
 
 
 def _unknown(found: list[str], name: str, document: dict[str, Any], *, rounded: bool = False) -> list[str]:

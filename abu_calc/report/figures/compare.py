@@ -10,6 +10,8 @@ from abu_calc.spec.text import is_number
 from abu_calc.studies.compare import CompareResult
 from abu_calc.studies.side_by_side import Difference
 
+SERIES: Final = {"before": 2, "worst": 3, "measured": 3}
+
 
 class _Compared(NamedTuple):
     """A figure: paths of designs with what they are called, and a check whose limit is drawn."""
@@ -25,8 +27,9 @@ class _Compared(NamedTuple):
 FIGURES: Final = (
     _Compared(
         "levels", "Levels of the machines", "velocity level, idle [dB]",
-        {"vibration.level_before_db": "before", "vibration.level_after_db": "after"},
-        "Velocity level without (square) and with (round) the autobalancer, 0 dB = 5e-8 m/s rms: lower is better.",
+        {"vibration.level_before_db": "before", "vibration.level_after_db": "after",
+         "measured_after.measured_level_db": "measured"},
+        "Velocity level without (square) and with (round) the autobalancer, lozenge: measured; 0 dB = 5e-8 m/s rms.",
         "ABU401",
     ),
     _Compared(
@@ -57,7 +60,7 @@ def _figure(result: CompareResult, one: _Compared, rows: dict[str, Difference]) 
     words = list(one.paths.values())
     bars = [
         Bar(f"{file.letter}  {file.title}{f', {words[k]}' if words[k] else ''}", value, _told(value, unit),
-            2 if words[k] == "before" else 3 if words[k] == "worst" else 1)
+            SERIES.get(words[k], 1))
         for index, file in enumerate(result.files)
         for k, path in enumerate(one.paths)
         if path in rows and is_number(value := rows[path].values[index])

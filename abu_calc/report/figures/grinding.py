@@ -10,7 +10,8 @@ from abu_calc.report.figures.figure import Extras, Figure
 from abu_calc.report.numbers import number
 from abu_calc.report.steps import STEPS
 from abu_calc.studies.grinding import GrindingResult
-from abu_calc.studies.grinding_records import AxisMotion, WearCourse
+from abu_calc.studies.grinding_records import AxisMotion
+from abu_calc.studies.grinding_wear import WearCourse
 
 WITH, WITHOUT, FIXED, MEAN = 1, 2, 3, 4
 """Series of lines."""

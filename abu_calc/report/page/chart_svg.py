@@ -105,7 +105,7 @@ def bars(name: str, chart: Bars) -> str:
             yield f'<text class="limit-name" x="{x:.1f}" y="{TOP - 6}" text-anchor="{anchor}">{text(limit[1])}</text>'
         for index, one in enumerate(chart.rows):
             y = TOP + ROW * index
-            yield f'<text x="{MARGIN}" y="{y + 13}">{text(one.name)}</text>'
+            yield f'<text x="{MARGIN}" y="{y + 13}">{text(_short(one.name))}</text>'
             yield (
                 _length(one, at(one.start), at(one.value), y + 19)
                 if axis.low <= 0
@@ -116,6 +116,12 @@ def bars(name: str, chart: Bars) -> str:
             yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
 
     return svg(name, chart, low + BELOW - 4, marks())
+
+
+def _short(name: str) -> str:
+    """One that has no room without its middle; the text alternative has it whole."""
+    most = int((WIDE - MARGIN) / LETTER)
+    return name if len(name) <= most else f"{name[: most // 2]}…{name[len(name) - most // 2 + 1 :]}"
 
 
 def _length(one: Bar, start: float, end: float, y: float) -> str:
