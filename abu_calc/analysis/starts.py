@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, Ensemble, Outcome, run_of_start
+from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, WORK, Ensemble, Outcome, run_of_start
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
@@ -52,12 +52,13 @@ def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterato
     for why, one in chosen_starts(ensemble):
         if one.work > left:
             continue
-        left -= one.work
         for tolerance in (TIGHTER * TOLERANCE, TOLERANCE) if one.confirmed else (TOLERANCE,):
             try:
                 found, scene, trajectory = run_of_start(design, one.member, accuracy, tolerance)
             except NotTrustworthyError:
+                left -= WORK
                 continue
+            left -= found.work
             if (found.hanging, found.balanced) == (one.hanging, one.balanced):
                 yield Again(why, one, scene, trajectory)
                 break
