@@ -10,13 +10,17 @@
 Statuses 0 and 1 are no errors: they tell whether every check of a result passed.
 """
 
+import re
 from dataclasses import dataclass
 from typing import ClassVar, Final
 
-from abu_calc.escapes import escaped, shortened
+from abu_calc.escapes import LONGEST_FOUND, escaped, shortened
 
 LONGEST_FILE_NAME: Final = 1000
 """Characters of it that messages show."""
+
+
+_LONG_WORD: Final = re.compile(rf"\S{{{LONGEST_FOUND + 1},}}")
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,8 @@ class InputError(AbuError):
         remedy: str | None = None,
     ) -> None:
         super().__init__(message)
-        self.message, self.place, self.allowed, self.remedy = message, place, allowed, remedy
+        self.message, self.place, self.allowed = message, place, allowed
+        self.remedy = None if remedy is None else _readable(remedy)
         self.found = None if found is None else shortened(found)
 
     def at(self, place: Place, more: str = "") -> "InputError":
@@ -74,6 +79,11 @@ class InputError(AbuError):
         facts += [f"allowed: {escaped(self.allowed)}"] if self.allowed is not None else []
         text = head + (f" ({'; '.join(facts)})" if facts else "")
         return text + (f"\n  {escaped(self.remedy)}" if self.remedy else "")
+
+
+def _readable(text: str) -> str:
+    """Advice that repeats what a file has, cut where that is long."""
+    return shortened(_LONG_WORD.sub(lambda found: shortened(found[0]), text), LONGEST_FILE_NAME)
 
 
 class RangeError(InputError):

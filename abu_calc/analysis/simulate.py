@@ -25,6 +25,10 @@ from abu_calc.scenes.from_scene import lasting
 
 ACCURACY = motion.ACCURACY
 
+WORK = 10_000_000
+"""SciPy's evaluations that a simulation may take: a minute or two of SciPy's work, a quarter of that in compiled code.
+A preset takes some ten thousand, the swing arm a hundred thousand."""
+
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but
 two runs may come near each other by chance. By 300 random scenes and both integrators: tests/studies/claims.py."""
@@ -76,7 +80,7 @@ def simulate(
     scene: Scene,
     accuracy: float = 0.01,
     sample_times: Sequence[float] | Array = (),
-    most_evaluations: int = 50_000_000,
+    most_evaluations: int = WORK,
     integrator: str = "auto",
     progress: Progress = silent,
 ) -> Simulation:

@@ -48,11 +48,11 @@ def simulate(
     ] = False,
 ) -> Outcome:
     """Integrate one scene: amplitude, level, settling time, where the balls end."""
+    from abu_calc.analysis.simulate import WORK
     from abu_calc.report.simulate_text import simulate_blocks, simulate_screen
     from abu_calc.report.trajectory import TrajectoryCsv
     from abu_calc.report.write import Target
     from abu_calc.spec.read_scene import read_any
-    from abu_calc.studies.simulate import WORK
     from abu_calc.studies.simulate import simulate as study
 
     _check_files(how, trajectory, samples)

@@ -8,7 +8,7 @@ from abu_calc.analysis.audit import Audit
 from abu_calc.analysis.audit import audit as with_all_effects
 from abu_calc.analysis.one_run import level_at, levels_at_places, loudest, one_run_checks
 from abu_calc.analysis.response import Response
-from abu_calc.analysis.simulate import ACCURACY, Simulation
+from abu_calc.analysis.simulate import ACCURACY, WORK, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
@@ -24,10 +24,6 @@ from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SimulatedLevel, SimulatedScene
 from abu_calc.studies.subject import Source, Subject, subject_of
 from abu_calc.validity import Range
-
-WORK: Final = 10_000_000
-"""SciPy's evaluations that a simulation may take: a minute or two of SciPy's work, a quarter of that in compiled code.
-A preset takes some ten thousand, the swing arm a hundred thousand."""
 
 EVALUATIONS: Final = Range("most evaluations", 1, 10**12, key="most_evaluations")
 

@@ -133,3 +133,10 @@ def test_what_is_escaped() -> None:
     assert escaped("Ø 5 µm – Жук 車\u200d") == "Ø 5 µm – Жук 車\u200d"
     assert escaped("a\nb\tc\r\x00\x7f\x85\udcff\U000e0041") == "a\\nb\\tc\\r\\x00\\x7f\\x85\\udcff\\U000e0041"
     assert escaped_lines("a\nb\x1b") == "a\nb\\x1b"
+
+
+def test_advice_that_repeats_a_long_value_is_cut(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(f'[machine]\nname = "x"\nmass_kg = "{"1" * 5000}"\n', encoding="utf-8")
+    told = abu("validate", str(file)).err
+    assert "without quotes" in told and max(map(len, told.splitlines())) < 1200

@@ -238,7 +238,12 @@ SOURCES: Final = {**{kind.name: files_of(kind) for kind in KINDS}, "command line
 """All inputs, by what is odd about them."""
 
 
+HEAVY: Final = 0.2
+"""Inputs of a kind that is computed with, for each of another."""
+
+
 def shared_out(total: int) -> dict[str, int]:
-    """How many of so many inputs each kind has: as many as any other."""
-    each, more = divmod(total, len(SOURCES))
-    return {name: each + (rank < more) for rank, name in enumerate(SOURCES) if each + (rank < more)}
+    """How many of so many inputs each kind has."""
+    shares = {name: HEAVY if name.startswith("computed") else 1.0 for name in SOURCES}
+    each = {name: int(total * share / sum(shares.values())) for name, share in shares.items()}
+    return each | {"command line": each["command line"] + total - sum(each.values())}

@@ -142,14 +142,19 @@ KINDS: Final = (
     ),
     Kind(
         "computed scene",
-        (TILTING, ARM.replace("duration_s = 12", "duration_s = 0.2"), FAST),
+        # Short: a motion that no tolerance settles is tried at all of them.
+        (
+            TILTING.replace("duration_s = 1\n", "duration_s = 0.2\n"),
+            ARM.replace("duration_s = 12", "duration_s = 0.2"),
+            FAST,
+        ),
         (
             ("simulate", FILE),
             ("simulate", FILE, "--json"),
             ("stability", FILE, "--json"),
             ("stability", FILE, "--speeds", "500:5000"),
             ("accuracy", FILE, "--budget", "0.2"),
-            ("levels", FILE),
+            ("levels", FILE, "--duration", "0.3"),
             ("effects", FILE),
             ("sweep", FILE, *TURNED),
         ),

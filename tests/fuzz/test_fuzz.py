@@ -22,7 +22,8 @@ def test_nothing_breaks_a_command(odd: str, each: int) -> None:
     def commands_end_well(data: st.DataObject) -> None:
         one = data.draw(SOURCES[odd])
         with tempfile.TemporaryDirectory() as folder:
-            assert broken(one, Path(folder)) == [], described(one)
+            # How long it took is for `python -m tests.fuzz` to tell: timings decide no test.
+            assert [fault for fault in broken(one, Path(folder)) if not fault.startswith("took")] == [], described(one)
 
     commands_end_well()
 
