@@ -25,7 +25,7 @@ def measured():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "REPEATS", 1)
         patch.setattr(module, "TOLERANCES", module.TOLERANCES[:-1])
-        return study(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
+        return study(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, quiet)
 
 
 def test_every_rung_and_integrator_is_measured(measured):
