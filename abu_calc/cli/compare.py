@@ -45,8 +45,9 @@ def compare(
     with progress(how) as tell:
         result = study(read, accuracy, tell, os.cpu_count() or 1)
     return Outcome.of(
-        result, lambda: compare_blocks(result), lambda: compare_screen(result), extras=lambda: _extras(result)
-    )
+        result, lambda: compare_blocks(result, full=how.full), lambda: compare_screen(result),
+        extras=lambda: _extras(result),
+    )  # fmt: skip
 
 
 def _extras(result: "CompareResult") -> "Extras":

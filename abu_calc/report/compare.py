@@ -25,6 +25,7 @@ FIRST: Final = (
 )  # fmt: skip
 """Of the designs on one screen, in this order; of seats their fits."""
 OF_SEATS: Final = ("fit", "interference_um", "recommended_fit")
+NOTHING: Final = "Nothing differs."
 
 
 def compare_screen(result: CompareResult) -> tuple[Block, ...]:
@@ -37,7 +38,7 @@ def compare_screen(result: CompareResult) -> tuple[Block, ...]:
     last: list[Block] = [BLANK, Paragraph(f"More: --full, every entry, alike ones too.{_why(result)}")]
     room = LINES - height([*about, *last])
     others = height([BLANK]) + 2 if _unsettled(result) or result.warnings else 0
-    tables: list[Block] = [BLANK, Paragraph("Nothing differs.")]
+    tables: list[Block] = [BLANK, Paragraph(NOTHING)]
     if result.differences:
         tables = _shared_out(result, room - others)
     below: list[Block] = [Heading("What did not pass"), *reasons(result.checks)] if _unsettled(result) else []
@@ -85,12 +86,15 @@ def _counted(further: int) -> list[Block]:
     return [Paragraph(f"And {many(further, 'more that differs', 'more that differ')}: --full.")] if further else []
 
 
-def compare_blocks(result: CompareResult) -> tuple[Block, ...]:
-    """The whole report: every entry, those marked ≠ that differ."""
-    rows, letters = (*result.differences, *result.alike), [one.letter for one in result.files]
+def compare_blocks(result: CompareResult, *, full: bool = True) -> tuple[Block, ...]:
+    """The whole report: every entry, those marked ≠ that differ; not `full`: those alone that differ."""
+    rows, letters = (*result.differences, *(result.alike if full else ())), [one.letter for one in result.files]
+    tables = tables_of(result, rows, marked=full)
+    less = [] if full else [Paragraph("Differences only; with --full every entry stands here." if rows else NOTHING)]
     return (
         *_about(result),
-        *(block for table in tables_of(result, rows, marked=True) for block in table_blocks(letters, table)),
+        *less,
+        *(block for table in tables for block in table_blocks(letters, table)),
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
         *provenance_blocks(result.provenance),

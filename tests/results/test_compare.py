@@ -84,6 +84,14 @@ def test_one_screen_has_the_differences_and_the_whole_report_all(compared: Compa
     assert len(marked) >= len([row for row in compared.differences if row.part != "check"])
 
 
+def test_files_have_the_differences_and_with_full_every_entry(tmp_path: Path) -> None:
+    short, whole = tmp_path / "short.txt", tmp_path / "whole.txt"
+    assert once(*SHAFT, "--output", str(short)).status == once(*SHAFT, "--full", "--output", str(whole)).status == 0
+    less, more = (one.read_text(encoding="utf-8") for one in (short, whole))
+    assert "bearing[0].shaft_fit" in less and "Differences only" in less and "≠" not in less
+    assert "≠ bearing[0].shaft_fit" in more and len(more.splitlines()) > 2 * len(less.splitlines())
+
+
 def test_seats_from_the_command_line(tmp_path: Path) -> None:
     document = once(*SHAFT, "--json").document
     assert document["abu"]["command"] == "compare" and len(document["result"]["files"]) == 2
