@@ -51,7 +51,7 @@ class Here(Executor):
 
 
 @dataclass
-class Workers:
+class RenewableExecutor:
     """Who computes: `make` an executor, and how many work at once; `own`: it is ours to close and to make anew.
 
     `ends`: whoever computes is a process that may be ended when it hangs, since another takes its place.
@@ -83,23 +83,23 @@ class Workers:
         self._executor = None
 
 
-def here() -> Workers:
+def here() -> RenewableExecutor:
     """This process alone."""
-    return Workers(Here)
+    return RenewableExecutor(Here)
 
 
-def processes(count: int) -> Workers:
+def processes(count: int) -> RenewableExecutor:
     """So many processes, started afresh on every system."""
 
     def pool() -> Executor:
         return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
 
-    return Workers(pool, count, ends=True)
+    return RenewableExecutor(pool, count, ends=True)
 
 
-def given(executor: Executor, count: int, *, ends: bool = False) -> Workers:
+def given(executor: Executor, count: int, *, ends: bool = False) -> RenewableExecutor:
     """Somebody else's; `ends`: of processes that their owner starts anew when they end."""
-    return Workers(lambda: executor, count, own=False, ends=ends)
+    return RenewableExecutor(lambda: executor, count, own=False, ends=ends)
 
 
 def _begin() -> None:
@@ -116,7 +116,7 @@ def _end_with_parent() -> None:
 
 
 def in_batches(
-    study: Study, members: Iterator[int], workers: Workers, take: Callable[[list[Row]], None], size: int = 1
+    study: Study, members: Iterator[int], workers: RenewableExecutor, take: Callable[[list[Row]], None], size: int = 1
 ) -> None:
     """Computes all members; `take` gets rows as they come, in any order. `size` of the first batch."""
     waiting: dict[Future[Any], tuple[int, ...]] = {}
@@ -144,7 +144,7 @@ def in_batches(
             future.cancel()
 
 
-def _submit(study: Study, batch: tuple[int, ...], workers: Workers) -> Future[Any]:
+def _submit(study: Study, batch: tuple[int, ...], workers: RenewableExecutor) -> Future[Any]:
     try:
         return workers.executor.submit(study.rows, batch, workers.ends)
     except BrokenExecutor as error:
@@ -153,7 +153,7 @@ def _submit(study: Study, batch: tuple[int, ...], workers: Workers) -> Future[An
         return broken
 
 
-def _stopped(waiting: dict[Future[Any], tuple[int, ...]], workers: Workers) -> list[tuple[int, ...]]:
+def _stopped(waiting: dict[Future[Any], tuple[int, ...]], workers: RenewableExecutor) -> list[tuple[int, ...]]:
     """Batches that a pool of ours took with it when it broke, each of which may be the reason."""
     if not workers.own:
         return []
@@ -163,7 +163,7 @@ def _stopped(waiting: dict[Future[Any], tuple[int, ...]], workers: Workers) -> l
 
 
 def _one_by_one(
-    study: Study, batches: list[tuple[int, ...]], workers: Workers, take: Callable[[list[Row]], None]
+    study: Study, batches: list[tuple[int, ...]], workers: RenewableExecutor, take: Callable[[list[Row]], None]
 ) -> None:
     """Members one after the other, so that it is seen whom it ends; that one is recorded with the reason."""
     broken = workers.own

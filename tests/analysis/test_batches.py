@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from abu_calc.analysis.batches import ENDED, Here, Row, Workers, given, here, in_batches, processes
+from abu_calc.analysis.batches import ENDED, Here, RenewableExecutor, Row, given, here, in_batches, processes
 from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.errors import NotTrustworthyError
 
@@ -31,7 +31,7 @@ class Squares:
         return (member, reason)
 
 
-def done(study: Squares, members: Iterator[int], workers: Workers) -> dict[int, object]:
+def done(study: Squares, members: Iterator[int], workers: RenewableExecutor) -> dict[int, object]:
     found: list[Row] = []
     try:
         in_batches(study, members, workers, found.extend)
@@ -42,7 +42,7 @@ def done(study: Squares, members: Iterator[int], workers: Workers) -> dict[int, 
 
 
 @pytest.mark.parametrize("make", [here, lambda: given(ThreadPoolExecutor(3), 3)], ids=["here", "threads"])
-def test_every_member_comes_once(make: Callable[[], Workers]) -> None:
+def test_every_member_comes_once(make: Callable[[], RenewableExecutor]) -> None:
     assert done(Squares(), iter(range(3000)), make()) == {k: k**2 for k in range(3000)}
 
 
@@ -77,7 +77,7 @@ def test_handing_out_stays_below_a_tenth_of_the_work(each: float, workers: int) 
             batches.append(len(members))
             return [(member, 0) for member in members], each * len(members)
 
-    in_batches(Timed(), iter(range(20_000)), Workers(Here, workers), lambda rows: None)
+    in_batches(Timed(), iter(range(20_000)), RenewableExecutor(Here, workers), lambda rows: None)
     handing = 8e-3 if each >= 0.02 else 0.5e-3
     assert sum(batches) == 20_000
     assert handing * len(batches) < 0.1 * each * 20_000
