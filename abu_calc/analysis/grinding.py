@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from abu_calc.analysis.bouncing import bounces, bouncing
+from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.machine import Failure, Run
 from abu_calc.analysis.under_load import Steady, bare, changed, contact_presses, crossing, fitted, runout_of
 from abu_calc.analysis.working import Working, seen, working
@@ -165,14 +166,16 @@ def _at_once(design: Design, free: Side, accuracy: float, progress: Progress, ha
 def _still(design: Design, loud: Side, accuracy: float, progress: Progress) -> Side:
     """The same start for as long as is simulated at most: whether it stays so loud. What it was where that fails."""
     scene = replace(scene_of_design(design, "grinding"), duration=LONGEST)
-    later = _run(loud, scene, accuracy, progress)
+    later = _run(loud, scene, accuracy, progress, WORK)
     return loud if later.failure else later
 
 
-def _run(side: Side, scene: Scene, accuracy: float, progress: Progress) -> Side:
-    """Where a bouncing motion cannot be computed, its statistics."""
+def _run(side: Side, scene: Scene, accuracy: float, progress: Progress, work: int | None = None) -> Side:
+    """Where a bouncing motion cannot be computed, its statistics: chaos is known long before all work is spent."""
+    if work is None:
+        work = WORK // 4 if bounces(scene) else WORK
     try:
-        return replace(side, run=working(scene, accuracy, progress))
+        return replace(side, run=working(scene, accuracy, progress, work))
     except NotTrustworthyError as error:
         return _by_statistics(side, scene, accuracy, str(error), progress)
 

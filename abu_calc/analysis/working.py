@@ -64,13 +64,13 @@ def only_contact(scene: Scene) -> Scene:
     return replace(scene, effects=tuple(each for each in scene.effects if isinstance(each, GrindingContact)))
 
 
-def working(scene: Scene, accuracy: float, progress: Progress = silent) -> Working:
+def working(scene: Scene, accuracy: float, progress: Progress = silent, work: int = WORK) -> Working:
     """Simulate a scene of grinding and read the last turns.
 
-    Raises NotTrustworthyError where no run reaches the accuracy within the work of `abu size`.
+    Raises NotTrustworthyError where no run reaches the accuracy within so much work, as a rule that of `abu size`.
     """
     ledger = chosen(scene, accuracy)
-    return seen(simulate(ledger.scene, accuracy - ledger.spared, (), WORK, progress=progress))
+    return seen(simulate(ledger.scene, accuracy - ledger.spared, (), work, progress=progress))
 
 
 @dataclass(frozen=True)

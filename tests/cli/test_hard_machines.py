@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.analysis import ensemble, machine
+from abu_calc.analysis import bouncing, ensemble, grinding, machine
 from abu_calc.analysis.idle import WORK
 from abu_calc.dynamics.integrators.choice import COMPILED, LOOP_WORK, PLAIN
 from tests.cli.runner import Seen, abu, once, without_extras
@@ -14,7 +14,8 @@ STRAIGHT, ARM = "avtovaz-707-222", "swing-arm-grinder"
 @pytest.fixture(params=[1_000, pytest.param(WORK, marks=pytest.mark.slow)])
 def work(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """A bound that ends sooner what would use up all of it; the real one takes minutes, with heyoka."""
-    monkeypatch.setattr(machine, "WORK", request.param)
+    for module in (machine, grinding, bouncing):
+        monkeypatch.setattr(module, "WORK", request.param)
     if request.param < WORK:
         without_extras(monkeypatch)
         monkeypatch.setattr(ensemble, "WORK", 100)
