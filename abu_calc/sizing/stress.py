@@ -52,7 +52,7 @@ def hertz_roller_in_cylinder(force: float, roller_radius: float, race_radius: fl
 
 @formula(
     "Pressure that leaves no dent",
-    "p₀ ≤ 1.6·σ_y, σ_y ≈ 3.3·HV MPa, so 5.2·HV MPa",
+    "p₀ ≤ 1.6·σ_y, σ_y ≈ 3.25·HV MPa, so 5.2·HV MPa",
     "Pa",
     where="Catalogues' static limits (4200 MPa) allow a dent that would hold the balls.",
     assumed="hardened steel",

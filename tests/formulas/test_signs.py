@@ -11,6 +11,7 @@ from abu_calc.formula import Formula, formula_of
 from abu_calc.report.result_schema import RESULTS
 from abu_calc.report.steps import STEPS
 from abu_calc.signs import conversions, in_files, signs, signs_in, told, unit_name
+from abu_calc.sizing.stress import permitted_pressure
 from abu_calc.units import SI_PER_UNIT
 from abu_calc.validity import Range
 from tests.cli.runner import abu
@@ -121,3 +122,10 @@ def test_labels_of_the_design_are_equations_that_give_its_numbers() -> None:
 
     assert quantities(Autobalancer)["optimum_drag_per_s"].symbol == "2√(Jκ_s)"
     assert quantities(AccuracyBudget)["rolling_friction_um"].symbol == "w_f/cos(γ_g/2)"
+
+
+def test_factors_of_the_permitted_pressure_multiply_to_the_one_used() -> None:
+    found = formula_of("sizing.stress:permitted_pressure")
+    share, strength, both = (float(one) for one in re.findall(r"(\d\.\d+)·", found.equation))
+    assert share * strength == pytest.approx(both)
+    assert permitted_pressure(700.0) == pytest.approx(1e6 * both * 700.0)
