@@ -37,6 +37,10 @@ class Formula:
     """Where the print of the source differs."""
     signs: str = ""
     """Those that are not in the equation, but in what is said beside it."""
+    shown: str = ""
+    """Unit in which results have it, as keys name it, where that is not the usual one of files for `unit`."""
+    own_units: bool = False
+    """The equation takes no SI: it, or what is said beside it, names its units."""
 
     @property
     def name(self) -> str:
@@ -57,11 +61,11 @@ class Formula:
     @property
     def for_users(self) -> tuple[str, ...]:
         """The same in the units of files and reports, and how to come from them to SI, which equations take."""
-        units = [unit_in_files(one) for one in self.unit.split(", ")] if self.unit else []
+        units = self.shown.split(", ") if self.shown else list(map(unit_in_files, filter(None, self.unit.split(", "))))
         unit = ", ".join(unit_name(one, si=False) for one in units)
         limits = [one if isinstance(one, str) else f"{one.name} {in_files(one)}" for one in self.checked]
         said = self._said(f" [{unit}]" if unit else "", self._ranges(limits), si=False)
-        differ = conversions((*units, *(signs()[name].unit for name in self._names)))
+        differ = "" if self.own_units else conversions((*units, *(signs()[name].unit for name in self._names)))
         place = 1 + bool(self._names)
         return (*said[:place], *([f"Equations take SI: {differ}."] if differ else ()), *said[place:])
 
@@ -99,13 +103,15 @@ REGISTERED: Final[dict[str, Formula]] = {}
 
 def formula(
     gives: str, equation: str = "", unit: str = "", *, where: str = "", checked: tuple[Range | str, ...] = (),
-    assumed: str = "", source: str = "", printed: str = "", signs: str = "",
+    assumed: str = "", source: str = "", printed: str = "", signs: str = "", shown: str = "", own_units: bool = False,
 ) -> Callable[[_Computes], _Computes]:  # fmt: skip
     """Decorates what computes a formula: registers it, and lets `help()` say it before the docstring's examples."""
 
     def registered(computes: _Computes) -> _Computes:
         key = f"{computes.__module__}:{computes.__qualname__}".removeprefix(_PACKAGE)
-        found = register(Formula(key, gives, equation, unit, where, checked, assumed, source, printed, signs))
+        found = register(
+            Formula(key, gives, equation, unit, where, checked, assumed, source, printed, signs, shown, own_units)
+        )
         computes.__doc__ = "\n\n".join(filter(None, (found.text, inspect.cleandoc(computes.__doc__ or ""))))
         return computes
 

@@ -17,7 +17,7 @@ SI_NAMES: Final = {
 """SI unit of what files have in another."""
 IN_FILES: Final = {"m": "mm", "kg m": "g_mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m/s": "mm_per_s"}
 """The other way, as numbers of results have it."""
-FUNCTIONS: Final = "sin cos tan arcsin arccos arctan lg ln exp Re Im arg min max det e^ dε dx_s π Σ ᵀ °C MPa mm"
+FUNCTIONS: Final = "sin cos tan arcsin arccos arctan lg ln exp Re Im arg min max det e^ dε ds_w dx_s π Σ ᵀ °C MPa mm"
 SHORT: Final = "at of by to so in an or and i j k"
 """Short words, the imaginary unit, running numbers."""
 WORDS: Final = frozenset(f"{FUNCTIONS} {SHORT}".split())

@@ -75,6 +75,7 @@ class Mounting:
     "Clearance that a bearing keeps",
     "initial − change of both raceways − α·(d_i+d_e)/2·ΔT",
     "m",
+    shown="um",
     where=(
         "The raceways change by the raceway change at the interference less smoothing and less what warmth takes "
         "from the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the "

@@ -16,6 +16,7 @@ SHOCK_FACTOR: Final = 1.8
     "Load intensity of a seat",
     "P_R = k₁·k₂·k₃·F_r/b_s",
     "N/m",
+    shown="kN_per_m",
     where=("Unverified advice."),
     checked=(SEAT_LENGTH,),
     source="handbooks as quoted by Afanasiev 2015",

@@ -24,6 +24,7 @@ class Interval(NamedTuple):
     "Interference between the extreme sizes",
     "ei − ES … es − EI",
     "m",
+    shown="um",
     assumed="limits about one nominal size",
     source="ISO 286-1:2010",
 )
@@ -39,6 +40,7 @@ def theoretical_interference(male: Limits, female: Limits) -> Interval:
     "Interference to expect",
     "mean ∓ √((T₁/2)² + (T₂/2)²), rounded outward to whole micrometres",
     "m",
+    shown="um",
     assumed="independent parts, fields centred",
     source="the bearing makers' tables of probable interference",
 )

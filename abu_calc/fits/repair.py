@@ -25,6 +25,7 @@ class Repair(NamedTuple):
     "What a measured seat has left, and what a repair must restore",
     "measured interference − losses; gap = −(least interference)",
     "m",
+    shown="um",
     where=(
         "A sleeve or sprayed metal is finished to the limits of the field to restore. A bond fills the largest gap of "
         "the loosest pair. The next size is the neighbour of the series: the next smaller bore of a shaft turned down, "

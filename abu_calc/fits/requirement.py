@@ -20,6 +20,7 @@ SERIES_FACTORS: Final[dict[Series, float]] = {"light": 2.8, "medium": 2.3, "heav
     checked=(RADIAL_LOAD, SEAT_LENGTH),
     source="Afanasiev 2015",
     printed="13·F_r·k_B/(10⁶·b_s) with F_r in kN and b_s in m, which gives millimetres, labelled µm",
+    own_units=True,
 )
 def creep_interference(load: float, seat_length: float, factor: float) -> float:
     """
@@ -33,13 +34,14 @@ def creep_interference(load: float, seat_length: float, factor: float) -> float:
     "Interference that a radial load takes from a seat",
     "0.08·√(d·F_r/B)",
     "µm",
-    where="In µm, with F_r in N; computed in SI.",
+    where="In µm, with F_r in N, d and B in one unit; computed in SI.",
     checked=(RADIAL_LOAD, SEAT_DIAMETER, SEAT_LENGTH),
     assumed=(
         "F_r up to a quarter of the static load rating (catalogues go over to 0.02·F_r/B beyond), inner rings on solid "
         "shafts; used alike for outer rings"
     ),
     source="bearing makers' catalogues",
+    own_units=True,
 )
 def load_loss(load: float, diameter: float, width: float) -> float:
     """
@@ -53,6 +55,7 @@ def load_loss(load: float, diameter: float, width: float) -> float:
     "Interference lost by the smoothing of one surface",
     "0.4·Rz",
     "m",
+    shown="um",
     checked=(ROUGHNESS,),
     assumed="turned or ground steel",
     source="DIN 7190-1:2017",
@@ -69,12 +72,14 @@ def smoothing_loss(roughness: float) -> float:
     "Interference lost by smoothing as catalogues take it, beside the smoothing loss",
     "δ·2/(d + 2), d in mm",
     "m",
+    shown="um",
     where=(
         "They leave d/(d + 2) of the apparent interference of a ground shaft, d/(d + 3) of a turned one. A clearance "
         "loses nothing; unverified, never counted."
     ),
     checked=(SEAT_DIAMETER,),
     source="bearing makers' catalogues",
+    own_units=True,
 )
 def catalogue_smoothing_loss(interference: float, diameter: float) -> float:
     """
@@ -88,6 +93,7 @@ def catalogue_smoothing_loss(interference: float, diameter: float) -> float:
     "Interference that warmth takes from a seat",
     "d·(α₂·ΔT₂ − α₁·ΔT₁)",
     "m",
+    shown="um",
     where=(
         "Of equal α it is α·d·ΔT of the difference. Negative where the seat grows tighter. Where only the bearing's "
         "excess over its surroundings is known, catalogues take an eighth of it for the inner ring's over its shaft "
@@ -110,6 +116,7 @@ def temperature_loss(diameter: float, around: tuple[float, float], inside: tuple
     "Interference lost because the spinning ring grows more than its shaft",
     "(3+ν)·ρ·Ω²·d·(d₁² − d₀²)/(16·E)",
     "m",
+    shown="um",
     where=(
         "ρ, E and ν of the material of both. The difference of the free growths of two annular discs at their common "
         "diameter: the terms (1−ν) of both cancel."

@@ -87,6 +87,7 @@ def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: T
     "Change of the diameter of a ring's raceway under the pressure of its seat",
     "2·p·q·d/[(1−q²)·E]",
     "m",
+    shown="um",
     signs="δ",
     where=(
         "An inner ring grows outside, an outer one shrinks inside, by the same formula. On a solid shaft of the "

@@ -10,6 +10,7 @@ from abu_calc.formula import formula
     "Largest axis displacement at which dry rolling friction can hold every ball where it is",
     "(k_r·R_p/r)/cos(γ_g/2)",
     "m",
+    shown="um",
     signs="w θ",
     where=(
         "|Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| is at most that; γ_g is taken modulo 180°. For two balls "

@@ -109,7 +109,7 @@ def stiffness_regions(dynamic_stiffness: tuple[complex, complex]) -> tuple[float
     "Change of the runout per depth that is worn off on average",
     "dε/ds_w = −Re(F_H e^{−iφ_ε})/N₀",
     "1",
-    signs="D_x D_y",
+    signs="ε s_w D_x D_y",
     where=(
         "F_H is D_y·ε + Ω²U at a rigid contact, with free balls ε·(D_x + D_y)/(1 + i·s·f + q_n(D_x + D_y)). What is "
         "worn off one side is missing there: it changes the imbalance by dε times the wheel's mass as a disc. "
@@ -150,6 +150,7 @@ def largest_factor(slope: complex, offset: complex, limit: float) -> float | Non
     "Axis without autobalancer at a rigid contact, well above the suspension",
     "|m₀e(1 + i·s·f)/M − i·s·f·ε·e^{iφ_ε}|",
     "m",
+    shown="um",
     where=(
         "Amplitude along the work against φ_ε; largest at φ_ε = s(90° + arctan f). Its square is a limaçon of Pascal."
     ),

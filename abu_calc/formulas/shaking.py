@@ -9,6 +9,7 @@ from abu_calc.formula import formula
     "Amplitude of a shaking beyond which balls roll in spite of dry friction",
     "a_s > k_r·R_p/r",
     "m",
+    shown="um",
     where=(
         "Across the race, of the axial runout by which a face wheel moves the machine, or along it, of the backward "
         "whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."

@@ -82,6 +82,7 @@ def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float
     "Natural frequency of the mass on the suspension",
     "√(c/M)",
     "rad/s",
+    shown="hz",
     signs="D_x",
     where=(
         "For springs. For hands the highest frequency at which Re D_x = 0 (bracketed from 1000 Hz down in steps of 1 "

@@ -71,6 +71,7 @@ def support_damping(roll: RollOnRig) -> tuple[float, float]:
     "Natural frequencies of roll and supports",
     "det(C_jk − ω²·M_jk) = 0",
     "rad/s",
+    shown="hz",
     where="Undamped.",
     source="Lagrange's equations",
 )
@@ -90,6 +91,7 @@ def natural_frequencies(roll: RollOnRig) -> tuple[float, float]:
     "What the supports' motions are worth as forces and moments about the centre of mass",
     "k₁₁ = −M_roll(l₃+l₄)/L_s − M_L + C_L/Ω², k₁₂ = −M_roll(l₁+l₂)/L_s − M_R + C_R/Ω²",
     "kg, kg m",
+    shown="kg, kg·m",
     signs="k₂₁ k₂₂ J_roll C_j h_j",
     where=(
         "k₂₁ = −J_roll/L_s − M_L(l₁+l₂) + C_L(l₁+l₂)/Ω², k₂₂ = J_roll/L_s + M_R(l₃+l₄) − C_R(l₃+l₄)/Ω²; with damping "
@@ -154,8 +156,9 @@ def influence(roll: RollOnRig, speed: float) -> Matrix:
 
 @formula(
     "Displacement of a reading",
-    "X_j = A_j·e^{−iψ_j}, of a velocity /(iΩ), of an acceleration /(−Ω²)",
+    "X_j = A_j·e^{−iψ_j}, of velocities /(iΩ), of accelerations /(−Ω²)",
     "m",
+    shown="um",
     where="ψ_j is the phase of A_j·cos(Ωt − ψ_j).",
     source="differentiation",
     printed=(
@@ -180,6 +183,7 @@ ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
     "The same as printed: readings as they stand, arctan of a quotient",
     "φ_1 = arctan((D2·l₃ + D4)/(D1·l₃ + D3)), m_1 = (D1·l₃ + D3)/(R_1·(l₂+l₃)·cos φ_1)",
     "rad, kg",
+    shown="deg, g",
     where=("Plane 2 with l₂ and minus. For comparison: reports show where it points."),
     source="Didukh 2010, (3)–(6)",
     printed="as here; what is wrong with it stands at the two formulas before",

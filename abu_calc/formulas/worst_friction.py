@@ -46,6 +46,7 @@ class _Split:
     "Largest displacement at which dry rolling friction can hold the balls in any arrangement",
     "largest w ≥ w_f with u_min(w) ≤ U/(m·R_p) ≤ u_max(w)",
     "m",
+    shown="um",
     signs="G",
     where=(
         "At the displacement w each ball rests within arcsin(w_f/w) of the displacement's direction or of the "

@@ -87,13 +87,16 @@ def _numbers(result: SimulateResult) -> Grid:
     """Amplitude, levels, settling, error, each with its limit."""
     limits = {check.code: limit_in_file(check) for check in result.checks}
     bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {one.name}" for one in result.handles or ()]
+    before = value_of(result, "unbalanced_amplitude_mm")
     rows = (
-        ("axis amplitude", value_of(result, "unbalanced_amplitude_mm"), value_of(result, "axis_amplitude_mm"), ""),
+        ("axis amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
         *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
         *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
         (*_settling(result), limits.get("ABU702", "")),
         ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),
     )  # fmt: skip
+    if _pressed(result):
+        return Grid(("", "with balls", "limit"), tuple((name, *others) for name, _, *others in rows), frozenset({1}))
     return Grid(("", "without balls", "with", "limit"), rows, frozenset({1, 2}))
 
 
@@ -118,7 +121,13 @@ def _sentence(result: SimulateResult) -> str:
     settled = result.settling_time_s is not None
     when = f"settled in {value_of(result, 'settling_time_s')}" if settled else "not settled by the end"
     before, after = (value_of(result, name) for name in ("unbalanced_amplitude_mm", "axis_amplitude_mm"))
-    return f"The axis moves {after} in the end, {before} without balls; {when}."
+    bare = "without balls and off the work" if _pressed(result) else "without balls"
+    return f"The axis moves {after} in the end, {before} {bare}; {when}."
+
+
+def _pressed(result: SimulateResult) -> bool:
+    """Whether a wheel is pressed to its work: the amplitude without balls is of the imbalance alone, off the work."""
+    return any(each.name == "grinding_contact" and each.included for each in result.effects)
 
 
 def _levels(result: SimulateResult) -> list[tuple[str, str, str]]:

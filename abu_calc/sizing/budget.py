@@ -86,6 +86,7 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
     "Displacement 0–peak at the wheel that keeps every handle within the limit",
     "√2·v/Ω, background taken off",
     "m",
+    shown="um",
     where=("v is the limit; divided by the largest motion of a handle per motion of the wheel."),
     source="Kladiev 1996 (limit)",
 )
@@ -151,6 +152,7 @@ def judged_speeds(case: Case) -> tuple[float, ...]:
     "Displacement that two lobes of the race can leave",
     "n_k·a_k, n_k = 2",
     "m",
+    shown="um",
     where=("A ball rests where its race slopes no more than the displacement pulls: n_k lobes slope by n_k·a_k/R_p."),
     source="derived",
 )
@@ -162,6 +164,7 @@ def oval_rest(lobes: float) -> float:
     "Displacement that rests at the wheel when balls in another plane have stilled the race",
     "U·(1/M + a_w²/J_c) − V·(1/M + a_w·a_r/J_c), V = U·(plane ratio)",
     "m",
+    shown="um",
     assumed="rigid body well above its suspension",
     source="derived",
 )
@@ -174,9 +177,9 @@ def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
 
 @formula(
     "Velocity level of a displacement at a speed",
-    "v = w·Ω/√2, a background added as energy",
+    "v = w·Ω/√2",
     "dB",
-    where="A place at rest is given the floor of 0 dB.",
+    where="A background is added as energy. A place at rest is given the floor of 0 dB.",
 )
 def displacement_level(displacement: float, speed: float, background: float | None = None) -> float:
     """

@@ -37,6 +37,7 @@ class Readings:
     "What instruments show of a velocity at the spindle's frequency",
     "s_v = v/Ω, a = Ω·v, a_h = W_h(Ω)·a, a_hv = √2·a_h",
     "m, m/s², m/s², m/s²",
+    shown="um, m/s², m/s², m/s²",
     where=("√2 as one spinning imbalance moves two axes alike and the third, along the spindle, hardly."),
     assumed="one harmonic at Ω; two axes alike",
     source="ISO 5349-1:2001 for W_h; the harmonic is ours",

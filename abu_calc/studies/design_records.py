@@ -98,7 +98,7 @@ class Autobalancer(Record):
     ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
     contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3)]
-    optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ)", 3)]
+    optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ_s)", 3)]
     slowest_decay_per_s: Annotated[float, Quantity("slowest decay of the balls' way", "", 3, "at the drag given")]
     carry_over_rpm: Annotated[float, Quantity("least speed that carries balls over", "√(g/R_p)", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
@@ -148,7 +148,7 @@ class AccuracyBudget(Record):
 
     race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
     speed_rpm: Annotated[float, Quantity("at its worst speed", "Ω", 6)]
-    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fan)", "k_r·R_p/r", 3)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fan)", "w_f/cos(γ_g/2)", 3)]
     rolling_friction_worst_um: Annotated[
         float | None, Quantity("dry friction, worst", "", 3, "at the worst arrangement of the balls")
     ]

@@ -30,7 +30,7 @@ class WearStage(Record):
     runout_mm: Annotated[float, Quantity("runout", "ε")]
     runout_angle_deg: Annotated[float, Quantity("runout from the first imbalance", "φ₀")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance of the wheel", "m₀e")]
-    variable_force_N: Annotated[float, Quantity("variable force", "|H|")]
+    variable_force_N: Annotated[float, Quantity("variable force", "|F_H|")]
 
     @classmethod
     def of(cls, stage: Stage, pace: float | None) -> Self:
@@ -53,7 +53,7 @@ class WearCourse(Record):
     runout_rate: Annotated[
         float, Quantity("change of the runout per depth worn off", "dε/ds", 4, "as if wheel and work never parted")
     ]
-    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|H|")]
+    pressure_amplitude_N: Annotated[float, Quantity("variable force round the wheel", "|F_H|")]
     hardest_at_deg: Annotated[float | None, Quantity("pressed hardest, from the high spot")]
     ends: Annotated[str | None, Quantity("what comes first", "", 4, "halved, limit, parted, settled or worn out")]
     depth_um: Annotated[float | None, Quantity("worn off until then")]

@@ -135,6 +135,13 @@ def test_nothing_judged_is_no_pass(tmp_path: Path) -> None:
     assert "PASS" in once("simulate", "avtovaz-707-222").out.splitlines()[1]
 
 
+def test_amplitude_without_balls_is_told_to_be_off_the_work() -> None:
+    """It is of the imbalance alone; that of the wheel pressed, 41.5 µm by `abu grinding`, is another."""
+    seen = " ".join(once("simulate", "avtovaz-707-222", "--scene", "grinding").out.split())
+    assert "0.0402 mm without balls and off the work;" in seen and seen.count("without balls") == 1
+    assert "off the work" not in once("simulate", "avtovaz-707-222").out
+
+
 def test_settling_after_a_run_up_is_shown_as_it_is_judged() -> None:
     seen = once("simulate", "msh-230", "--scene", "run-up", "--set", "run_up.time_s=1.5")
     (line,) = [line for line in seen.out.splitlines() if "from full speed" in line]

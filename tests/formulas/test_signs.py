@@ -11,6 +11,7 @@ from abu_calc.formula import Formula, formula_of
 from abu_calc.report.result_schema import RESULTS
 from abu_calc.report.steps import STEPS
 from abu_calc.signs import conversions, in_files, signs, signs_in, told, unit_name
+from abu_calc.sizing.stress import permitted_pressure
 from abu_calc.units import SI_PER_UNIT
 from abu_calc.validity import Range
 from tests.cli.runner import abu
@@ -88,3 +89,43 @@ def test_units_are_those_of_files_or_of_si() -> None:
     shown = formula_of("formulas.ball_ring:capacity").for_users
     assert helped[0].endswith("[kg m].") and shown[0].endswith("[g·mm].")
     assert shown[2] == "Equations take SI: 1 g·mm = 1e-6 kg m, 1 g = 0.001 kg, 1 mm = 0.001 m, 1 ° = 0.01745 rad."
+
+
+@pytest.mark.parametrize("one", FORMULAS, ids=lambda one: one.key)
+def test_words_and_differentials_are_no_signs(one: Formula) -> None:
+    """An article before a word, "as" and the d of a derivative: "a" is an acceleration, "s" and "d" have meanings."""
+    assert not re.search(r"\b(a [a-z]{3,}|as [a-z])", one.equation)
+    assert "d" not in signs_in(one.equation)[0] or not re.search(r"\bd[a-zε][_/]", one.equation)
+
+
+def test_results_in_micrometres_hertz_and_kilonewtons_are_explained_in_them() -> None:
+    """As the keys of the JSON name them: residuals, interferences and losses in µm, natural frequencies in Hz."""
+    shown = {one.name: one.for_users[0] for one in FORMULAS}
+    for name in ("friction band", "permitted displacement", "probable interference", "clearance left"):
+        assert shown[name].endswith("[µm].")
+    assert shown["natural frequency"].endswith("[Hz].") and shown["natural frequencies"].endswith("[Hz].")
+    assert shown["load intensity"].endswith("[kN/m].") and shown["printed answer"].endswith("[°, g].")
+    assert "1 µm = 1e-6 m" in formula_of("formulas.friction_band:friction_band").for_users[2]
+    assert formula_of("formulas.friction_band:friction_band").paragraphs[0].endswith("[m].")
+
+
+def test_no_equation_with_units_of_its_own_says_that_it_takes_si() -> None:
+    """13·F_r·k_B/b_s gives µm by kN and mm; in SI it would be 1e12 times too much."""
+    for name in ("creep_interference", "load_loss", "catalogue_smoothing_loss"):
+        assert "Equations take SI" not in " ".join(formula_of(f"fits.requirement:{name}").for_users)
+
+
+def test_labels_of_the_design_are_equations_that_give_its_numbers() -> None:
+    """Of the drag κ_s, not κ, which gives 72 1/s where 92 stands; of the fan w_f over the cosine, not w_f alone."""
+    from abu_calc.studies.design_records import AccuracyBudget, Autobalancer
+    from abu_calc.studies.quantity import quantities
+
+    assert quantities(Autobalancer)["optimum_drag_per_s"].symbol == "2√(Jκ_s)"
+    assert quantities(AccuracyBudget)["rolling_friction_um"].symbol == "w_f/cos(γ_g/2)"
+
+
+def test_factors_of_the_permitted_pressure_multiply_to_the_one_used() -> None:
+    found = formula_of("sizing.stress:permitted_pressure")
+    share, strength, both = (float(one) for one in re.findall(r"(\d\.\d+)·", found.equation))
+    assert share * strength == pytest.approx(both)
+    assert permitted_pressure(700.0) == pytest.approx(1e6 * both * 700.0)

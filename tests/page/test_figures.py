@@ -5,6 +5,8 @@ import re
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,11 +17,13 @@ from abu_calc.errors import InputError, OutputError
 from abu_calc.report.drawing.shapes import Drawing
 from abu_calc.report.figures.chart import Axis, Bar, Bars, Cells, Line, Plot, Point
 from abu_calc.report.figures.figure import Figure
+from abu_calc.report.figures.motion import caught, settling
 from abu_calc.report.figures.names import KNOWN, known
 from abu_calc.report.figures.of_result import figures_of
 from abu_calc.report.plotting.draw import figure_file
 from abu_calc.report.plotting.style import colors
 from abu_calc.studies.result import Result
+from abu_calc.studies.rotor_view import RotorView
 from tests.cli.runner import abu
 from tests.page.sized import sized
 
@@ -139,6 +143,16 @@ def test_run_up_ends_at_full_speed_with_little_left() -> None:
     assert speed[max(speed)] == pytest.approx(100, abs=0.1)
     assert left[max(left)] < 30 < left[min(left)]
     assert shown.legend[0].name == "speed, of 5800 rpm"
+
+
+def test_large_imbalances_are_written_as_tables_have_them() -> None:
+    """Without powers of ten, which a legend gave beyond 999 g·mm."""
+    view = SimpleNamespace(t_s=np.array([0.0, 1.0]), residual_g_mm=np.array([1135.91, 12.0]))
+    shown = caught(cast(RotorView, view), np.array([100.0, 5800.0]))
+    assert [one.name for one in shown.legend] == ["speed, of 5800 rpm", "imbalance left, of 1136 g·mm"]
+    rest = settling(cast(RotorView, view), 12345.6)
+    assert rest.told == "From 1136 g·mm at the start to 12.00 g·mm at 1 s"
+    assert rest.limit is not None and rest.limit[1] == "permitted 12350 g·mm"
 
 
 def test_motion_stands_still_as_the_angles_of_the_balls() -> None:

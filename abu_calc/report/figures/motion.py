@@ -1,10 +1,11 @@
 """The balls on their way from start to rest, and imbalance, level and speed meanwhile."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from abu_calc.report.figures.chart import Axis, Line, Plot, Point, db
+from abu_calc.report.numbers import number
 
 if TYPE_CHECKING:
     from abu_calc.studies.rotor_view import Array, RotorView
@@ -37,8 +38,8 @@ class Motion(NamedTuple):
 
 def settling(view: "RotorView", limit: float | None) -> Plot:
     """Imbalance left against time."""
-    bound = None if limit is None else (limit, f"permitted {limit:.4g} g·mm")
-    course, told = _course(view, view.residual_g_mm, "{:.3g} g·mm")
+    bound = None if limit is None else (limit, f"permitted {_g_mm(limit)}")
+    course, told = _course(view, view.residual_g_mm, _g_mm)
     up = Axis.around("imbalance left [g·mm]", [*(rest for _, rest in course), limit or 0.0], zero=True)
     return Plot("Imbalance left against time", told, _time(view), up, (Line(course),), (), bound)
 
@@ -46,7 +47,7 @@ def settling(view: "RotorView", limit: float | None) -> Plot:
 def level(view: "RotorView", limit: float | None, measured: float | None = None) -> Plot:
     """Level against time, and what was measured in the end."""
     bound = None if limit is None else (limit, f"limit {db(limit)}")
-    course, told = _course(view, view.level_db, "{:.1f} dB")
+    course, told = _course(view, view.level_db, db)
     up = Axis.around(
         "velocity level [dB]", [*(one for _, one in course), *(one for one in (limit, measured) if one is not None)]
     )
@@ -78,18 +79,18 @@ def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Li
 
 def caught(view: "RotorView", speed: "Array") -> Plot:
     """Speed of the rotor and imbalance left against time, both of their largest."""
-    courses = ((speed, "speed", "{:.0f} rpm"), (view.residual_g_mm, "imbalance left", "{:.3g} g·mm"))
+    courses = ((speed, "speed", _rpm), (view.residual_g_mm, "imbalance left", _g_mm))
     lines, told = [], []
     for series, (values, name, form) in enumerate(courses, 1):
         most = float(values.max()) or 1.0
-        lines.append(Line(_course(view, 100 * values / most, form)[0], f"{name}, of {form.format(most)}", series))
+        lines.append(Line(_course(view, 100 * values / most, form)[0], f"{name}, of {form(most)}", series))
         told.append(f"{name}: {_course(view, values, form)[1]}")
     return Plot("Run-up", "; ".join(told), _time(view), Axis("share of the largest [%]", 0.0, 105.0), lines)
 
 
 def run_up(view: "RotorView", speed: "Array") -> Plot:
     """Speed of the rotor against time."""
-    course, told = _course(view, speed, "{:.0f} rpm")
+    course, told = _course(view, speed, _rpm)
     up = Axis.around("speed of the rotor [rpm]", (one for _, one in course), zero=True)
     return Plot("Run-up", told, _time(view), up, (Line(course),))
 
@@ -98,8 +99,16 @@ def _time(view: "RotorView") -> Axis:
     return Axis("time [s]", 0.0, float(view.t_s[-1]))
 
 
-def _course(view: "RotorView", values: "Array", form: str) -> tuple[list[tuple[float, float]], str]:
+def _g_mm(value: float) -> str:
+    return f"{number(value)} g·mm"
+
+
+def _rpm(value: float) -> str:
+    return f"{value:.0f} rpm"
+
+
+def _course(view: "RotorView", values: "Array", form: Callable[[float], str]) -> tuple[list[tuple[float, float]], str]:
     """Points, and how it begins and ends in words."""
     course = list(zip(view.t_s.tolist(), values.tolist(), strict=True))
-    first, last = (form.format(value) for value in (course[0][1], course[-1][1]))
+    first, last = (form(value) for value in (course[0][1], course[-1][1]))
     return course, f"From {first} at the start to {last} at {course[-1][0]:.3g} s"

@@ -28,7 +28,8 @@ KNOWN: Final[dict[str, tuple[Known, ...]]] = {
     "size": (
         Known("section", "", True), Known("face", "", True),
         Known("arm", "the machine has a [swing_arm]", True), Known("seats-N", "the machine has such a bearing", True),
-        Known("levels", "a level is known at a place"), Known("speeds", "the machine has a range of speeds"),
+        Known("levels", "a level is known at a place"),
+        Known("speeds", "the machine has a range of speeds at which balls balance"),
         Known("budget", "something keeps the balls from balancing to nothing"), Known("motion", SETTLES),
         Known("settling", SETTLES), Known("level", SETTLES),
         Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
