@@ -32,7 +32,7 @@ class Early:
     """Where a run of a scene, at full speed from a time [s] on, may end.
 
     `decided(response, creep, rise)`: whether a response can be judged where what is left may change by `creep` [kg m]
-    and the level rise [dB], both at the pace of late.
+    and the level rise [dB], both at the pace of late. Its settling time is the latest that this leaves.
     """
 
     scene: Scene
@@ -52,21 +52,21 @@ class Early:
         times = np.unique(np.concatenate([needed_times(self.scene), *windows]))
         return Sampling(times, until=Until(self.looks, self.enough))
 
-    def response(self, samples: Samples) -> Response:
-        """Of a run that ended where it might."""
+    def response(self, samples: Samples, creep: float = 0.0) -> Response:
+        """Of a run that ended where it might, settled where what is left may yet go down by `creep` [kg m]."""
         end = float(samples.t[-1])
         if end == self.scene.duration:
-            return evaluate(self.scene, samples)
+            return evaluate(self.scene, samples, creep=creep)
         course = Course(self.scene)
         course(samples)
-        return evaluate(replace(self.scene, duration=end), samples, course.until(end))
+        return evaluate(replace(self.scene, duration=end), samples, course.until(end), creep)
 
     def enough(self, samples: Samples) -> bool:
         """Whether nothing will change what is judged."""
         creep, rise = self.moving(samples)
         if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
             return False
-        return self.decided(self.response(samples), creep, self.rising(samples))
+        return self.decided(self.response(samples, creep), creep, self.rising(samples))
 
     def rising(self, samples: Samples) -> float:
         """By how much [dB] the level may rise until the run's time is over; 0 where it is."""

@@ -203,10 +203,15 @@ def _most(design: Design, work: int) -> int:
 def _decided(
     design: Design, member: Member, scene: Scene, response: Response, creep: float, rise: float
 ) -> bool:  # fmt: skip
-    """Whether a start balances well, what may still change counted in: else it is followed to the end."""
-    one = outcome_of(design, member, scene, response)
-    at_rest = balances(one.imbalance + creep, one.allowed, one.slip)
-    return at_rest and math.isfinite(one.time) and one.level + rise <= design.case.level_limit - MARGIN
+    """Whether a start balances well and soon, what may still change counted in: else it is followed to the end.
+
+    The level follows what is left: where that is little, a small creep is many decibels.
+    """
+    one, limits = outcome_of(design, member, scene, response), design.case.table.limits
+    if not balances(one.imbalance + creep, one.allowed, one.slip) or one.time > limits.settling_time_s:
+        return False
+    louder = max(rise, 20 * math.log10(1 + creep / one.imbalance)) if one.imbalance else math.inf
+    return one.level + louder <= design.case.level_limit - MARGIN
 
 
 def _found(

@@ -110,8 +110,9 @@ def beginning(scene: Scene) -> Array:
     return settling_times(scene)[:BEGINNING]
 
 
-def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) -> Response:
-    """The results of a run that was sampled at least at `needed_times`.
+def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, creep: float = 0.0) -> Response:
+    """The results of a run that was sampled at least at `needed_times`; settled where what is left may yet go down by
+    `creep` [kg m].
 
     Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
     NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
@@ -135,7 +136,7 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None) ->
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(course.times, residuals, settled + SETTLED * reference_imbalance(scene)),
+        settling_time=settling_time(course.times, residuals, settled - creep + SETTLED * reference_imbalance(scene)),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,

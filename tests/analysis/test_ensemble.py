@@ -319,3 +319,20 @@ def test_a_start_that_rests_ends_early() -> None:
         strict = replace(found, case=replace(found.case, level_limit=whole.level + 0.5))
         followed = start_once(strict, member, 0.01, TOLERANCE, WORK, True)
         assert (followed.work, followed.level) == pytest.approx((whole.work, whole.level), rel=0.01)  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(
+    "name, member",
+    [("msh-230", Member("bunched", 45.0, 1.0, 0.0)), ("swing-arm-grinder", Member("spread", 15.0))],
+)
+def test_a_start_near_a_limit_does_not_end_early(name: str, member: Member) -> None:
+    """What creeps on makes it louder, and what it settles to is less: a run that ends early must not be the easier."""
+    found = design(name)
+    whole = start_once(found, member, 0.01, TOLERANCE, WORK, False)
+    assert isinstance(whole, Outcome)
+    limits = found.case.table.limits.model_copy(update={"settling_time_s": 0.95 * whole.time})
+    table = found.case.table.model_copy(update={"limits": limits})
+    late = start_once(replace(found, case=replace(found.case, table=table)), member, 0.01, TOLERANCE)
+    loud = start_once(replace(found, case=replace(found.case, level_limit=whole.level - 0.2)), member, 0.01, TOLERANCE)
+    assert isinstance(late, Outcome) and late.time > limits.settling_time_s
+    assert isinstance(loud, Outcome) and loud.level > whole.level - 0.2
