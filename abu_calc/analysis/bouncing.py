@@ -29,6 +29,8 @@ COPIES: Final = 4
 FURTHER: Final = 1e-3, 1e-6
 """Balls [rad] and axis [m]: chaos makes another run of less."""
 SECONDS: Final = 6.0
+TURNS: Final = 30
+"""At least: a rotor so slow that this takes longer is followed for longer, as far as the work goes."""
 DROPPED: Final = 1 / 3
 """Of a run, in which the balls find their places."""
 TOLERANCES: Final = 2e-6, 2e-5
@@ -75,7 +77,7 @@ def bouncing(scene: Scene, accuracy: float, progress: Progress = silent) -> Work
 
 def _copies(scene: Scene) -> Iterator[Scene]:
     """The same scene for whole turns, started a little further each."""
-    whole = round(SECONDS / scene.revolution) * scene.revolution
+    whole = max(round(SECONDS / scene.revolution), TURNS) * scene.revolution
     ahead, aside = FURTHER
     for number in range(COPIES):
         races = tuple(

@@ -282,7 +282,9 @@ class GrindingContact(Effect):
         give = 1 / self.contact_stiffness if self.contact == "compliant" else 0.0
         surface = -1j * cmath.rect(self.runout, self.runout_angle)
         changed = moved(scene, self.plane_offset, self.drag, surface, give, self.press_force)
-        return Weight(changed / weighing_amplitude(scene), f"holds the axis, and runout drives it; {braking}")
+        why, least = f"holds the axis, and runout drives it; {braking}", weighing_amplitude(scene)
+        # A wheel without imbalance or balls has no amplitude to weigh against.
+        return Weight(changed / least if least else None, why)
 
     def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """On the constraint of a rigid contact, h = h' = 0, by the shortest way."""
