@@ -120,7 +120,7 @@ def clock(seconds: float) -> str:
     """A time as people read it.
 
     >>> clock(7.4), clock(80), clock(4000)
-    ('7 s', '1:20 min', '1:07 h')
+    ('7 s', '1:20 min', '1:06 h')
     """
     whole = round(seconds)
     if whole < 60:

@@ -29,9 +29,9 @@ import numpy as np
 
 from abu_calc.dynamics.circumstances import Circumstances
 from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
-from abu_calc.dynamics.effects.pressed import BRAKES, DRIVEN, PARTING, moved, pulls, stopped
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.supports.pressed import BRAKES, DRIVEN, PARTING, moved, pulls, stopped
 from abu_calc.dynamics.supports.receptance import weighing_amplitude
 from abu_calc.dynamics.switching.cutting import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
 from abu_calc.dynamics.trajectory import Samples
