@@ -13,7 +13,14 @@ from typing import Any
 from tests.house.structure import ROOT
 
 NEWCOMERS = Path(__file__).parent
-COPIED = ("abu_calc", "tests/dynamics", "tests/__init__.py", "tests/conftest.py", "pyproject.toml")
+COPIED = (
+    "abu_calc",
+    "tests/dynamics",
+    "tests/__init__.py",
+    "tests/conftest.py",
+    "tests/remembered.py",
+    "pyproject.toml",
+)
 
 
 @dataclass(frozen=True)
