@@ -2,6 +2,7 @@
 
 import math
 import re
+import tomllib
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -24,9 +25,6 @@ WORDS: Final = frozenset(f"{FUNCTIONS} {SHORT}".split())
 """What is no sign."""
 
 
-ENTRY: Final = re.compile(r'^"([^"]+)" = \["([^"]+)"(?:, "([^"]+)")?\]$', re.MULTILINE)
-
-
 class Sign(NamedTuple):
     """What a sign means, and its unit: as keys of files name it, or as it is printed."""
 
@@ -36,9 +34,9 @@ class Sign(NamedTuple):
 
 @cache
 def signs() -> dict[str, Sign]:
-    """All of them. Read line by line: a reader of TOML takes as long as the rest of a command's formulas."""
+    """All of them."""
     text = Path(__file__).with_name("signs.toml").read_text(encoding="utf-8")
-    return {name: Sign(meaning, unit) for name, meaning, unit in ENTRY.findall(text)}
+    return {name: Sign(*entry) for name, entry in tomllib.loads(text).items()}
 
 
 @cache
