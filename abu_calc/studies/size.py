@@ -103,8 +103,8 @@ def size(
         sized = size_design(tables)
         with _side_by_side(workers) as side_by_side:
             tried = proven(sized, accuracy=accuracy, progress=progress, workers=side_by_side)
-        design = tried.design
-        runs, failures = simulated(design, accuracy, progress)
+            design = tried.design
+            runs, failures = simulated(design, accuracy, progress, workers=side_by_side)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         region = true_region(design)
     arm, moved = _arm(design, failures, accuracy, progress)
