@@ -90,7 +90,7 @@ def _dips(design: Design, first: Ensemble) -> tuple[Dip, ...]:
     pace, and for balls that hardly turn.
     """
     table, speed = design.case.table, design.case.speed
-    caught = min(((1 - one.slip) * speed for one in first.given if one.hanging), default=0.0)
+    caught = min(((1 - one.slip) * (one.member.speed or speed) for one in first.given if one.hanging), default=0.0)
     if table.motor or caught < LEAST * speed:
         return ()
     given = table.run_up or RunUp()
