@@ -127,6 +127,11 @@ class Ensemble:
         return tuple(one for one in self.outcomes if one.member.drag == self.drag)
 
     @property
+    def rated(self) -> tuple[Outcome, ...]:
+        """Those at the rated speed."""
+        return tuple(one for one in self.outcomes if one.member.speed is None)
+
+    @property
     def balanced(self) -> int:
         """How many balance."""
         return sum(one.balanced for one in self.outcomes)
@@ -242,13 +247,13 @@ def _all(
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
     """What the response of a member's scene says."""
-    speed = abs(response.final.speed) or scene.speed
-    settling = response.settling_time
+    speed, settling = abs(response.final.speed) or scene.speed, response.settling_time
+    case = replace(design.case, speed=member.speed or design.case.speed)
     return Outcome(
         member=member,
         settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),
         residual=response.axis_amplitude,
-        level=level_at_loudest(design.case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
+        level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, scene.imbalance),

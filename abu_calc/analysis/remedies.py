@@ -86,7 +86,7 @@ def _pause(design: Design, first: Ensemble) -> Iterator[Change]:
     pace, and for balls that hardly turn.
     """
     table, speed = design.case.table, design.case.speed
-    caught = min(((1 - one.slip) * speed for one in first.given if one.hanging), default=0.0)
+    caught = min(((1 - one.slip) * (one.member.speed or speed) for one in first.given if one.hanging), default=0.0)
     given = table.run_up or RunUp()
     low = _rounded(from_si(BELOW * caught, "rpm"))
     if table.motor or caught < LEAST * speed or low >= (given.pause_speed_rpm or math.inf):

@@ -85,7 +85,7 @@ class RunUp(Table):
     pause_speed_rpm: float | None = Field(
         default=None,
         description="Speed at which the rotor pauses after its run-up, so that balls that hang come to rest [rpm]; "
-        "{range}, below machine.speed_rpm. It slows to it as in run_down_s. Default: no pause.",
+        "{range}, below machine.speed_range_rpm. It slows to it as in run_down_s. Default: no pause.",
         examples=[1100.0],
         ge=1,
         le=300_000,

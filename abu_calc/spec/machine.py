@@ -112,8 +112,9 @@ class MachineFile(Table):
         if self.motor is not None:
             raise problem("a motor sets its own pace", *place, found=f"{pause:g} rpm beside [motor]",
                           remedy="leave one of them out")  # fmt: skip
-        if pause >= self.machine.speed_rpm:
-            raise problem("the rotor pauses below machine.speed_rpm", *place, found=f"{pause:g} rpm",
-                          allowed=f"below {self.machine.speed_rpm:g} rpm",
+        lowest = min(self.machine.speed_range)
+        if pause >= lowest:
+            raise problem("the rotor pauses below its working speeds", *place, found=f"{pause:g} rpm",
+                          allowed=f"below {lowest:g} rpm",
                           remedy="a speed at which the balls rest in the race")  # fmt: skip
         return self
