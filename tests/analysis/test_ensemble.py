@@ -12,6 +12,7 @@ import pytest
 from abu_calc import analysis
 from abu_calc.analysis.ensemble import TOLERANCE, WORK, Ensemble, Lost, Outcome, simulate_members, start_once
 from abu_calc.analysis.idle import ensemble_checks, level_check
+from abu_calc.analysis.machine import simulated
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.remedies import Change, changes, other_drags, passes
 from abu_calc.checks import Check, Grade, coded
@@ -94,6 +95,15 @@ def test_workers_change_nothing(workers: Workers) -> None:
     """One after the other, by threads, by processes: the same numbers."""
     found = design("msh-230")
     assert simulate_members(found, workers=workers) == simulate_members(found)
+
+
+def test_workers_change_no_scene() -> None:
+    """The scenes of an arm, told as they are done."""
+    found, told = design("swing-arm-grinder"), list[str]()
+    runs, _ = simulated(found, 0.01)
+    others, _ = simulated(found, 0.01, told.append, workers=Workers(2))
+    assert [one.simulation.response for one in others] == [one.simulation.response for one in runs]
+    assert told == ["1 of 3 scenes", "2 of 3 scenes", "3 of 3 scenes"]
 
 
 def test_plain_runs_go_side_by_side() -> None:
