@@ -3,21 +3,26 @@
 Arrays are memory views, whose parts are views too and whose numbers are Python's own: half as slow as NumPy's.
 """
 
+import __future__
+
 import ast
 import math
 from collections.abc import Callable, Sequence
-from copy import copy
+from functools import cached_property
 from types import FunctionType, ModuleType
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from abu_calc.dynamics.integrators.compiled import arrays, contact, decide, friction, impact, locate, loop, method
-from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program
+from abu_calc.dynamics.integrators.compiled.program import Program
 from abu_calc.dynamics.integrators.compiled.spared import FOLDED, spared
 
 MODULES: Sequence[ModuleType] = (method, locate, friction, contact, impact, decide, loop)
 """In the order in which they import each other."""
+
+NAMES_ALONE: Final = __future__.annotations.compiler_flag
+"""Annotations are not looked up."""
 
 PARAMETERS, LAYOUT = 2, 3
 """Arguments of `loop.go` of which no part is taken: lists are read in half the time."""
@@ -54,12 +59,14 @@ class _Equations:
     """The functions of a structure, whole and without what is zero in modes that come often."""
 
     def __init__(self, program: Program) -> None:
-        self._count = program.parameters
-        tree = ast.parse(program.text)
-        self._parts = {one.name: one for one in tree.body if isinstance(one, ast.FunctionDef)}
-        self._whole = _compiled([self._parts[name] for name in EQUATIONS])
+        self._count, self._text = program.parameters, program.text
+        self._whole = _compiled(program.text)
         self._seen: dict[Any, int] = {}
         self._made: dict[Any, tuple[Any, ...]] = {}
+
+    @cached_property
+    def _parts(self) -> dict[str, ast.FunctionDef]:
+        return {one.name: one for one in ast.parse(self._text).body if isinstance(one, ast.FunctionDef)}
 
     def functions(self) -> dict[str, Callable[..., None]]:
         """By their names, as the loop calls them."""
@@ -93,33 +100,36 @@ class _Equations:
         if self._seen[zeros] < OFTEN or len(self._made) >= MOST:
             return None
         known = {place: one for place, one in enumerate(zeros) if one is not None}
-        found = _compiled([spared(self._parts[name], known) for name in SPARED])
+        found = _compiled("\n".join(ast.unparse(spared(self._parts[name], known)) for name in SPARED))
         self._made[zeros] = tuple(found[name] for name in SPARED)
         return self._made[zeros]
 
 
-def _compiled(functions: Sequence[ast.FunctionDef]) -> dict[str, Callable[..., None]]:
-    """The functions of a structure by their names; their annotations are those of a compiler."""
+def _compiled(text: str) -> dict[str, Callable[..., None]]:
+    """The functions of a text by their names; their annotations are those of a compiler.
+
+    From text alone: trees of Python's own objects take longer to make than all else that is done here.
+    """
     known: dict[str, Any] = {"nan": math.nan, "inf": math.inf, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
-    guarded = [_guarded(one) for one in functions]
-    exec(compile(ast.fix_missing_locations(ast.Module(guarded, [])), "<equations>", "exec"), known)
-    return {one.name: known[one.name] for one in functions}
+    exec(compile(_guarded(text), "<equations>", "exec", NAMES_ALONE, dont_inherit=True), known)
+    return known
 
 
-def _guarded(function: ast.FunctionDef) -> ast.stmt:
-    """The same, whose rates are no numbers, as compiled code gives them, where Python would raise.
+def _guarded(text: str) -> str:
+    """The same functions, whose rates are no numbers, as compiled code gives them, where Python would raise.
 
     The step is then shortened.
     """
-    rates = any(one.arg == "dy" for one in function.args.args)
-    (guard,) = ast.parse(f"try: pass\nexcept (ArithmeticError, ValueError): {'dy[0] = nan' if rates else 'raise'}").body
-    assert isinstance(guard, ast.Try)
-    guard.body = function.body
-    found = copy(function)
-    arguments = [ast.arg(one.arg) for one in function.args.args]
-    found.args = ast.arguments(posonlyargs=[], args=arguments, kwonlyargs=[], kw_defaults=[], defaults=[])
-    found.body, found.returns = [guard], None
-    return found
+    lines: list[str] = []
+    rates = False
+    for line in [*text.splitlines(), "def "]:
+        if line.startswith("def "):
+            lines += [" except (ArithmeticError, ValueError):", "  dy[0] = nan"] if rates else []
+            rates = "dy: Reals" in line
+            lines += [line, " try:"] if rates else [line]
+        else:
+            lines.append(f" {line}" if rates else line)
+    return "\n".join(lines[:-1])
 
 
 def _bound(equations: dict[str, Callable[..., None]]) -> Callable[..., Any]:
