@@ -53,6 +53,8 @@ SCENES: dict[str, Scene] = {
     "across, where Python decides": scene_on("planar", TransverseMotion(0.7, 0.1, 0.02), MEETING, FRICTION),
     "nothing switches": coupled_scene(),
 }
+LONG = ("contact", "contact and gravity", "friction and contact, eccentric")
+"""In every run their plain code is compared with the compiled one to the last bit; with SciPy others as they are."""
 
 
 def agree(scene: Scene, within: float, tolerance: float = 1e-8) -> tuple[int, int]:
@@ -66,7 +68,7 @@ def agree(scene: Scene, within: float, tolerance: float = 1e-8) -> tuple[int, in
     return found.events, exact.events
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [pytest.param(one, marks=[pytest.mark.slow] * (one in LONG)) for one in SCENES])
 def test_the_motion_is_that_of_scipy(name: str) -> None:
     found, exact = agree(replace(SCENES[name], duration=10.0), within=1e-5)
     assert abs(found - exact) <= 3 + exact // 50
