@@ -3,6 +3,7 @@
 import math
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ ALL = 1e9
 """A drag below which balls are taken to be in danger of hanging: slow run-ups of all members."""
 
 
+@cache
 def design(name: str, **changed: object) -> Design:
     """A machine, sized, with some keys of its autobalancer changed."""
     overrides = [f"autobalancer.{key}={value}" for key, value in changed.items()]
@@ -61,7 +63,7 @@ def judged(name: str, doubtful: float = 0.0, **changed: object) -> dict[str, str
     return statuses(found, simulate_members(found, doubtful=doubtful))
 
 
-@pytest.mark.parametrize("drag", [3.0, 4.0])
+@pytest.mark.parametrize("drag", [3.0, pytest.param(4.0, marks=pytest.mark.slow)])
 def test_balls_hang_from_standstill(drag: float) -> None:
     """130 dB, where one easy start at full speed ends at 97."""
     found = judged("hanging-balls", rolling_drag_per_s=drag)

@@ -3,22 +3,27 @@
 Arrays are memory views, whose parts are views too and whose numbers are Python's own: half as slow as NumPy's.
 """
 
+import __future__
+
 import ast
 import math
 from collections.abc import Callable, Sequence
-from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 from types import FunctionType, ModuleType
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from abu_calc.dynamics.integrators.compiled import arrays, contact, decide, friction, impact, locate, loop, method
-from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program
-from abu_calc.dynamics.integrators.compiled.spared import FOLDED, placed, spared
+from abu_calc.dynamics.integrators.compiled.program import Program
+from abu_calc.dynamics.integrators.compiled.spared import FOLDED, spared
 
 MODULES: Sequence[ModuleType] = (method, locate, friction, contact, impact, decide, loop)
 """In the order in which they import each other."""
+
+NAMES_ALONE: Final = __future__.annotations.compiler_flag
+"""Annotations are not looked up."""
 
 PARAMETERS, LAYOUT = 2, 3
 """Arguments of `loop.go` of which no part is taken: lists are read in half the time."""
@@ -64,12 +69,15 @@ class _Equations:
     """The functions of a structure, whole and without what is zero in modes that come often."""
 
     def __init__(self, program: Program) -> None:
-        self._count = program.parameters
-        tree = ast.parse(program.text)
-        self._parts = {one.name: one for one in tree.body if isinstance(one, ast.FunctionDef)}
-        self._whole = _compiled([self._parts[name] for name in EQUATIONS])
+        self._count, self._text = program.parameters, _guarded(program.text)
+        self._whole = _compiled(self._text)
         self._kinds: dict[tuple[tuple[int, float], ...], _Kind] = {}
         self._left = MOST
+
+    @cached_property
+    def _parts(self) -> list[ast.FunctionDef]:
+        functions = [one for one in ast.parse(self._text).body if isinstance(one, ast.FunctionDef)]
+        return [one for one in functions if one.name in SPARED]
 
     def functions(self) -> dict[str, Callable[..., None]]:
         """By their names, as the loop calls them."""
@@ -105,33 +113,33 @@ class _Equations:
         if kind.came < OFTEN or self._left <= 0:
             return None
         self._left -= 1
-        found = _compiled([spared(self._parts[name], kind.known) for name in SPARED])
+        found = _compiled(ast.Module([spared(one, kind.known) for one in self._parts], []))
         kind.made = tuple(found[name] for name in SPARED)
         return kind.made
 
 
-def _compiled(functions: Sequence[ast.FunctionDef]) -> dict[str, Callable[..., None]]:
-    """The functions of a structure by their names; their annotations are those of a compiler."""
+def _compiled(text: str | ast.Module) -> dict[str, Callable[..., None]]:
+    """The functions of a text by their names; their annotations are those of a compiler."""
     known: dict[str, Any] = {"nan": math.nan, "inf": math.inf, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
-    guarded = [_guarded(one) for one in functions]
-    exec(compile(ast.Module(guarded, []), "<equations>", "exec"), known)
-    return {one.name: known[one.name] for one in functions}
+    exec(compile(text, "<equations>", "exec", NAMES_ALONE, dont_inherit=True), known)
+    return known
 
 
-def _guarded(function: ast.FunctionDef) -> ast.stmt:
-    """The same, whose rates are no numbers, as compiled code gives them, where Python would raise.
+def _guarded(text: str) -> str:
+    """The same functions, whose rates are no numbers, as compiled code gives them, where Python would raise.
 
     The step is then shortened.
     """
-    rates = any(one.arg == "dy" for one in function.args.args)
-    (guard,) = ast.parse(f"try: pass\nexcept (ArithmeticError, ValueError): {'dy[0] = nan' if rates else 'raise'}").body
-    assert isinstance(guard, ast.Try)
-    guard.body = function.body
-    found = copy(function)
-    arguments = [placed(ast.arg(one.arg)) for one in function.args.args]
-    found.args = ast.arguments(posonlyargs=[], args=arguments, kwonlyargs=[], kw_defaults=[], defaults=[])
-    found.body, found.returns = [guard], None
-    return found
+    lines: list[str] = []
+    rates = False
+    for line in [*text.splitlines(), "def "]:
+        if line.startswith("def "):
+            lines += [" except (ArithmeticError, ValueError):", "  dy[0] = nan"] if rates else []
+            rates = "dy: Reals" in line
+            lines += [line, " try:"] if rates else [line]
+        else:
+            lines.append(f" {line}" if rates else line)
+    return "\n".join(lines[:-1])
 
 
 def _bound(equations: dict[str, Callable[..., None]]) -> Callable[..., Any]:

@@ -5,14 +5,14 @@ Left out are x·0, x + 0, 0 + x, x − 0, x·1 and x/1, which change no digit of
 """
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from typing import Final, TypeVar
 
 FOLDED: Final = (0.0, 1.0)
 """Values of parameters by which terms go or stay as they are."""
 
-Node = TypeVar("Node", ast.expr, ast.stmt, ast.arg)
+Node = TypeVar("Node", ast.expr, ast.stmt)
 
 
 def placed(node: Node) -> Node:
@@ -21,10 +21,20 @@ def placed(node: Node) -> Node:
     return node
 
 
-def spared(function: ast.FunctionDef, known: Mapping[int, float]) -> ast.FunctionDef:
+Body = TypeVar("Body", ast.FunctionDef, ast.Try)
+
+
+def spared(whole: Body, known: Mapping[int, float]) -> Body:
     """One of the functions of a program, where parameters par[…] have these values; of one that stores in arrays."""
+    found = copy(whole)
+    inner = whole.body[0]
+    found.body = [spared(inner, known)] if isinstance(inner, ast.Try) else _spared(whole.body, known)
+    return found
+
+
+def _spared(body: Sequence[ast.stmt], known: Mapping[int, float]) -> list[ast.stmt]:
     folding = _Folding(known)
-    lines = [one for one in map(folding.line, function.body) if one is not None]
+    lines = [one for one in map(folding.line, body) if one is not None]
     kept, needed = [], set[str]()
     for line in reversed(lines):
         if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name) and line.targets[0].id not in needed:
@@ -32,9 +42,7 @@ def spared(function: ast.FunctionDef, known: Mapping[int, float]) -> ast.Functio
         if isinstance(line, ast.Assign):
             needed.update(_names(line.value))
         kept.append(line)
-    found = copy(function)
-    found.body = kept[::-1]
-    return found
+    return kept[::-1]
 
 
 def _names(node: ast.expr) -> Iterator[str]:
