@@ -30,7 +30,7 @@ def remedy(case: Case, imbalance: float, changes: Iterator[Change], holds: Holds
         except AbuError:  # no race fits: no remedy
             continue
         tried.append(words)
-        found = f"Tried: with {words} {_balls(one)}"
+        found = f"Tried: with {words}, {_balls(one)}"
         if sound(other, one):
             return f"{found} holds it, and what else is asked of the autobalancer."
         if holds(other, one) and not partly:

@@ -217,7 +217,7 @@ def test_what_no_race_can_reach_is_said() -> None:
 def test_what_was_tried_holds_as_promised(code: str, given: dict[str, object]) -> None:
     """The file with the change in it: the check passes, with the balls named, and all of the autobalancer's if told."""
     check = _check(size(machine(**given)), code)
-    found = re.fullmatch(r"Tried: with (.*) (\d+) × Ø([\d.]+) mm holds it, (.*)\.", check.remedy or "")
+    found = re.fullmatch(r"Tried: with (.*), (\d+) × Ø([\d.]+) mm holds it, (.*)\.", check.remedy or "")
     assert check.status == "fail" and found, check.remedy
     changes: dict[str, object] = {
         f"autobalancer__{key}": float(value) if value[0].isdigit() else value.strip('"')
