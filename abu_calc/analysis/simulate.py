@@ -26,9 +26,9 @@ from abu_calc.scenes.from_scene import lasting
 
 ACCURACY = motion.ACCURACY
 
-WORK = 1_000_000
-"""SciPy's evaluations that a simulation may take: half a minute of its work, a few seconds of compiled code, minutes of
-plain Python. A preset takes some ten thousand, the swing arm two hundred thousand."""
+WORK = 2_000_000
+"""SciPy's evaluations that a simulation may take: a minute of its work, some seconds of compiled code, minutes of plain
+Python. A preset takes some ten thousand, the swing arm two hundred thousand, over a million for its levels."""
 
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but

@@ -477,7 +477,7 @@ def test_what_oscillates_too_fast_for_its_duration_is_not_begun(
     monkeypatch.setattr(simulate_module, "evaluate", None)  # which nothing reaches
     seen = abu("simulate", written(tmp_path, text), "--set", entry)
     assert seen.status == 3
-    for word in ("more work than allowed", "allowed: 1e+06", "times in a revolution", "stiffness", "--most-eval"):
+    for word in ("more work than allowed", "allowed: 2e+06", "times in a revolution", "stiffness", "--most-eval"):
         assert word in seen.err
 
 
