@@ -15,6 +15,7 @@ from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose, unfit
+from abu_calc.dynamics.integrators.rates import softer
 from abu_calc.dynamics.integrators.run import too_much
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
@@ -25,9 +26,9 @@ from abu_calc.scenes.from_scene import lasting
 
 ACCURACY = motion.ACCURACY
 
-WORK = 10_000_000
-"""SciPy's evaluations that a simulation may take: a minute or two of SciPy's work, a quarter of that in compiled code.
-A preset takes some ten thousand, the swing arm a hundred thousand."""
+WORK = 2_000_000
+"""SciPy's evaluations that a simulation may take: a minute of its work, some seconds of compiled code, minutes of plain
+Python. A preset takes some ten thousand, the swing arm two hundred thousand, over a million for its levels."""
 
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but
@@ -120,7 +121,7 @@ def _integrated(
     choice = choose(equations, integrator, tolerances(accuracy)[0], progress)
     about = choice.expected(equations, tolerances(accuracy)[0])
     if about > most:
-        raise too_much(f"about {about:.2g}", most)
+        raise too_much(f"about {about:.2g}", most, softer(equations))
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared, last = math.nan, 0, 0
@@ -132,7 +133,7 @@ def _integrated(
         readers = (course, remarks) if runs and times.held is not None else (course,)
         try:
             if LEAST * last > most:
-                raise too_much(f"at least {LEAST * last:.3g}", most)
+                raise too_much(f"at least {LEAST * last:.3g}", most, softer(equations))
             watched = times.read_by(*readers).telling(share_of(progress, text))
             trajectory = choice.integrate(equations, tolerance, watched, choice.evaluations(most))
         except NotTrustworthyError as failure:

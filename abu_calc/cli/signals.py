@@ -5,8 +5,8 @@ from typing import Final
 
 INTERRUPTED: Final = 130
 """The exit status after Ctrl-C."""
-ENDING: Final = ("SIGTERM", "SIGHUP", "SIGBREAK")
-"""Those that end a command as Ctrl-C does; no system has all of them."""
+ENDING: Final = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+"""Those that end a command, Ctrl-C first; no system has all of them."""
 
 
 class EndedBySignal(BaseException):
@@ -18,10 +18,14 @@ class EndedBySignal(BaseException):
 
 
 def heed_signals() -> None:
-    """From now on they raise EndedBySignal; those that are ignored, as under nohup, stay so."""
+    """From now on they raise EndedBySignal; those that are ignored, as under nohup, stay so.
+
+    Ctrl-C, too: a KeyboardInterrupt within code made from text, as dataclasses are made, Python remembers to the end,
+    where it kills the process by the signal, whatever its exit status was to be.
+    """
     for name in ENDING:
         number = getattr(signal, name, None)
-        if number is not None and signal.getsignal(number) == signal.SIG_DFL:
+        if number is not None and signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
             signal.signal(number, _end)
 
 

@@ -40,7 +40,7 @@ def simulate(
     most_evaluations: Annotated[
         int | None,
         typer.Option(
-            "--most-evaluations", metavar="N", help="Work that is allowed; default 10 million, a minute or two."
+            "--most-evaluations", metavar="N", help="Work that is allowed; default 2 million, a minute or two."
         ),
     ] = None,
     audit: Annotated[

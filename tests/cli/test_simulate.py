@@ -464,3 +464,25 @@ def test_every_integrator_is_taken_by_name(tmp_path: Path) -> None:
         assert abu("simulate", file, "--integrator", name, "--quiet").status == 0
     seen = abu("simulate", file, "--integrator", "odeint")
     assert seen.status == 2 and "auto, scipy, plain, compiled, heyoka" in seen.err
+
+
+@pytest.mark.parametrize(
+    ("text", "entry"),
+    [(ARM, "scene.swing_arm.contact_stiffness_N_per_m=1e11"), (PLANAR, "scene.stiffness_N_per_m=[1e11, 1e11]")],
+)
+def test_what_oscillates_too_fast_for_its_duration_is_not_begun(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, entry: str
+) -> None:
+    """Work is counted in the cycles of what is fastest, not in revolutions alone."""
+    monkeypatch.setattr(simulate_module, "evaluate", None)  # which nothing reaches
+    seen = abu("simulate", written(tmp_path, text), "--set", entry)
+    assert seen.status == 3
+    for word in ("more work than allowed", "allowed: 2e+06", "times in a revolution", "stiffness", "--most-eval"):
+        assert word in seen.err
+
+
+def test_a_stiff_arm_within_the_work_is_answered(tmp_path: Path) -> None:
+    """ω = l √(c/J), for as many of its cycles as the machine's own stiffness makes in the whole run."""
+    entries = ("scene.swing_arm.contact_stiffness_N_per_m=1e8", "scene.duration_s=0.1")
+    sets = [word for entry in entries for word in ("--set", entry)]
+    assert abu("simulate", written(tmp_path, ARM), *sets).status == 0

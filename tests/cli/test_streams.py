@@ -51,15 +51,16 @@ def test_a_full_disk_is_told_with_what_was_computed() -> None:
 
 
 @posix
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
-def test_signals_end_a_command_as_ctrl_c_does(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:
     """One line, 128 and the number, and nothing written."""
     number = getattr(signal, name)
-    # The process sends itself the signal in the middle of the work, so that no time has to be guessed.
+    # The process sends itself the signal in the middle of the work, so that no time has to be guessed; in code made
+    # from text, out of which a KeyboardInterrupt would end the process by the signal itself.
     code = (
         "import os, signal\nfrom abu_calc.studies import check_fit\nfrom abu_calc.cli.start import main\n"
         f"signal.signal({int(number)}, signal.SIG_DFL)\n"  # whoever runs the tests may have it ignored
-        f"check_fit.judged_seats = lambda *_: os.kill(os.getpid(), {int(number)})\nmain()"
+        f"check_fit.judged_seats = lambda *_: exec('os.kill(os.getpid(), {int(number)})')\nmain()"
     )
     command = (sys.executable, "-c", code, *FAILING, "--output", str(tmp_path / "out.json"))
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -71,20 +72,21 @@ def test_signals_end_a_command_as_ctrl_c_does(name: str, tmp_path: Path) -> None
 def test_a_system_without_these_signals_does_without(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in signals.ENDING:
         monkeypatch.delattr(signal, name, raising=False)
-    signals.heed_signals()
+    signals.heed_signals()  # raises nothing
 
 
 @posix
 def test_what_is_ignored_stays_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
     """As nohup asks."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    kept = {name: signal.getsignal(getattr(signal, name)) for name in ("SIGTERM",)}
+    kept = {name: signal.getsignal(getattr(signal, name)) for name in ("SIGINT", "SIGTERM")}
     try:
         signals.heed_signals()
         assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
     finally:
         signal.signal(signal.SIGHUP, before)
-        signal.signal(signal.SIGTERM, kept["SIGTERM"])
+        for name, handler in kept.items():
+            signal.signal(getattr(signal, name), handler)
 
 
 class Raising(io.RawIOBase):

@@ -10,6 +10,7 @@ from typing import Final, cast
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import heyoka_, scipy_
 from abu_calc.dynamics.integrators.estimates import START, Seconds, counts, held_by_decay, seconds
+from abu_calc.dynamics.integrators.rates import stiff_decay
 from abu_calc.dynamics.integrators.run import EVENT, Array, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
@@ -72,7 +73,7 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
         if missing := untraceable(equations):
             raise InputError(f"plain code cannot be written for this scene: {missing[0]}", remedy=missing[1])
         return _plain("asked for")
-    if decay := scipy_.stiff_decay(equations):
+    if decay := stiff_decay(equations):
         if wanted == "auto" and _bears(equations, tolerance, decay):
             return _compiled("stiff equations that switch: short steps in compiled code are done sooner than long ones")
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")

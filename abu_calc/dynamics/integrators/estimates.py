@@ -8,11 +8,12 @@ from typing import Final
 
 from abu_calc.dynamics.effect import ACROSS_RATE
 from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.integrators.rates import cycles
 from abu_calc.dynamics.switching.modes import watches
 
 EVALUATIONS, ORDER = 35.0, 8
-"""Of DOP853 per revolution at a tolerance of 1e-6, and the order by which they grow: four balls on a soft planar
-support took 18, 33, 78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12."""
+"""Of DOP853 per revolution, or per cycle of what oscillates faster, at a tolerance of 1e-6, and the order by which they
+grow: four balls on a soft planar support took 18, 33, 78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12."""
 
 EVALUATION, BALL = 6e-6, 0.6e-6
 """Time of an evaluation [s] with its share of the step, and of each ball in it: 8 µs for 2 to 4 balls, 15 for 16."""
@@ -21,7 +22,7 @@ EVENT: Final = 1.2e-3
 """Time of an event [s] that the general decision answers."""
 
 LOOP_EVALUATIONS, LOOP_ORDER, LOOP_EVENT = 45.0, 5, 15.0
-"""Of the loop through switching scenes, per revolution at a tolerance of 2e-4, its order, and those of one event."""
+"""Of the loop through switching scenes, per revolution or cycle at a tolerance of 2e-4, its order, and of one event."""
 
 PLAIN, PLAIN_BALL = 5e-6, 5e-6
 """Time of one of its evaluations in plain Python [s], and of each ball in it: 25 µs for 4 balls, 43 for 6."""
@@ -85,12 +86,12 @@ def counts(equations: Equations, tolerance: float) -> Counts:
     Of 30 runs of the presets none was overestimated by more than a third; a swing arm, whose balls are caught again and
     again, takes up to five times as many.
     """
-    scene = equations.scene
-    turns, balls = RUNS * scene.duration / scene.revolution, len(scene.ball_masses)
+    scene, balls, waves = equations.scene, len(equations.scene.ball_masses), RUNS * cycles(equations)
+    turns = RUNS * scene.duration / scene.revolution
     shaken = any(effect.kind == "conservative" for effect in scene.effects)
     return Counts(
-        scipy=turns * EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER),
-        loop=turns * LOOP_EVALUATIONS * (2e-4 / tolerance) ** (1 / LOOP_ORDER),
+        scipy=waves * EVALUATIONS * (1e-6 / tolerance) ** (1 / ORDER),
+        loop=waves * LOOP_EVALUATIONS * (2e-4 / tolerance) ** (1 / LOOP_ORDER),
         events=turns * balls * (SHAKEN if shaken else LOOSE) if watches(equations) else 0.0,
     )
 

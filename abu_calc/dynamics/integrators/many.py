@@ -4,8 +4,8 @@ from typing import Final, Literal
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.choice import LOOP_WORK, integrate_with, unfit, untraceable
+from abu_calc.dynamics.integrators.rates import stiff_decay
 from abu_calc.dynamics.integrators.run import Array
-from abu_calc.dynamics.integrators.scipy_ import stiff_decay
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError

@@ -137,11 +137,11 @@ def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
     return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"))
 
 
-def too_much(found: str, most: int) -> TooMuchWorkError:
+def too_much(found: str, most: int, remedy: str = "") -> TooMuchWorkError:
     """The error for a run that is not begun, since so many of SciPy's evaluations are not allowed."""
     return TooMuchWorkError(
         f"the run takes more work than allowed (found {found} evaluations; allowed: {most:.3g})\n"
-        "  shorten the run, or ask for less accuracy"
+        f"  {remedy}shorten the run, or ask for less accuracy"
     )
 
 

@@ -13,7 +13,7 @@ from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.integrators.events import Watcher
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS, NOT_FINITE, Array, Run, exceeded, lost
 from abu_calc.dynamics.parameters import Modes
-from abu_calc.dynamics.switching.modes import starting, watches
+from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.tracing.plain import Function, functions
 from abu_calc.dynamics.tracing.traced import numbers_of
 from abu_calc.dynamics.trajectory import Times, Trajectory
@@ -38,22 +38,10 @@ LOOSE, ORDER = 1e-3, 8
 """Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
 tolerance alike, they would agree without being right."""
 
-STIFF = 50.0
-"""Decay per radian of the fastest oscillation beyond which an explicit method spends its steps on what has died out."""
-
 
 def load() -> None:
     """Import the library, so that the time of the first run is that of the integration."""
     importlib.import_module("scipy.integrate")
-
-
-def stiff_decay(equations: Equations) -> float | None:
-    """The fastest decay at the start [1/s] where it calls for an implicit method; None: it does not."""
-    state, modes = starting(equations)
-    values = np.linalg.eigvals(jacobian(equations, 0.0, state, modes))
-    fastest = max(float(np.abs(values.imag).max()), equations.scene.speed)
-    decay = float(-values.real.min())
-    return decay if decay > STIFF * fastest else None
 
 
 def integrate(
