@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp as RunUpEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.scenes.from_design import Start, running_up, scene_of_design
+from abu_calc.scenes.from_design import Start, guided, running_up, scene_of_design
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track
 from abu_calc.spec.duty import RunUp
@@ -30,28 +30,17 @@ LAGS = 3.0
 
 
 @dataclass(frozen=True)
-class Dip:
-    """From full speed down to a lower one [rad/s], a pause there, and up again: times of the three [s]."""
-
-    low: float
-    fall: float
-    pause: float
-    rise: float
-
-
-@dataclass(frozen=True)
 class Member:
     """One start: where from, the drag h₀ [1/s], and the time [s] from standstill to full speed, 0 at full speed.
 
-    `eccentricity`: where the centre of the race stands, from the imbalance [rad]; `dip`: what the speed does then;
-    `speed`: the full one [rad/s] where it is not the rated one.
+    `eccentricity`: where the centre of the race stands, from the imbalance [rad]; `speed`: the full one [rad/s] where
+    it is not the rated one.
     """
 
     start: Start
     drag: float
     run_up: float = 0.0
     eccentricity: float = OPPOSITE
-    dip: Dip | None = None
     speed: float | None = None
 
     @property
@@ -89,9 +78,11 @@ def scene_of_member(design: Design, member: Member) -> Scene:
     scene = scene_of_design(own, "run-up" if member.run_up else "idle", member.start)
     turned = (replace(one, angle=member.eccentricity) if isinstance(one, RaceEccentricity) else one
               for one in scene.effects)  # fmt: skip
-    scene = _dipped(replace(scene, effects=tuple(turned)), member.dip)
-    if not member.run_up and member.start != "standstill":
-        return scene
+    scene = replace(scene, effects=tuple(turned))
+    if not member.run_up:
+        scene = _paused(scene, guided(own, 0.0))
+        if member.start != "standstill":
+            return scene
     longest = own.case.table.limits.settling_time_s
     lag = LAGS * own.case.inertia_factor / member.drag if member.drag else longest
     return replace(scene, duration=scene.duration + min(lag, longest))
@@ -99,19 +90,15 @@ def scene_of_member(design: Design, member: Member) -> Scene:
 
 def full_speed_at(design: Design, member: Member) -> float:
     """When a member is at full speed for good [s]; a motor sets its own pace."""
-    dip = member.dip
-    after = dip.fall + dip.pause + dip.rise if dip else 0.0
-    return (running_up(_with(design, member)) if member.run_up else 0.0) + after
+    own = _with(design, member)
+    return running_up(own) if member.run_up else guided(own, 0.0).at_speed
 
 
-def _dipped(scene: Scene, dip: Dip | None) -> Scene:
-    """With a dip of the speed after the run-up, if there is one; longer by that."""
-    if dip is None:
+def _paused(scene: Scene, pace: RunUpEffect) -> Scene:
+    """A scene at full speed with the pause of its file, if there is one; longer by that."""
+    if not pace.at_speed:
         return scene
-    given = next((one for one in scene.effects if isinstance(one, RunUpEffect)), RunUpEffect(0.0))
-    guided = replace(given, low=dip.low, fall=dip.fall, pause=dip.pause, rise=dip.rise)
-    others = (one for one in scene.effects if not isinstance(one, RunUpEffect))
-    return replace(scene, effects=(guided, *others), duration=scene.duration + guided.at_speed - given.at_speed)
+    return replace(scene, effects=(pace, *scene.effects), duration=scene.duration + pace.at_speed)
 
 
 def _with(design: Design, member: Member) -> Design:
@@ -121,6 +108,7 @@ def _with(design: Design, member: Member) -> Design:
     if member.run_up and (given is None or member.run_up != usual or speed != case.speed):
         # A slow run-up is a guided one, and one to another speed: a motor would set its own pace.
         motor = table.motor if (member.run_up, speed) == (usual, case.speed) else None
-        table = table.model_copy(update={"run_up": RunUp(time_s=member.run_up), "motor": motor})
+        slow = (given or RunUp()).model_copy(update={"time_s": member.run_up})
+        table = table.model_copy(update={"run_up": slow, "motor": motor})
     case = replace(case, drag=member.drag, speed=speed, table=table)
     return replace(design, case=case, track=track(case, design.autobalancer, design.frequency.natural_frequencies))

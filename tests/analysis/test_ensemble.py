@@ -12,14 +12,17 @@ import pytest
 from abu_calc import analysis
 from abu_calc.analysis.ensemble import TOLERANCE, WORK, Ensemble, Lost, Outcome, simulate_members, start_once
 from abu_calc.analysis.idle import ensemble_checks, level_check
+from abu_calc.analysis.machine import simulated
 from abu_calc.analysis.proven import proven
-from abu_calc.analysis.remedies import changes, other_drags, passes
+from abu_calc.analysis.remedies import Change, changes, other_drags, passes
 from abu_calc.checks import Check, Grade, coded
+from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import with_parted_balls
 from abu_calc.parallel import Workers
-from abu_calc.scenes.members import Dip, Member, members, scene_of_member
+from abu_calc.scenes.from_design import guided
+from abu_calc.scenes.members import Member, members, scene_of_member
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import sound
 from abu_calc.sizing.design import Design
@@ -92,6 +95,15 @@ def test_workers_change_nothing(workers: Workers) -> None:
     """One after the other, by threads, by processes: the same numbers."""
     found = design("msh-230")
     assert simulate_members(found, workers=workers) == simulate_members(found)
+
+
+def test_workers_change_no_scene() -> None:
+    """The scenes of an arm, told as they are done."""
+    found, told = design("swing-arm-grinder"), list[str]()
+    runs, _ = simulated(found, 0.01)
+    others, _ = simulated(found, 0.01, told.append, workers=Workers(2))
+    assert [one.simulation.response for one in others] == [one.simulation.response for one in runs]
+    assert told == ["1 of 3 scenes", "2 of 3 scenes", "3 of 3 scenes"]
 
 
 def test_plain_runs_go_side_by_side() -> None:
@@ -282,11 +294,11 @@ def test_each_change_is_a_change() -> None:
     standstill = Ensemble(6.0, (outcome(6.0, "standstill", slip=0.5),), ())
     names = [one.name for one in changes(found, standstill)]
     assert "suspension.damping_ratios twice as large" in names
-    assert not any("run_up" in name for name in names)
+    assert not any("run_up.time_s" in name for name in names)
     hung = replace(outcome(6.0, slip=0.5), member=Member("bunched", 6.0, 1.0))
     both = list(changes(found, Ensemble(6.0, (hung,), ())))
     assert any("run_up.time_s = 0.5" in one.name for one in both)
-    assert all(one.design.case != found.case or one.dips != (None,) for one in both)
+    assert all(each.case != found.case for one in both for each in one.designs)
     assert all("damping" not in one.name for one in changes(design("hands-called-chaotic"), standstill))
 
 
@@ -294,17 +306,18 @@ def test_a_pause_is_below_where_balls_hang() -> None:
     """And only where some do, turning, and no motor sets its own pace."""
     found = design("hanging-balls")
 
-    def dips(found: Design, **changed: float) -> list[Dip | None]:
+    def pauses(found: Design, **changed: float) -> list[RunUp]:
         one = outcome(6.0, "standstill", **changed)
-        return [dip for each in changes(found, Ensemble(6.0, (one,), ())) for dip in each.dips if dip]
+        return [guided(each, 1.0) for change in paused(found, Ensemble(6.0, (one,), ())) for each in change.designs]
 
-    slow, fast = dips(found, slip=0.55)
-    assert slow is not None and fast is not None
+    slow, fast = pauses(found, slip=0.55)
     assert slow.low == fast.low == pytest.approx(2 / 3 * 0.45 * found.case.speed, rel=0.05)
-    assert slow.rise == 2 * fast.rise == pytest.approx(1.0 * (1 - slow.low / found.case.speed))
-    assert dips(found, slip=0.99) == dips(found, slip=0.0) == []
+    assert slow.rise == 2 * fast.rise == pytest.approx(1.0 * (1 - slow.low / found.case.speed), rel=0.05)
+    assert pauses(found, slip=0.99) == pauses(found, slip=0.0) == []
     motor = found.case.table.model_copy(update={"motor": Motor()})
-    assert dips(replace(found, case=replace(found.case, table=motor)), slip=0.55) == []
+    assert pauses(replace(found, case=replace(found.case, table=motor)), slip=0.55) == []
+    (change,) = paused(found, Ensemble(6.0, (outcome(6.0, "standstill", slip=0.55),), ()))
+    assert pauses(change.designs[0], slip=0.55) == []
 
 
 @pytest.mark.parametrize("drag", [4.0, pytest.param(6.0, marks=pytest.mark.slow)])
@@ -314,9 +327,14 @@ def test_a_pause_lets_balls_that_hang_catch_up(drag: float) -> None:
     first = simulate_members(found, shares=(1.0,), doubtful=ALL)
     assert any(one.hanging for one in first.given)
     assert not passes(found, first)
-    (change,) = [one for one in changes(found, first) if one.dips != (None,)]
-    for dip in change.dips:
-        assert passes(found, simulate_members(found, shares=(1.0,), doubtful=ALL, dip=dip))
+    (change,) = paused(found, first)
+    for one in change.designs:
+        assert passes(one, simulate_members(one, shares=(1.0,), doubtful=ALL))
+
+
+def paused(found: Design, first: Ensemble) -> list[Change]:
+    """The changes that are a pause."""
+    return [one for one in changes(found, first) if "pause" in one.name]
 
 
 def test_a_start_that_rests_ends_early() -> None:

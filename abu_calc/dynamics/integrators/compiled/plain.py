@@ -7,6 +7,7 @@ import ast
 import math
 from collections.abc import Callable, Sequence
 from copy import copy
+from dataclasses import dataclass
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from abu_calc.dynamics.integrators.compiled import arrays, contact, decide, friction, impact, locate, loop, method
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program
-from abu_calc.dynamics.integrators.compiled.spared import FOLDED, spared
+from abu_calc.dynamics.integrators.compiled.spared import FOLDED, placed, spared
 
 MODULES: Sequence[ModuleType] = (method, locate, friction, contact, impact, decide, loop)
 """In the order in which they import each other."""
@@ -26,7 +27,7 @@ PARAMETERS, LAYOUT = 2, 3
 OFTEN, MOST = 60, 64
 """Times that modes come with the same zeros until functions of their own pay, and how many of these there are."""
 
-MOST_KEPT = 256
+MOST_KEPT = 2048
 """Parameters of modes that are kept: in a run the same come again and again."""
 
 
@@ -50,6 +51,15 @@ SPARED = ("rates", "watched")
 """Functions that are made anew for modes that come often; a run has those of its modes behind its parameters."""
 
 
+@dataclass
+class _Kind:
+    """Modes with the same zeros and ones among their parameters; how often they came, and functions without these."""
+
+    known: dict[int, float]
+    came: int = 0
+    made: tuple[Callable[..., None], ...] | None = None
+
+
 class _Equations:
     """The functions of a structure, whole and without what is zero in modes that come often."""
 
@@ -58,26 +68,24 @@ class _Equations:
         tree = ast.parse(program.text)
         self._parts = {one.name: one for one in tree.body if isinstance(one, ast.FunctionDef)}
         self._whole = _compiled([self._parts[name] for name in EQUATIONS])
-        self._seen: dict[Any, int] = {}
-        self._made: dict[Any, tuple[Any, ...]] = {}
+        self._kinds: dict[tuple[tuple[int, float], ...], _Kind] = {}
+        self._left = MOST
 
     def functions(self) -> dict[str, Callable[..., None]]:
         """By their names, as the loop calls them."""
-        whole, setup = tuple(self._whole[name] for name in SPARED), self._whole["setup"]
-        count, made = self._count, self._made
-        kept: dict[bytes, tuple[list[float], tuple[float | None, ...]]] = {}
+        whole, setup, count = tuple(self._whole[name] for name in SPARED), self._whole["setup"], self._count
+        kept: dict[bytes, tuple[list[float], _Kind]] = {}
 
         def prepared(numbers: Any, par: Any) -> None:
             key = numbers.tobytes()
             known = kept.get(key)
             if known is None:
                 setup(numbers, par)
-                known = par[:count], tuple([one if one in FOLDED else None for one in par[:count]])
                 if len(kept) >= MOST_KEPT:
                     kept.clear()
-                kept[key] = known
-            numbers_made, zeros = known
-            par[:count], par[count:] = numbers_made, made.get(zeros) or self._often(zeros) or whole
+                known = kept[key] = par[:count], self._kind(par[:count])
+            par[:count], kind = known
+            par[count:] = kind.made or self._often(kind) or whole
 
         def rates(t: float, y: Any, par: Any, dy: Any) -> None:
             par[-2](t, y, par, dy)
@@ -87,22 +95,26 @@ class _Equations:
 
         return {"setup": prepared, "rates": rates, "watched": watched, "apparent": self._whole["apparent"]}
 
-    def _often(self, zeros: tuple[float | None, ...]) -> tuple[Any, ...] | None:
-        """Those for these zeros and ones, once they have come often enough."""
-        self._seen[zeros] = self._seen.get(zeros, 0) + 1
-        if self._seen[zeros] < OFTEN or len(self._made) >= MOST:
+    def _kind(self, parameters: Sequence[float]) -> _Kind:
+        known = {place: one for place, one in enumerate(parameters) if one in FOLDED}
+        return self._kinds.setdefault(tuple(known.items()), _Kind(known))
+
+    def _often(self, kind: _Kind) -> tuple[Callable[..., None], ...] | None:
+        """Functions of its own, once it has come often enough."""
+        kind.came += 1
+        if kind.came < OFTEN or self._left <= 0:
             return None
-        known = {place: one for place, one in enumerate(zeros) if one is not None}
-        found = _compiled([spared(self._parts[name], known) for name in SPARED])
-        self._made[zeros] = tuple(found[name] for name in SPARED)
-        return self._made[zeros]
+        self._left -= 1
+        found = _compiled([spared(self._parts[name], kind.known) for name in SPARED])
+        kind.made = tuple(found[name] for name in SPARED)
+        return kind.made
 
 
 def _compiled(functions: Sequence[ast.FunctionDef]) -> dict[str, Callable[..., None]]:
     """The functions of a structure by their names; their annotations are those of a compiler."""
     known: dict[str, Any] = {"nan": math.nan, "inf": math.inf, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
     guarded = [_guarded(one) for one in functions]
-    exec(compile(ast.fix_missing_locations(ast.Module(guarded, [])), "<equations>", "exec"), known)
+    exec(compile(ast.Module(guarded, []), "<equations>", "exec"), known)
     return {one.name: known[one.name] for one in functions}
 
 
@@ -116,7 +128,7 @@ def _guarded(function: ast.FunctionDef) -> ast.stmt:
     assert isinstance(guard, ast.Try)
     guard.body = function.body
     found = copy(function)
-    arguments = [ast.arg(one.arg) for one in function.args.args]
+    arguments = [placed(ast.arg(one.arg)) for one in function.args.args]
     found.args = ast.arguments(posonlyargs=[], args=arguments, kwonlyargs=[], kw_defaults=[], defaults=[])
     found.body, found.returns = [guard], None
     return found
