@@ -83,13 +83,13 @@ def _pause(design: Design, first: Ensemble) -> Iterator[Change]:
     """Below the speed at which balls hang, where they come to rest in their race; up as in a run-up, and sooner.
 
     Above that speed they go on hanging, the better the nearer the rotor is to it. None for a motor, which sets its own
-    pace, and for balls that hardly turn.
+    pace, for balls that hardly turn, and where that speed is one at which the machine works.
     """
     table, speed = design.case.table, design.case.speed
     caught = min(((1 - one.slip) * (one.member.speed or speed) for one in first.given if one.hanging), default=0.0)
     given = table.run_up or RunUp()
-    low = _rounded(from_si(BELOW * caught, "rpm"))
-    if table.motor or caught < LEAST * speed or low >= (given.pause_speed_rpm or math.inf):
+    low, lowest = _rounded(from_si(BELOW * caught, "rpm")), from_si(design.case.speed_range[0], "rpm")
+    if table.motor or caught < LEAST * speed or low >= min(given.pause_speed_rpm or math.inf, lowest):
         return
     rise = _rounded((1 - low / from_si(speed, "rpm")) * given.time_s)
     rises = rise, FASTER * rise

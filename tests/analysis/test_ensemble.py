@@ -316,6 +316,8 @@ def test_a_pause_is_below_where_balls_hang() -> None:
     assert slow.low == fast.low == pytest.approx(2 / 3 * 0.45 * found.case.speed, rel=0.05)
     assert slow.rise == 2 * fast.rise == pytest.approx(1.0 * (1 - slow.low / found.case.speed), rel=0.05)
     assert pauses(found, slip=0.99) == pauses(found, slip=0.0) == []
+    slower = replace(found, case=replace(found.case, speed_range=(100.0, found.case.speed)))
+    assert pauses(slower, slip=0.55) == []
     motor = found.case.table.model_copy(update={"motor": Motor()})
     assert pauses(replace(found, case=replace(found.case, table=motor)), slip=0.55) == []
     (change,) = paused(found, Ensemble(6.0, (outcome(6.0, "standstill", slip=0.55),), ()))
