@@ -79,7 +79,10 @@ def _starts(many: EnsembleResult) -> str:
     """How many starts there were, and which was worst."""
     text = f"Of {many.members} starts, with the drag given, a third and three times of it, {many.balanced} balance"
     worst = many.worst_member
-    return f"{text}; the worst of all: {worst.start}, drag {number(worst.drag_per_s, 3)} 1/s." if worst else f"{text}."
+    if worst is None:
+        return f"{text}."
+    speed = "" if worst.speed_rpm is None else f" ({worst.speed_rpm:.6g} rpm)"
+    return f"{text}; the worst of all: {worst.start}{speed}, drag {number(worst.drag_per_s, 3)} 1/s."
 
 
 def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:

@@ -44,10 +44,14 @@ class Member:
     speed: float | None = None
 
     @property
+    def way(self) -> str:
+        """In words, without a speed."""
+        return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
+
+    @property
     def name(self) -> str:
         """In words."""
-        how = f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
-        return how if self.speed is None else f"{how} ({from_si(self.speed, 'rpm'):.6g} rpm)"
+        return self.way if self.speed is None else f"{self.way} ({from_si(self.speed, 'rpm'):.6g} rpm)"
 
 
 def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = DRAGS) -> Iterator[Member]:

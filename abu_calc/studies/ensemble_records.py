@@ -25,16 +25,20 @@ class Spread(Record):
 
 @record
 class WorstMember(Record):
-    """The start that ended worst: with balls that hang, not balanced, or the loudest."""
+    """The start that ended worst: with balls that hang, not balanced, or the loudest; no speed: the rated one."""
 
     start: Annotated[str, Quantity("start")]
     drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
     run_up_s: Annotated[float | None, Quantity("run-up", "", 3)]
+    speed_rpm: Annotated[float | None, Quantity("speed", "", 6)]
 
     @classmethod
     def of(cls, one: Outcome) -> Self:
         """A start at full speed has no run-up."""
-        return cls(start=one.member.name, drag_per_s=one.member.drag, run_up_s=one.member.run_up or None)
+        speed = None if one.member.speed is None else from_si(one.member.speed, "rpm")
+        return cls(
+            start=one.member.way, drag_per_s=one.member.drag, run_up_s=one.member.run_up or None, speed_rpm=speed
+        )
 
 
 @record
