@@ -4,16 +4,18 @@ from typing import Annotated
 
 import typer
 
-from abu_calc.cli.command import add_command
+from abu_calc.cli.command import Overrides, add_command
 from abu_calc.errors import InputError
 from abu_calc.report.blocks import Block, Paragraph
 from abu_calc.report.outcome import Outcome
+from abu_calc.studies.quantity import as_plain
 
 
 def validate(
     files: Annotated[
         list[str], typer.Argument(metavar="FILE...", help="Files of machines, scenes or readings, or names of presets.")
     ],
+    set_: Overrides = None,
 ) -> Outcome:
     """Check files: keys, types, ranges, rules between keys, and whether their commands would take them."""
     from abu_calc.spec.read_file import read_file
@@ -22,13 +24,15 @@ def validate(
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
     for file in files:
         try:
-            loaded = read_file(file)
+            loaded = read_file(file, set_ or ())
             refuse_unusable(loaded)
         except InputError as error:
             faults.append(error)
             continue
         defaults = dict(loaded.defaults_used)
-        results.append({"file": file, "sha256": loaded.sha256, "defaults": defaults, "warnings": list(loaded.warnings)})
+        replaced = {one.key: one.value for one in loaded.overrides}
+        results.append({"file": file, "sha256": loaded.sha256, "overrides": as_plain(replaced), "defaults": defaults,
+                        "warnings": list(loaded.warnings)})  # fmt: skip
         warnings += [f"{file}: {warning}" for warning in loaded.warnings]
         blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
         blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]

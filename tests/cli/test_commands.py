@@ -246,6 +246,14 @@ def test_init_writes_what_size_takes(tmp_path: Path) -> None:
     jsonschema.Draft4Validator(schema).validate(tomllib.loads(file.read_text(encoding="utf-8")))
 
 
+def test_validate_takes_overrides() -> None:
+    """Of every file it is given, as all commands that read one do."""
+    seen = abu("validate", "msh-230", "swing-arm-grinder", "--set", "wheel.mass_kg=0.5", "--json")
+    assert [one["overrides"] for one in json.loads(seen.out)["result"]["files"]] == [{"wheel.mass_kg": 0.5}] * 2
+    wrong = abu("validate", "msh-230", "--set", "wheel.mass_kg=-1")
+    assert wrong.status == 2 and "--set wheel.mass_kg" in wrong.err
+
+
 def test_validate_tells_every_file(tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.toml"
     wrong.write_text("[machine]\n", encoding="utf-8")
