@@ -4,9 +4,12 @@ import gc
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from tests import remembered
 
+settings.register_profile("any machine", deadline=None)  # timings decide no test
+settings.load_profile("any machine")
 gc.disable()  # until all tests are collected: of what that makes nearly nothing is garbage
 
 

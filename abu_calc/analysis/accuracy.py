@@ -18,7 +18,7 @@ from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
-from abu_calc.progress import Progress
+from abu_calc.progress import Progress, Stage
 
 TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
 ENVELOPE_TOLERANCES: Final = (1e-3, 1e-4, 1e-6)
@@ -115,17 +115,27 @@ def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: f
     points: list[Point] = []
     skipped: list[str] = []
     waiting = groups(full, with_parted_balls(ledger.scene)[0])
+    methods = [method for group in waiting for method in group]
+
+    def told(method: Method) -> None:
+        progress(Stage(method.name, methods.index(method) / len(methods)))
+
     while waiting:
         now = time.perf_counter()
         share = now + max(end - now, 0.0) / len(waiting)
-        found, left = _measured(full, waiting.pop(0), reference, quantity, share, progress)
+        found, left = _measured(full, waiting.pop(0), reference, quantity, share, told)
         points += found
         skipped += left
     return Study(quantity, accuracy, reference, tuple(points), cheapest(points, accuracy, reference), tuple(skipped))
 
 
 def _measured(
-    full: Scene, group: list[Method], reference: Reference, quantity: str, end: float, progress: Progress
+    full: Scene,
+    group: list[Method],
+    reference: Reference,
+    quantity: str,
+    end: float,
+    told: Callable[[Method], None],
 ) -> tuple[list[Point], list[str]]:
     """One kind of method from loose to tight as long as there is time, and the names of those left out."""
     points: list[Point] = []
@@ -134,7 +144,7 @@ def _measured(
         before = points[-1].cold_s or 0.0 if points else 0.0
         if time.perf_counter() + before > end:
             return points, [each.name for each in group[place:]]
-        progress(method.name)
+        told(method)
         try:
             points.append(_point(full, method, reference, quantity, end))
         except TooMuchWorkError:

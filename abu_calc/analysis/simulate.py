@@ -144,6 +144,7 @@ def _integrated(
             raise unreached(
                 scene, accuracy, apart, (runs[0], runs[1]), choice, 10 * tolerance, spared, failure
             ) from None
+        progress(f"{scene.name}: reading what came of it")
         last = choice.work(trajectory)
         most, spared = most - last, 2 * last
         runs = [*runs[-1:], evaluate(scene, trajectory, course)]

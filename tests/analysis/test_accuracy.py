@@ -18,6 +18,10 @@ def quiet(_: str) -> None:
     """No progress."""
 
 
+TOLD: list[str] = []
+"""Of the study below."""
+
+
 @pytest.fixture(scope="module")
 def measured():
     """Timed once, and not at the tightest: that takes implicit methods longer than all the rest."""
@@ -25,7 +29,7 @@ def measured():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "REPEATS", 1)
         patch.setattr(module, "TOLERANCES", module.TOLERANCES[:-1])
-        return study(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, quiet)
+        return study(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, TOLD.append)
 
 
 def test_every_rung_and_integrator_is_measured(measured):
@@ -91,3 +95,9 @@ def test_unknown_quantities_are_refused(measured):
     with pytest.raises(InputError, match="known quantities"):
         study(measured.reference.response, Ledger(None, ()), "beauty", 0.01, 1.0, quiet)
     assert isinstance(measured.reference, Reference)
+
+
+def test_each_method_tells_how_many_are_done(measured):
+    shares = [one.share for one in TOLD[1:]]
+    assert TOLD[0] == "reference" and len(shares) == len(measured.points)
+    assert shares[0] == 0 and shares == sorted(set(shares)) and shares[-1] == pytest.approx(1 - 1 / len(shares))

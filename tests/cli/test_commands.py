@@ -102,10 +102,10 @@ def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int
 
 
 def test_two_balls_do_not_suffice_under_load() -> None:
-    pins = ["--set", "autobalancer.ball_count=2", "--set", "autobalancer.ball_diameter_mm=16.0"]
-    seen = abu("size", "avtovaz-707-222", "--json", *pins)
-    assert seen.status == 1 and seen.document["status"] == "fail"
-    assert seen.document["result"]["autobalancer"]["capacity_ratio"] < 1.2
+    pins = {"autobalancer.ball_count": 2, "autobalancer.ball_diameter_mm": 16.0}
+    design = size_design(abu_calc.read("avtovaz-707-222").changed(pins).whole())
+    assert {check.code for check in design.checks if check.status == "fail"} >= {"ABU201"}
+    assert design.autobalancer.capacity_ratio < 1.2
 
 
 def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
@@ -306,7 +306,6 @@ def test_verify_tells_differences_and_update_keeps_comments(tmp_path: Path) -> N
     after = file.read_text(encoding="utf-8")
     assert after.split("[expected]")[0] == text.split("[expected]")[0]
     assert '"autobalancer.ball_count" = 5\n' in after
-    assert abu("verify", str(tmp_path)).status == 0
     (tmp_path / "other.toml").write_text(text.split("[expected]")[0], encoding="utf-8")
     assert abu("verify", str(tmp_path)).status == 0  # a folder may hold files that expect nothing
     seen = abu("verify", str(tmp_path / "other.toml"))

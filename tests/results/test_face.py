@@ -13,6 +13,7 @@ import pytest
 import abu_calc
 from abu_calc.sizing import size as size_design
 from tests.cli.runner import abu
+from tests.remembered import recalled
 
 CLOCK = frozenset({"wall_s", "cold_s"})
 
@@ -109,7 +110,7 @@ def test_results_are_dataclasses() -> None:
 
 def test_the_same_machine_gives_an_equal_result_however_long_that_took() -> None:
     machine = abu_calc.read("msh-230")
-    result, again = abu_calc.size(machine), abu_calc.size(machine)
+    result, again = abu_calc.size(machine), recalled("size", machine)
     idle = again.simulation[0]
     longer = dataclasses.replace(idle, cost=dataclasses.replace(idle.cost, wall_s=idle.cost.wall_s + 1.0))
     assert result == again == dataclasses.replace(again, simulation=(longer, *again.simulation[1:]))
