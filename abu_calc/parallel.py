@@ -53,24 +53,30 @@ def threads() -> Workers:
     return Workers(os.cpu_count() or 1)
 
 
+def several(workers: Workers | None, tasks: int) -> Workers | None:
+    """The workers, where there are several and so many tasks are worth their start."""
+    return workers if workers is not None and workers.count > 1 and tasks > 2 else None
+
+
 def side_by_side(
     work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], workers: Workers | None, told: Callable[[int], None]
 ) -> list[T]:
     """What the work gives for each task, in their order; `told` how many are done. None: one after the other.
 
-    The first task is done alone, so that what all need is made once.
+    Threads begin when the first task is done, so that what all need is made once.
     """
-    found = [work(*task) for task in tasks[:1]]
-    told(len(found))
-    if workers is None or workers.count < 2 or len(tasks) < 3:
-        for task in tasks[1:]:
-            found.append(work(*task))
-            told(len(found))
+    found: list[T] = []
+    helpers = several(workers, len(tasks))
+    alone = len(tasks) if helpers is None else 0 if helpers.processes else 1
+    for task in tasks[:alone]:
+        found.append(work(*task))
+        told(len(found))
+    if helpers is None:
         return found
-    with workers.running() as executor:
-        waiting = [executor.submit(work, *task) for task in tasks[1:]]
+    with helpers.running() as executor:
+        waiting = [executor.submit(work, *task) for task in tasks[alone:]]
         try:
-            for done, _ in enumerate(as_completed(waiting), 2):
+            for done, _ in enumerate(as_completed(waiting), alone + 1):
                 told(done)
             return [*found, *(one.result() for one in waiting)]
         finally:

@@ -14,6 +14,7 @@ from abu_calc.validity import Range, bounded
 SI_NAMES: Final = {
     "mm": "m", "um": "m", "g": "kg", "g_mm": "kg m", "rpm": "rad/s", "hz": "rad/s", "deg": "rad", "mrad": "rad",
     "MPa": "Pa", "GPa": "Pa", "kN": "N", "kN_per_m": "N/m", "mm_per_s": "m/s",
+    "min": "s",
 }  # fmt: skip
 """SI unit of what files have in another."""
 IN_FILES: Final = {"m": "mm", "kg m": "g_mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m/s": "mm_per_s"}

@@ -26,6 +26,7 @@ SI_PER_UNIT: Final[dict[str, float]] = {
     "mrad": 1e-3,
     "rad": 1.0,
     "s": 1.0,
+    "min": 60.0,
     "per_s": 1.0,
     "N": 1.0,
     "kN": 1e3,

@@ -1,10 +1,19 @@
 """How the tests are shared out among processes; what makes them quicker."""
 
+import gc
 from typing import Any
 
 import pytest
 
 from tests import remembered
+
+gc.disable()  # until all tests are collected: of what that makes nearly nothing is garbage
+
+
+def pytest_collection_finish() -> None:
+    """What is there now stays: garbage is looked for among what tests make."""
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.hookimpl(optionalhook=True)

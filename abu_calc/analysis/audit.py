@@ -22,8 +22,8 @@ class Audit:
 
 
 def audit(
-    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, most_evaluations: int, integrator: str = "auto",
-    progress: Progress = silent,
+    full: Scene, ledger: Ledger, run: Simulation, accuracy: float, most_evaluations: int | None,
+    integrator: str = "auto", progress: Progress = silent,
 ) -> Audit:  # fmt: skip
     """Simulate the scene with all its effects to the same accuracy. Raises NotTrustworthyError as `simulate` does."""
     added = tuple(entry.name for entry in ledger.entries if not entry.included)

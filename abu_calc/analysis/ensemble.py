@@ -20,7 +20,7 @@ from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
-from abu_calc.scenes.members import DRAGS, Dip, Member, full_speed_at, members, scene_of_member
+from abu_calc.scenes.members import DRAGS, Member, full_speed_at, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
 
@@ -127,6 +127,11 @@ class Ensemble:
         return tuple(one for one in self.outcomes if one.member.drag == self.drag)
 
     @property
+    def rated(self) -> tuple[Outcome, ...]:
+        """Those at the rated speed."""
+        return tuple(one for one in self.outcomes if one.member.speed is None)
+
+    @property
     def balanced(self) -> int:
         """How many balance."""
         return sum(one.balanced for one in self.outcomes)
@@ -149,9 +154,9 @@ class Ensemble:
 
 def simulate_members(
     design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None,
-    shares: tuple[float, ...] = DRAGS, doubtful: float | None = None, dip: Dip | None = None,
+    shares: tuple[float, ...] = DRAGS, doubtful: float | None = None,
 ) -> Ensemble:  # fmt: skip
-    """Every start once, at these shares of the drag given, followed by a dip of the speed where one is given.
+    """Every start once, at these shares of the drag given.
 
     Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
     below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. The outcome does not
@@ -159,7 +164,7 @@ def simulate_members(
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
-    starts = [replace(one, dip=dip) for one in members(design, doubtful, shares)]
+    starts = list(members(design, doubtful, shares))
     found = _found(design, starts, accuracy, progress, workers)
     for orders, early_end in (LOUD, False), (LATE, True):
         while undecided := _deciding(found, design.case.drag, orders):
@@ -242,13 +247,13 @@ def _all(
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
     """What the response of a member's scene says."""
-    speed = abs(response.final.speed) or scene.speed
-    settling = response.settling_time
+    speed, settling = abs(response.final.speed) or scene.speed, response.settling_time
+    case = replace(design.case, speed=member.speed or design.case.speed)
     return Outcome(
         member=member,
         settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),
         residual=response.axis_amplitude,
-        level=level_at_loudest(design.case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
+        level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, scene.imbalance),

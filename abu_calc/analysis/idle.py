@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from abu_calc.analysis.balanced import balanced_well
 from abu_calc.analysis.ensemble import Ensemble, Outcome
 from abu_calc.checks import Check, Grade, coded, verdict
+from abu_calc.scenes.from_design import guided
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
 
@@ -89,7 +90,9 @@ def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
     if status == "warn" and latest and latest.time > limit:
         when = "never" if math.isinf(latest.time) else f"{latest.time:.3g} s"
         message += f"; {_named(latest)}: {when}"
-    if any(one.member.run_up for one in ensemble.given):
+    if guided(design, 0.0).pause:
+        message += "; it counts from full speed after the pause"
+    elif any(one.member.run_up for one in ensemble.given):
         message += "; of a run-up only the time at full speed counts"
     value = None if late is None or math.isinf(late.time) else late.time
     return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)

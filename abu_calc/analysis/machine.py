@@ -7,7 +7,8 @@ from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.errors import NotTrustworthyError
-from abu_calc.progress import Progress, silent
+from abu_calc.parallel import Workers, several, side_by_side
+from abu_calc.progress import Progress, Stage, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
 
@@ -36,15 +37,26 @@ def scenes_of(design: Design) -> tuple[str, ...]:
 
 
 def simulated(
-    design: Design, accuracy: float, progress: Progress = silent, names: Sequence[str] | None = None
-) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:
+    design: Design, accuracy: float, progress: Progress = silent, names: Sequence[str] | None = None,
+    workers: Workers | None = None,
+) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:  # fmt: skip
     """All of them, or those of some names, each within the work that `abu size` may take."""
-    runs, failures = [], []
-    for name in scenes_of(design) if names is None else names:
-        try:
-            ledger = chosen(scene_of_design(design, name), accuracy)
-            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
-            runs.append(Run(ledger, run))
-        except NotTrustworthyError as error:
-            failures.append(Failure(name, str(error).splitlines()[0]))
-    return tuple(runs), tuple(failures)
+    names = scenes_of(design) if names is None else names
+    watched = progress if several(workers, len(names)) is None else silent  # of those side by side, each on its own
+    tasks = [(design, name, accuracy, watched) for name in names]
+
+    def told(done: int) -> None:
+        if watched is silent:
+            progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
+
+    found = side_by_side(_simulated, tasks, workers, told)
+    return tuple(one for one in found if isinstance(one, Run)), tuple(one for one in found if isinstance(one, Failure))
+
+
+def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -> Run | Failure:
+    try:
+        ledger = chosen(scene_of_design(design, name), accuracy)
+        run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
+        return Run(ledger, run)
+    except NotTrustworthyError as error:
+        return Failure(name, str(error).splitlines()[0])

@@ -7,7 +7,6 @@ from typing import Final
 
 from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.response import Response
-from abu_calc.check_codes import CHECK_CODES
 from abu_calc.checks import Check, coded, overall, verdict
 from abu_calc.scenes.from_design import running_up
 from abu_calc.sizing.budget import displacement_level
@@ -20,6 +19,7 @@ LIMITED: Final = frozenset({"idle", "run-up"})
 """Scenes that the limits of a file are for; under load a level is information."""
 LAST: Final = 0.95
 """Share of a run by which balls must have settled to count as settled."""
+TRIES: Final = "abu size tries what helps."
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
         word = "make it worse, they gather on the heavy side" if left > moved else "help, but do not balance"
         message = f"imbalance left: the balls {word}"
     soon = balanced and time is not None and time <= limit
-    remedy = None if balanced and soon else "abu size tries what helps."
+    remedy = None if balanced and soon else TRIES
     return (
         coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm", remedy),
         coded("ABU702", verdict(soon), start if balanced else "settled where it does not balance", time, limit, "s",
@@ -121,5 +121,5 @@ def _level(design: Design, response: Response, error: float) -> Check:
     message = f"at the end of this run, {loudest.name}"
     if passed and not safe:
         message += f"; its error of {error:.2g} leaves it open"
-    remedy = None if passed and safe else CHECK_CODES["ABU401"].remedy if not passed else "Ask for more accuracy."
+    remedy = None if passed and safe else TRIES if not passed else "Ask for more accuracy."
     return coded("ABU401", verdict(passed, safe), message, loudest.level, limit, "dB", remedy)

@@ -1,5 +1,6 @@
 """What would make a design pass from every start: small changes of its machine, each tried before it is named."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -7,10 +8,9 @@ from abu_calc.analysis.ensemble import Ensemble, simulate_members
 from abu_calc.formulas.suspension import Springs
 from abu_calc.parallel import Workers
 from abu_calc.progress import Progress, within
-from abu_calc.scenes.members import Dip
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp
-from abu_calc.units import from_si, to_si
+from abu_calc.units import from_si
 
 OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
@@ -23,18 +23,17 @@ FASTER, DAMPED = 0.5, 2.0
 BEFORE = 2
 """Drags that are tried before what leaves the oil as it is."""
 
-BELOW, PAUSE, LEAST = 2 / 3, 2.0, 0.05
-"""Of the speed at which balls hang, to which the rotor is slowed; for how long [s]; and the least speed, of the
-rotor's, at which they hang turning."""
+BELOW, LEAST = 2 / 3, 0.05
+"""Of the speed at which balls hang, to which the rotor is slowed; and the least speed, of the rotor's, at which they
+hang turning."""
 
 
 @dataclass(frozen=True)
 class Change:
-    """What is changed, in words; the machine then, and the dips of the speed with each of which it must pass."""
+    """What is changed, in words, and the machines then, each of which must pass."""
 
     name: str
-    design: Design
-    dips: tuple[Dip | None, ...] = (None,)
+    designs: tuple[Design, ...]
 
 
 def remedy(
@@ -48,11 +47,10 @@ def remedy(
     for change in changes(design, first):
         if most <= 0:
             break
-        for dip in change.dips:
-            told = within(progress, f"with {change.name}")
-            found = simulate_members(change.design, accuracy, told, workers, (1.0,), dip=dip)
+        for one in change.designs:
+            found = simulate_members(one, accuracy, within(progress, f"with {change.name}"), workers, (1.0,))
             most -= found.work
-            if not passes(change.design, found):
+            if not passes(one, found):
                 break
         else:
             return f"Tried: with {change.name} all {found.members} starts pass."
@@ -61,51 +59,52 @@ def remedy(
 
 
 def changes(design: Design, first: Ensemble) -> Iterator[Change]:
-    """Another drag, a dip of the speed where balls hang, a faster run-up where run-ups alone fail, more damping."""
+    """Another drag, a pause where balls hang, a faster run-up where run-ups alone fail, more damping."""
     case, table = design.case, design.case.table
     drags = other_drags(case.drag, only_more=bool(first.hanging))
     with_drags = [
-        Change(f"autobalancer.rolling_drag_per_s = {drag:.3g}", replace(design, case=replace(case, drag=drag)))
+        Change(f"autobalancer.rolling_drag_per_s = {drag:.3g}", (replace(design, case=replace(case, drag=drag)),))
         for drag in drags
     ]
     yield from with_drags[:BEFORE]
-    if dips := _dips(design, first):
-        yield Change(_words(dips[0]), design, dips)
+    yield from _pause(design, first)
     if table.run_up and not table.motor and all(one.member.run_up for one in first.given if not one.balanced):
         time = FASTER * table.run_up.time_s
-        faster = table.model_copy(update={"run_up": RunUp(time_s=time)})
-        yield Change(f"run_up.time_s = {time:.3g}", replace(design, case=replace(case, table=faster)))
+        yield Change(f"run_up.time_s = {time:.3g}", (_running_up(design, table.run_up, time_s=time),))
     if isinstance(case.suspension, Springs):
         x, y = (DAMPED * one for one in case.suspension.damping)
         held = replace(case.suspension, damping=(x, y))
         damped = replace(design, case=replace(case, suspension=held))
-        yield Change("suspension.damping_ratios twice as large", damped)
+        yield Change("suspension.damping_ratios twice as large", (damped,))
     yield from with_drags[BEFORE:]
 
 
-def _dips(design: Design, first: Ensemble) -> tuple[Dip, ...]:
-    """To below the speed at which balls hang, where they come to rest in their race, and up as in a run-up or sooner.
+def _pause(design: Design, first: Ensemble) -> Iterator[Change]:
+    """Below the speed at which balls hang, where they come to rest in their race; up as in a run-up, and sooner.
 
     Above that speed they go on hanging, the better the nearer the rotor is to it. None for a motor, which sets its own
-    pace, and for balls that hardly turn.
+    pace, for balls that hardly turn, and where that speed is one at which the machine works.
     """
     table, speed = design.case.table, design.case.speed
-    caught = min(((1 - one.slip) * speed for one in first.given if one.hanging), default=0.0)
-    if table.motor or caught < LEAST * speed:
-        return ()
+    caught = min(((1 - one.slip) * (one.member.speed or speed) for one in first.given if one.hanging), default=0.0)
     given = table.run_up or RunUp()
-    low = float(f"{from_si(BELOW * caught, 'rpm'):.2g}")
-    share = 1 - to_si(low, "rpm") / speed
-    return tuple(
-        Dip(to_si(low, "rpm"), share * given.run_down_s, PAUSE, sooner * share * given.time_s)
-        for sooner in (1.0, FASTER)
-    )
+    low, lowest = _rounded(from_si(BELOW * caught, "rpm")), from_si(design.case.speed_range[0], "rpm")
+    if table.motor or caught < LEAST * speed or low >= min(given.pause_speed_rpm or math.inf, lowest):
+        return
+    rise = _rounded((1 - low / from_si(speed, "rpm")) * given.time_s)
+    rises = rise, FASTER * rise
+    designs = tuple(_running_up(design, given, pause_speed_rpm=low, pause_rise_s=one) for one in rises)
+    yield Change(f"run_up.pause_speed_rpm = {low:.0f} and run_up.pause_rise_s = {rise:g}", designs)
 
 
-def _words(dip: Dip) -> str:
-    """The slowest rise of those that are tried."""
-    low = from_si(dip.low, "rpm")
-    return f"a pause of {dip.pause:g} s at {low:.0f} rpm after the run-up (up again in {dip.rise:.1g} s)"
+def _rounded(value: float) -> float:
+    return float(f"{value:.2g}")
+
+
+def _running_up(design: Design, given: RunUp, **changed: float) -> Design:
+    """The machine with another run-up."""
+    table = design.case.table.model_copy(update={"run_up": given.model_copy(update=changed)})
+    return replace(design, case=replace(design.case, table=table))
 
 
 def other_drags(given: float, *, only_more: bool) -> list[float]:

@@ -26,9 +26,10 @@ from abu_calc.scenes.from_scene import lasting
 
 ACCURACY = motion.ACCURACY
 
-WORK = 2_000_000
-"""SciPy's evaluations that a simulation may take: a minute of its work, some seconds of compiled code, minutes of plain
-Python. A preset takes some ten thousand, the swing arm two hundred thousand, over a million for its levels."""
+WORK, WORK_FAST = 10_000_000, 2_000_000
+"""SciPy's evaluations that a simulation may take: a minute or two of SciPy's work, a quarter of that in compiled code.
+A preset takes some ten thousand, the swing arm two hundred thousand, over a million for its levels. The second, where
+something oscillates far faster than the rotor turns: mostly a stiffness in another unit, worth some seconds."""
 
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but
@@ -81,17 +82,17 @@ def simulate(
     scene: Scene,
     accuracy: float = 0.01,
     sample_times: Sequence[float] | Array = (),
-    most_evaluations: int = WORK,
+    most_evaluations: int | None = None,
     integrator: str = "auto",
     progress: Progress = silent,
 ) -> Simulation:
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, in
-    SciPy's evaluations: what takes more by counting is not begun. `integrator` is auto, scipy, plain, compiled or
-    heyoka; any but auto asks for the equations. `progress` gets what is being done. Raises NotTrustworthyError when the
-    work does not suffice, or when no tolerance reaches the accuracy: the motion is then chaotic, or decided by less
-    than rounding.
+    SciPy's evaluations: what takes more by counting is not begun; None: WORK or WORK_FAST. `integrator` is auto, scipy,
+    plain, compiled or heyoka; any but auto asks for the equations. `progress` gets what is being done. Raises
+    NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
+    chaotic, or decided by less than rounding.
     """
     ACCURACY.check(accuracy)
     scene, warnings = with_parted_balls(lasting(scene, None, "scene.duration"))
@@ -112,16 +113,17 @@ def simulate(
 
 
 def _integrated(
-    scene: Scene, accuracy: float, times: Sampling, most: int, integrator: str, warnings: tuple[str, ...],
+    scene: Scene, accuracy: float, times: Sampling, most: int | None, integrator: str, warnings: tuple[str, ...],
     offered: Offer, progress: Progress,
 ) -> Simulation:  # fmt: skip
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations, needed = assemble(scene), needed_times(scene)
     needed = needed if len(needed) < len(times.times) else times.times  # one array of both where they are the same
     choice = choose(equations, integrator, tolerances(accuracy)[0], progress)
-    about = choice.expected(equations, tolerances(accuracy)[0])
+    about, fast = choice.expected(equations, tolerances(accuracy)[0]), softer(equations)
+    most = most or (WORK_FAST if fast else WORK)
     if about > most:
-        raise too_much(f"about {about:.2g}", most, softer(equations))
+        raise too_much(f"about {about:.2g}", most, fast)
     started, evaluations, steps = time.perf_counter(), 0, 0
     runs: list[Response] = []
     apart, spared, last = math.nan, 0, 0
@@ -133,7 +135,7 @@ def _integrated(
         readers = (course, remarks) if runs and times.held is not None else (course,)
         try:
             if LEAST * last > most:
-                raise too_much(f"at least {LEAST * last:.3g}", most, softer(equations))
+                raise too_much(f"at least {LEAST * last:.3g}", most, fast)
             watched = times.read_by(*readers).telling(share_of(progress, text))
             trajectory = choice.integrate(equations, tolerance, watched, choice.evaluations(most))
         except NotTrustworthyError as failure:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, WORK, Ensemble, Outcome, run_of_start
@@ -67,7 +67,9 @@ def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterato
 def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
     """Of a velocity of the axis, rms [m/s], the level [dB] at the loudest place, as an ensemble tells it."""
 
+    case = replace(design.case, speed=scene.speed)
+
     def level(velocity: float) -> float:
-        return level_at_loudest(design.case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
+        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
 
     return level

@@ -40,7 +40,7 @@ def simulate(
     most_evaluations: Annotated[
         int | None,
         typer.Option(
-            "--most-evaluations", metavar="N", help="Work that is allowed; default 2 million, a minute or two."
+            "--most-evaluations", metavar="N", help="Work that is allowed; default ten million, a minute or two."
         ),
     ] = None,
     audit: Annotated[
@@ -48,7 +48,6 @@ def simulate(
     ] = False,
 ) -> Outcome:
     """Integrate one scene: amplitude, level, settling time, where the balls end."""
-    from abu_calc.analysis.simulate import WORK
     from abu_calc.report.simulate_text import simulate_blocks, simulate_screen
     from abu_calc.report.trajectory import TrajectoryCsv
     from abu_calc.report.write import Target
@@ -67,7 +66,7 @@ def simulate(
             without_effects=without_effects or (),
             integrator=integrator,
             audit=audit,
-            most_evaluations=WORK if most_evaluations is None else most_evaluations,
+            most_evaluations=most_evaluations,
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )

@@ -19,6 +19,8 @@ WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL",
 RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn")
 """Grades that need a word, the worst first."""
 MARGIN: Final = 2
+DIGITS: Final = range(4, 9)
+"""Of a value and its limit."""
 MOST_ALIKE: Final = 3
 """Checks that are named with the reason they share; the table of checks has all."""
 
@@ -137,12 +139,20 @@ def written(value: object) -> str:
 
 
 def _value(check: Check) -> str:
-    return "" if check.value is None else f"{number(check.value)} {check.unit or ''}".rstrip()
+    return "" if check.value is None else f"{number(check.value, _digits(check))} {check.unit or ''}".rstrip()
 
 
 def limit_of(check: Check) -> str:
     """The most or the least that is permitted, in words."""
-    return "" if check.limit is None else f"{BOUND[check.bound]} {number(check.limit)}"
+    return "" if check.limit is None else f"{BOUND[check.bound]} {number(check.limit, _digits(check))}"
+
+
+def _digits(check: Check) -> int:
+    """So many that a value beyond its limit is not shown as that limit."""
+    value, limit = check.value, check.limit
+    if value is None or limit is None:
+        return DIGITS[0]
+    return next((one for one in DIGITS if number(value, one) != number(limit, one)), DIGITS[0])
 
 
 def limit_in_file(check: Check | None) -> str:

@@ -220,7 +220,7 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
     """All that the file has data for, in the order of the registry."""
     case, table, radius = design.case, design.case.table, design.autobalancer.ball_diameter / 2
     if which == "run-up" and table.run_up:
-        yield RunUp(up=table.run_up.time_s)
+        yield guided(design, table.run_up.time_s)
         if table.motor:
             yield Motor(**motor_numbers(table.motor))
     yield RaceEccentricity(case.race_eccentricity, WORST)
@@ -260,11 +260,21 @@ def _contact(design: Design) -> GrindingContact | None:
     )
 
 
+def guided(design: Design, up: float) -> RunUp:
+    """From rest to full speed in a time [s], 0: at full speed from the start; then the pause that the file asks for."""
+    given, speed = design.case.table.run_up, design.case.speed
+    if given is None or given.pause_speed_rpm is None:
+        return RunUp(up)
+    low = to_si(given.pause_speed_rpm, "rpm")
+    fall = (1 - low / speed) * given.run_down_s
+    return RunUp(up, low=low, fall=fall, pause=given.pause_s, rise=given.pause_rise_s)
+
+
 def running_up(design: Design) -> float:
-    """Time [s] from rest to full speed; that of a motor is five of its time constants J Ω₀/M."""
+    """Time [s] from rest to full speed for good; that of a motor is five of its time constants J Ω₀/M."""
     table = design.case.table
     given = table.run_up.time_s if table.run_up else 0.0
     if table.motor is None:
-        return given
+        return guided(design, given).at_speed
     motor = Motor(**motor_numbers(table.motor))
     return max(given, TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque)

@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp as RunUpEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.scenes.from_design import Start, running_up, scene_of_design
+from abu_calc.scenes.from_design import Start, guided, running_up, scene_of_design
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.track import track
 from abu_calc.spec.duty import RunUp
+from abu_calc.units import from_si
 
 STARTS: tuple[Start, ...] = ("bunched", "behind", "spread", "standstill")
 
@@ -28,48 +30,43 @@ LAGS = 3.0
 
 
 @dataclass(frozen=True)
-class Dip:
-    """From full speed down to a lower one [rad/s], a pause there, and up again: times of the three [s]."""
-
-    low: float
-    fall: float
-    pause: float
-    rise: float
-
-
-@dataclass(frozen=True)
 class Member:
     """One start: where from, the drag h₀ [1/s], and the time [s] from standstill to full speed, 0 at full speed.
 
-    `eccentricity`: where the centre of the race stands, from the imbalance [rad]; `dip`: what the speed does then.
+    `eccentricity`: where the centre of the race stands, from the imbalance [rad]; `speed`: the full one [rad/s] where
+    it is not the rated one.
     """
 
     start: Start
     drag: float
     run_up: float = 0.0
     eccentricity: float = OPPOSITE
-    dip: Dip | None = None
+    speed: float | None = None
 
     @property
     def name(self) -> str:
         """In words."""
-        return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
+        how = f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
+        return how if self.speed is None else f"{how} ({from_si(self.speed, 'rpm'):.6g} rpm)"
 
 
 def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = DRAGS) -> Iterator[Member]:
     """All that are simulated, at these shares of the drag given; at that itself with the race off to either side.
 
-    Below the drag `doubtful` [1/s] balls might hang, so that a slow run-up is tried, too.
+    Below the drag `doubtful` [1/s] balls might hang, so that a slow run-up is tried, too. A speed range has its ends
+    tried after the rated speed: at the lowest balls hang first and settle latest, at the highest they are loudest.
     """
-    given = design.case.table.run_up
+    case, given = design.case, design.case.table.run_up
     usual = given.time_s if given else RUN_UP
-    for drag in dict.fromkeys(share * design.case.drag for share in shares):
-        both = drag == design.case.drag and design.case.race_eccentricity > 0
-        for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
-            yield from (Member(start, drag, 0.0, angle) for start in STARTS)
-            yield Member("bunched", drag, usual, angle)
-            if drag < doubtful and usual < SLOW:
-                yield Member("bunched", drag, SLOW, angle)
+    ends = (end for end in dict.fromkeys(case.speed_range) if not math.isclose(end, case.speed))
+    for speed in (None, *ends):
+        for drag in dict.fromkeys(share * case.drag for share in shares):
+            both = speed is None and drag == case.drag and case.race_eccentricity > 0
+            for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
+                yield from (Member(start, drag, 0.0, angle, speed=speed) for start in STARTS)
+                yield Member("bunched", drag, usual, angle, speed=speed)
+                if drag < doubtful and usual < SLOW:
+                    yield Member("bunched", drag, SLOW, angle, speed=speed)
 
 
 def scene_of_member(design: Design, member: Member) -> Scene:
@@ -81,9 +78,11 @@ def scene_of_member(design: Design, member: Member) -> Scene:
     scene = scene_of_design(own, "run-up" if member.run_up else "idle", member.start)
     turned = (replace(one, angle=member.eccentricity) if isinstance(one, RaceEccentricity) else one
               for one in scene.effects)  # fmt: skip
-    scene = _dipped(replace(scene, effects=tuple(turned)), member.dip)
-    if not member.run_up and member.start != "standstill":
-        return scene
+    scene = replace(scene, effects=tuple(turned))
+    if not member.run_up:
+        scene = _paused(scene, guided(own, 0.0))
+        if member.start != "standstill":
+            return scene
     longest = own.case.table.limits.settling_time_s
     lag = LAGS * own.case.inertia_factor / member.drag if member.drag else longest
     return replace(scene, duration=scene.duration + min(lag, longest))
@@ -91,29 +90,25 @@ def scene_of_member(design: Design, member: Member) -> Scene:
 
 def full_speed_at(design: Design, member: Member) -> float:
     """When a member is at full speed for good [s]; a motor sets its own pace."""
-    dip = member.dip
-    after = dip.fall + dip.pause + dip.rise if dip else 0.0
-    return (running_up(_with(design, member)) if member.run_up else 0.0) + after
+    own = _with(design, member)
+    return running_up(own) if member.run_up else guided(own, 0.0).at_speed
 
 
-def _dipped(scene: Scene, dip: Dip | None) -> Scene:
-    """With a dip of the speed after the run-up, if there is one; longer by that."""
-    if dip is None:
+def _paused(scene: Scene, pace: RunUpEffect) -> Scene:
+    """A scene at full speed with the pause of its file, if there is one; longer by that."""
+    if not pace.at_speed:
         return scene
-    given = next((one for one in scene.effects if isinstance(one, RunUpEffect)), RunUpEffect(0.0))
-    guided = replace(given, low=dip.low, fall=dip.fall, pause=dip.pause, rise=dip.rise)
-    others = (one for one in scene.effects if not isinstance(one, RunUpEffect))
-    return replace(scene, effects=(guided, *others), duration=scene.duration + guided.at_speed - given.at_speed)
+    return replace(scene, effects=(pace, *scene.effects), duration=scene.duration + pace.at_speed)
 
 
 def _with(design: Design, member: Member) -> Design:
-    """The design with the drag and the run-up of a member."""
-    table, given = design.case.table, design.case.table.run_up
-    usual = given.time_s if given else RUN_UP
-    if member.run_up and (given is None or member.run_up != usual):
-        # A slow run-up is a guided one: a motor would set its own pace.
-        motor = table.motor if member.run_up == usual else None
-        table = table.model_copy(update={"run_up": RunUp(time_s=member.run_up), "motor": motor})
-    rates = sorted(design.track.decay_rates, key=lambda one: abs(one[0] - member.drag))
-    track = replace(design.track, decay_rates=tuple(rates))
-    return replace(design, case=replace(design.case, drag=member.drag, table=table), track=track)
+    """The design with the drag, the speed and the run-up of a member."""
+    case, given = design.case, design.case.table.run_up
+    table, usual, speed = case.table, given.time_s if given else RUN_UP, member.speed or case.speed
+    if member.run_up and (given is None or member.run_up != usual or speed != case.speed):
+        # A slow run-up is a guided one, and one to another speed: a motor would set its own pace.
+        motor = table.motor if (member.run_up, speed) == (usual, case.speed) else None
+        slow = (given or RunUp()).model_copy(update={"time_s": member.run_up})
+        table = table.model_copy(update={"run_up": slow, "motor": motor})
+    case = replace(case, drag=member.drag, speed=speed, table=table)
+    return replace(design, case=case, track=track(case, design.autobalancer, design.frequency.natural_frequencies))

@@ -57,8 +57,8 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
     advice = drawing(case, best, race)
     checks = (
         frequency.check,
-        *candidate_checks(case, best),
-        *track_checks(case, best, race),
+        *candidate_checks(case, imbalance.value, best),
+        *track_checks(case, imbalance.value, best, race),
         *vibration_checks(case, imbalance.value, best, idle, levels, worst),
         *power_checks(case),
         *(arm.checks if arm else ()),

@@ -1,7 +1,8 @@
 """The checks of the chosen autobalancer, and what a reader must be warned of."""
 
 from abu_calc.checks import Check, coded, verdict
-from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing import trials
+from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.vibration import Loaded
@@ -9,19 +10,18 @@ from abu_calc.standards.balls import stock_diameter
 from abu_calc.units import from_si
 
 
-def candidate_checks(case: Case, one: Candidate) -> tuple[Check, ...]:
+def candidate_checks(case: Case, imbalance: float, one: Candidate) -> tuple[Check, ...]:
     """What the chosen autobalancer must hold: capacity, accuracy, mass, and that its race is near the wheel."""
-    return _capacity(case, one), _budget(one), _mass(case, one), *_plane(case, one)
+    return _capacity(case, imbalance, one), _budget(one), _mass(case, imbalance, one), *_plane(case, one)
 
 
-def _capacity(case: Case, one: Candidate) -> Check:
+def _capacity(case: Case, imbalance: float, one: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
     need = from_si(one.requirement.required * margin, "g_mm")
-    enough = one.capacity_ratio >= margin
-    return coded("ABU201", verdict(enough), f"{one.ball_count} balls side by side against {margin:g} × the need",
+    passed = enough(case, one)
+    return coded("ABU201", verdict(passed), f"{one.ball_count} balls side by side against {margin:g} × the need",
         from_si(one.capacity, "g_mm"), need, "g·mm",
-        None if enough else "More or larger balls, a larger envelope, or a better balanced and truer wheel.",
-        "least",
+        None if passed else trials.remedy(case, imbalance, trials.more_room(case), enough), "least",
     )  # fmt: skip
 
 
@@ -35,12 +35,11 @@ def _budget(one: Candidate) -> Check:
     )  # fmt: skip
 
 
-def _mass(case: Case, one: Candidate) -> Check:
-    limit = case.autobalancer.max_mass_fraction
-    light = one.mass_fraction <= limit
-    return coded("ABU203", verdict(light), "share of the machine's mass, balls included",
+def _mass(case: Case, imbalance: float, one: Candidate) -> Check:
+    limit, passed = case.autobalancer.max_mass_fraction, light(case, one)
+    return coded("ABU203", verdict(passed), "share of the machine's mass, balls included",
         100 * one.mass_fraction, 100 * limit, "%",
-        None if light else 'The design "light", a smaller bore, less margin, or a better balanced wheel.',
+        None if passed else trials.remedy(case, imbalance, trials.lighter(case), light),
     )  # fmt: skip
 
 

@@ -174,24 +174,26 @@ def _mass(case: Case, count: int, diameter: float, radius: float) -> float:
     return _housing(case, diameter, radius).mass + count * _ball_mass(case, diameter)
 
 
-def _enough(case: Case, one: Candidate) -> bool:
+def enough(case: Case, one: Candidate) -> bool:
+    """Whether it carries the need with the margin asked for."""
     return one.capacity_ratio >= case.autobalancer.capacity_margin
 
 
-def _light(case: Case, one: Candidate) -> bool:
+def light(case: Case, one: Candidate) -> bool:
+    """Whether it weighs no more than allowed."""
     return one.mass_fraction <= case.autobalancer.max_mass_fraction
 
 
 def sound(case: Case, one: Candidate) -> bool:
     """Whether it falls short of nothing."""
-    return _enough(case, one) and one.strength.enough and one.stays_round and one.budget.within and _light(case, one)
+    return enough(case, one) and one.strength.enough and one.stays_round and one.budget.within and light(case, one)
 
 
 def _rank(case: Case, one: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
     shortage = max(0.0, case.autobalancer.capacity_margin - one.capacity_ratio)
     excess = 0.0 if one.budget.within else one.budget.residual
-    bad = shortage, not one.strength.enough, not one.stays_round, excess, not _light(case, one)
+    bad = shortage, not one.strength.enough, not one.stays_round, excess, not light(case, one)
     return (*bad, one.ball_count > DOZEN, round(one.mass, 9), one.ball_diameter)
 
 
@@ -205,7 +207,7 @@ def _front(sound: list[Candidate]) -> list[Candidate]:
 
 
 def _why_not(case: Case, one: Candidate, best: Candidate) -> str:
-    if not _enough(case, one):
+    if not enough(case, one):
         return f"carries only {one.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
     if not one.strength.enough:
         return "stressed more than its material bears"
@@ -213,7 +215,7 @@ def _why_not(case: Case, one: Candidate, best: Candidate) -> str:
         return "its race would go oval"
     if not one.budget.within:
         return f"rests at {from_si(one.budget.residual, 'um'):.1f} µm, more than the limit permits"
-    if not _light(case, one):
+    if not light(case, one):
         return f"weighs {100 * one.mass_fraction:.1f} % of the machine"
     heavier = from_si(one.mass - best.mass, "g")
     finer = from_si(best.budget.residual - one.budget.residual, "um")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
+from abu_calc.sizing import trials
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import oval_rest, permitted_displacement
 from abu_calc.sizing.case import Case
@@ -63,7 +64,7 @@ def _rate(case: Case, one: Candidate, kappa: float, drag: float) -> float:
     return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, drag, case.inertia_factor)
 
 
-def track_checks(case: Case, one: Candidate, race: Track) -> tuple[Check, ...]:
+def track_checks(case: Case, imbalance: float, one: Candidate, race: Track) -> tuple[Check, ...]:
     """Pressure, hardness, hoop stress, roundness at the highest speed; on a horizontal spindle that the balls are
     carried over at the lowest.
     """
@@ -74,13 +75,13 @@ def track_checks(case: Case, one: Candidate, race: Track) -> tuple[Check, ...]:
     checks = [
         coded("ABU301", verdict(pressure <= permitted), f"Hertz pressure of a ball at {top}, against 5.2·HV, "
               "which leaves no dent (assumed rule)", pressure, permitted, "MPa",
-              None if pressure <= permitted else "A harder race, more and smaller balls, or a smaller race radius."),
+              None if pressure <= permitted else trials.remedy(case, imbalance, trials.harder(case), _bears)),
         coded("ABU302", verdict(hardness >= LEAST_HARDNESS_HRC), "a soft race dents, and dents hold "
               "the balls: machines with soft races gained nothing", hardness, LEAST_HARDNESS_HRC, "HRC",
               None if hardness >= LEAST_HARDNESS_HRC else "Harden the race to 60–63 HRC and grind it.", "least"),
         coded("ABU303", verdict(hoop <= limit), f"spinning rim at {top} (limit assumed)", hoop, limit,
-              "MPa", None if hoop <= limit else "Reduce the outer diameter, or choose the one-piece steel design."),
-        _roundness(case, one, top),
+              "MPa", None if hoop <= limit else trials.remedy(case, imbalance, trials.stronger(case), _bears)),
+        _roundness(case, imbalance, one, top),
     ]  # fmt: skip
     if case.table.machine.spindle_axis == "horizontal":
         lowest, needed = from_si(case.speed_range[0], "rpm"), from_si(race.carry_over, "rpm")
@@ -92,12 +93,16 @@ def track_checks(case: Case, one: Candidate, race: Track) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def _roundness(case: Case, one: Candidate, top: str) -> Check:
+def _bears(_: Case, one: Candidate) -> bool:
+    return one.strength.enough
+
+
+def _roundness(case: Case, imbalance: float, one: Candidate, top: str) -> Check:
     """What an oval race leaves where one web alone holds it, against all that the level's limit permits."""
     left, permitted = oval_rest(one.roundness.unaided), permitted_displacement(case, one.mass, case.speed_range[1])
     drawn = f"{from_si(oval_rest(one.roundness.lobes), 'um'):.3g} µm"
     return coded("ABU304", verdict(one.stays_round), "what the two lobes leave of a race that two opposite balls make "
         f"oval, held by one web alone, at {top}; {drawn} as drawn, the cover carrying the wall", from_si(left, "um"),
         from_si(permitted, "um"), "µm", None if one.stays_round else
-        "A thicker wall (min_wall_mm), a smaller race, or more and smaller balls.",
+        trials.remedy(case, imbalance, trials.rounder(case), lambda _, other: other.stays_round),
     )  # fmt: skip

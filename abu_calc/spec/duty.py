@@ -82,6 +82,33 @@ class RunUp(Table):
         le=3600,
         json_schema_extra=usual(0.1, 120),
     )
+    pause_speed_rpm: float | None = Field(
+        default=None,
+        description="Speed at which the rotor pauses after its run-up, so that balls that hang come to rest [rpm]; "
+        "{range}, below machine.speed_range_rpm. It slows to it as in run_down_s. Default: no pause.",
+        examples=[1100.0],
+        ge=1,
+        le=300_000,
+        json_schema_extra=usual(100, 20_000),
+    )
+    pause_s: float = Field(
+        default=2.0,
+        description="How long it pauses [s]; {range}. Default: {default}, assumed.",
+        gt=0,
+        le=3600,
+        json_schema_extra=usual(0.1, 60),
+    )
+    pause_rise_s: float = Field(
+        default=0.5,
+        description="Time in which it then rises to the rated speed [s]; {range}. Default: {default}, assumed.",
+        gt=0,
+        le=3600,
+        json_schema_extra=usual(0.05, 30),
+    )
+
+    def unused(self) -> frozenset[str]:
+        """What tells of the pause, where there is none."""
+        return frozenset({"pause_s", "pause_rise_s"}) if self.pause_speed_rpm is None else frozenset()
 
 
 class Motor(Table):

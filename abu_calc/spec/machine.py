@@ -102,3 +102,19 @@ class MachineFile(Table):
                 remedy="give the no-load speed at the spindle",
             )
         return self
+
+    @model_validator(mode="after")
+    def _pauses_below_its_speed(self) -> Self:
+        pause = None if self.run_up is None else self.run_up.pause_speed_rpm
+        if pause is None:
+            return self
+        place = "run_up", "pause_speed_rpm"
+        if self.motor is not None:
+            raise problem("a motor sets its own pace", *place, found=f"{pause:g} rpm beside [motor]",
+                          remedy="leave one of them out")  # fmt: skip
+        lowest = min(self.machine.speed_range)
+        if pause >= lowest:
+            raise problem("the rotor pauses below its working speeds", *place, found=f"{pause:g} rpm",
+                          allowed=f"below {lowest:g} rpm",
+                          remedy="a speed at which the balls rest in the race")  # fmt: skip
+        return self

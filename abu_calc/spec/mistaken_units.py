@@ -28,6 +28,7 @@ MISTAKEN: Final[dict[str | None, dict[str, float]]] = {
     "kg_m2": {"kg·cm²": 1e-4, "kg·mm²": 1e-6, "g·m²": 1e-3, "g·cm²": 1e-7, "g·mm²": 1e-9},
     "W": {"kW": 1e3, "hp": 745.69987},
     "s": {"ms": 1e-3, "min": 60.0},
+    "min": {"s": 1.0, "h": 3600.0},
     "per_s": {"1/min": 1 / 60},
     "deg": {"rad": 1.0},
     "rad": {"mrad": 1e-3, "deg": math.pi / 180},

@@ -1,6 +1,6 @@
 """What many starts of one design showed, as results hold it."""
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from typing import Annotated, Self
 
 from abu_calc.analysis.ensemble import Ensemble, Outcome
@@ -11,16 +11,16 @@ from abu_calc.units import from_si
 
 @record
 class Spread(Record):
-    """The median over all starts, and the worst of them; None where a start never gets there."""
+    """The median over all starts at the rated speed, and the worst of all; None where a start never gets there."""
 
     typical: Annotated[float | None, Quantity("typical")]
     worst: Annotated[float | None, Quantity("worst")]
 
     @classmethod
-    def of(cls, ensemble: Ensemble, values: Iterable[float]) -> Self:
+    def of(cls, ensemble: Ensemble, value: Callable[[Outcome], float]) -> Self:
         """Of one number of each start."""
-        found = list(values)
-        return cls(typical=ensemble.typical(found), worst=finite(max(found, default=None)))
+        worst = max(map(value, ensemble.outcomes), default=None)
+        return cls(typical=ensemble.typical(map(value, ensemble.rated)), worst=finite(worst))
 
 
 @record
@@ -73,14 +73,13 @@ class EnsembleResult(Record):
     @classmethod
     def of(cls, ensemble: Ensemble) -> Self:
         """In user units."""
-        outcomes = ensemble.outcomes
         return cls(
             members=ensemble.members,
             balanced=ensemble.balanced,
             hanging=len(ensemble.hanging),
-            settling_time_s=Spread.of(ensemble, (one.time for one in outcomes)),
-            level_db=Spread.of(ensemble, (one.level for one in outcomes)),
-            residual_um=Spread.of(ensemble, (from_si(one.residual, "um") for one in outcomes)),
+            settling_time_s=Spread.of(ensemble, lambda one: one.time),
+            level_db=Spread.of(ensemble, lambda one: one.level),
+            residual_um=Spread.of(ensemble, lambda one: from_si(one.residual, "um")),
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
             settling_by_start=SettlingOfStart.all_of(ensemble),
         )

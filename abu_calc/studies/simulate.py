@@ -8,7 +8,7 @@ from abu_calc.analysis.audit import Audit
 from abu_calc.analysis.audit import audit as with_all_effects
 from abu_calc.analysis.one_run import level_at, levels_at_places, loudest, one_run_checks
 from abu_calc.analysis.response import Response
-from abu_calc.analysis.simulate import ACCURACY, WORK, Simulation
+from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
@@ -70,7 +70,7 @@ def simulate(
     integrator: str = "auto",
     audit: bool = False,
     samples: int | None = None,
-    most_evaluations: int = WORK,
+    most_evaluations: int | None = None,
     progress: Progress = silent,
 ) -> SimulateResult:
     """Integrate one scene to `accuracy`: of amplitude and settling time relative, of ball angles in rad.
@@ -82,7 +82,7 @@ def simulate(
     NotTrustworthyError where the accuracy is not reached, or not within that work.
     """
     ACCURACY.check(accuracy)
-    EVALUATIONS.check(most_evaluations)
+    EVALUATIONS.check(1 if most_evaluations is None else most_evaluations)
     one_of("integrator", integrator, INTEGRATORS)
     subject = subject_of(source, scene, start).lasting(duration_s)
     times = equally_spaced(subject.scene, samples)

@@ -9,9 +9,10 @@ from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels, work_of
 from abu_calc.analysis.machine import Failure, Run, simulated
 from abu_calc.analysis.one_run import loudest
-from abu_calc.analysis.proven import proven
+from abu_calc.analysis.proven import Proven, proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
+from abu_calc.checks import Check
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import Workers, threads
@@ -103,26 +104,19 @@ def size(
         sized = size_design(tables)
         with _side_by_side(workers) as side_by_side:
             tried = proven(sized, accuracy=accuracy, progress=progress, workers=side_by_side)
-        design = tried.design
-        runs, failures = simulated(design, accuracy, progress)
+            design = tried.design
+            runs, failures = simulated(design, accuracy, progress, workers=side_by_side)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         region = true_region(design)
     arm, moved = _arm(design, failures, accuracy, progress)
-    held = {one.code: one for one in arm.checks} if arm else {}
-    checks = tuple(
-        level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else held.pop(one.code, one)
-        for one in design.checks
-    )
-    checks += tuple(held.values())
-    checks += region.check, *ensemble_checks(design, tried.ensemble, tried.remedy)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
-    checks += tuple(not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
+    lost = (not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
-        checks=checks,
+        checks=(*_checks(tried, arm), region.check, *ensemble_checks(design, tried.ensemble, tried.remedy), *lost),
         warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work)),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
@@ -158,6 +152,14 @@ def size(
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
     )
+
+
+def _checks(tried: Proven, arm: "ArmJudgement | None") -> Iterator[Check]:
+    """Those of the sizing, the level by its worst start and the arm's as it was judged."""
+    held = {one.code: one for one in arm.checks} if arm else {}
+    for one in tried.design.checks:
+        yield level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else held.pop(one.code, one)
+    yield from held.values()
 
 
 def _view(design: Design, runs: Sequence[Run], scene: str) -> RotorView | None:

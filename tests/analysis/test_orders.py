@@ -38,6 +38,8 @@ LEAST = 100 * REFERENCE
 COSTLY = ("scipy-radau", "scipy-bdf")
 """Those that solve for their steps: left to `-m slow` for the time they take."""
 QUICK = [name for name in INTEGRATORS if name not in COSTLY]
+MANY_LOOKS = ("scipy-rk45", "scipy-lsoda")
+"""Those of many short steps, at each of which switches are looked for in the way of the quicker ones."""
 CASES = [(scene, name) for scene in SMOOTH for name in QUICK]
 LONG = {(scene, "heyoka") for scene in ("coupled", "tilting")}
 """Slow ones, left to `-m slow`: what heyoka compiles, in the largest systems."""
@@ -79,7 +81,7 @@ def test_errors_are_proportional_to_the_tolerance(scene, name):
     assert 0.7 < found < 1.3
 
 
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize("name", [pytest.param(one, marks=[pytest.mark.slow] * (one in MANY_LOOKS)) for one in QUICK])
 @pytest.mark.parametrize("scene", SWITCHING)
 def test_switches_leave_them_so(scene, name):
     """Events located in time cost no order."""

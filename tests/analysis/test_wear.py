@@ -57,8 +57,14 @@ def ground(stiffness: float | None, depth: float, steps: int, *, balls: bool) ->
     return complex(2 * (outline * np.exp(1j * POINTS)).mean()), OWN + moment() - first
 
 
-@pytest.mark.parametrize("stiffness", [4.9e5, None])
-@pytest.mark.parametrize("balls", [False, True])
+@pytest.mark.parametrize(
+    ("stiffness", "balls"),
+    [
+        (4.9e5, True),
+        (None, True),
+        *(pytest.param(one, False, marks=pytest.mark.slow) for one in (4.9e5, None)),  # a part of the same
+    ],
+)
 def test_wear_is_that_of_a_wheel_worn_point_by_point(stiffness: float | None, balls: bool) -> None:
     """To the depth of the first event; the outline loses mass by its radius, 0.1 % of it here."""
     wear = worn((fitted if balls else alone)(stiffness), PRESS, WHEEL, 1e-3)

@@ -98,7 +98,7 @@ def test_balls_that_cannot_balance_merge(
     assert abs(math.remainder(one - (0 if balls > 0 else 180), 360)) < 15
 
 
-@pytest.mark.parametrize("speed", [2.0, 3.0, 6.0])
+@pytest.mark.parametrize("speed", [2.0, 3.0, pytest.param(6.0, marks=pytest.mark.slow)])
 def test_race_eccentricity_is_what_the_axis_keeps(tmp_path: Path, speed: float) -> None:
     """The balls centre the race: the axis whirls with |t|, whatever the speed. Exact, but for an approach left."""
     text = rotor(
@@ -212,7 +212,12 @@ runout_angle_deg = {math.degrees(at)}
 
 # other supports
 @pytest.mark.parametrize(
-    ("ratio", "duration", "larger"), [(5.0, 12.0, 0.0), (2.0, 12.0, 0.0), (0.75, 4.0, 2.3), (0.5, 4.0, 2.5)]
+    ("ratio", "duration", "larger"),
+    [
+        (5.0, 12.0, 0.0),
+        (0.5, 4.0, 2.5),
+        *(pytest.param(*one, marks=pytest.mark.slow) for one in ((2.0, 12.0, 0.0), (0.75, 4.0, 2.3))),
+    ],
 )
 def test_balls_on_a_swing_arm(tmp_path: Path, ratio: float, duration: float, larger: float) -> None:
     """Kovalenko 2010, (1) and (2) in full: above its natural frequency the arm is balanced, balls at ± 131.8°.

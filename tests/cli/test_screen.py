@@ -10,7 +10,7 @@ import abu_calc
 from abu_calc.checks import Check, Grade
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.fit_screen import check_fit_screen
-from abu_calc.report.parts import check_blocks
+from abu_calc.report.parts import check_blocks, reasons
 from abu_calc.report.screen import cut
 from abu_calc.report.size_screen import Spread, _table, size_screen
 from abu_calc.report.text import as_text, height
@@ -175,6 +175,15 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
 
 
 # room
+def test_a_value_beyond_its_limit_is_not_shown_as_the_limit() -> None:
+    def told(value: float) -> str:
+        return "".join(as_text(reasons([Check("ABU401", "level", "fail", "told", value, 109.0, "dB")])))
+
+    assert "(109.03 dB, at most 109.00)" in told(109.0312)
+    assert "(112.0 dB, at most 109.0)" in told(112.04)
+    assert "(109.0 dB, at most 109.0)" in told(109.0)
+
+
 @pytest.mark.parametrize(
     ("bad", "warned"), [(0, 0), (0, 60), (1, 7), (5, 1), (5, 7), (14, 0), (14, 60), (60, 1), (60, 60)]
 )

@@ -251,7 +251,7 @@ def test_which_arrangement_is_judged(scene: str) -> None:
         rates[way] = document["result"]["growth_rate_per_s"]
         assert any("arrangements" in told for told in document["warnings"])
     plain = abu("stability", scene, *TWO_AND_TWO, "--json").document["result"]
-    assert plain["growth_rate_per_s"] == rates["worst"] >= max(rates.values())
+    assert plain["growth_rate_per_s"] == rates["worst"] >= max(rates.values()) - 1e-12
     seen = abu("stability", scene, "--arrangement", "best")
     assert seen.status == 2 and "arrangement" in seen.err and "worst" in seen.err
     bunched = ("--set", "scene.race[0].start_angles_deg=[0, 0, 0, 0]")

@@ -163,8 +163,8 @@ def test_two_tolerances_agree():
 @pytest.mark.parametrize(
     ("restitution", "coefficient"),
     [
-        *((0.0, 1e-4), (0.5, 1e-2)),
-        *(pytest.param(*one, marks=pytest.mark.slow) for one in ((0.5, 1e-4), (0.0, 1e-2))),
+        (0.5, 1e-2),
+        *(pytest.param(*one, marks=pytest.mark.slow) for one in ((0.0, 1e-4), (0.5, 1e-4), (0.0, 1e-2))),
     ],
 )
 def test_twenty_balls_with_friction(restitution, coefficient):

@@ -189,6 +189,16 @@ def pairs() -> list[tuple[str, ...]]:
     return [(name,) for name in EXAMPLES] + two
 
 
+def shared_out() -> list[Any]:
+    """Each of them on two supports in every run, and on the others by `-m slow`: every two supports take turns."""
+    cases = [(k - place, support, names) for k, names in enumerate(pairs()) for place, support in enumerate(SUPPORTS)]
+    return [
+        pytest.param(support, names, marks=[pytest.mark.slow] * (turn % 3 > 0), id=f"{' + '.join(names)}-{support}")
+        for turn, support, names in cases
+        if taken(support, *names)
+    ]
+
+
 def check_energy(sample: Sample) -> None:
     """d(energy)/dt along the motion is the power, the drive's included."""
     t, y, modes, rates = sample.t, sample.y, sample.modes, sample.rhs
@@ -196,13 +206,10 @@ def check_energy(sample: Sample) -> None:
     assert change == pytest.approx(power(sample.scene, t, y, modes), rel=1e-9, abs=1e-10)
 
 
-@pytest.mark.parametrize("support", SUPPORTS)
-@pytest.mark.parametrize("names", pairs(), ids=lambda names: " + ".join(names))
+@pytest.mark.parametrize(("support", "names"), shared_out())
 def test_energy_changes_by_the_power_alone(support, names):
-    scene = taken(support, *names)
-    if scene is not None:
-        for sample in samples(scene, 2):
-            check_energy(sample)
+    for sample in samples(taken(support, *names), 2):
+        check_energy(sample)
 
 
 @pytest.mark.parametrize("support", SUPPORTS)

@@ -82,7 +82,9 @@ GOLDEN = [
 ]
 
 
-@pytest.mark.parametrize(("f", "sense", "angles", "reaction", "phase"), GOLDEN)
+@pytest.mark.parametrize(
+    ("f", "sense", "angles", "reaction", "phase"), [pytest.param(*GOLDEN[0], marks=pytest.mark.slow), *GOLDEN[1:]]
+)
 def test_rigid_contact_with_free_balls(f, sense, angles, reaction, phase):
     """Places and reaction of the averaged equations; the balls' swing at 2Ω, 0.017°, and its square are beyond them."""
     contact = GrindingContact(200.0, f, "rigid", rotation_sense=sense, runout=EPS, runout_angle=PHI)
@@ -100,7 +102,7 @@ def test_rigid_contact_with_free_balls(f, sense, angles, reaction, phase):
     assert swing == pytest.approx(EPS / (4 * 7 / 5 * PITCH_RADIUS), rel=0.01)
 
 
-@pytest.mark.parametrize("sense", [-1, 1])
+@pytest.mark.parametrize("sense", [1, pytest.param(-1, marks=pytest.mark.slow)])
 def test_axis_goes_backward_round_the_runout_circle(sense):
     """x = ε cos, y = −ε sin(Ωt + φ₀) from balls far off, damped: Ω²U = E (D_x − isf D_y)/(1 + isf)."""
     f, damping = 0.35, 45.0

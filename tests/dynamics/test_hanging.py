@@ -139,14 +139,14 @@ def test_the_bound_is_the_balance_of_power(frequencies: tuple[float, float]) -> 
     k, c = np.diag(scene.support.stiffness), np.diag(scene.support.damping)
 
     def slope(t: float, z: np.ndarray) -> np.ndarray:
-        force = 0.01 * v**2 * np.array((math.cos(v * t), math.sin(v * t)))
-        return np.concatenate([z[2:], force - c * z[2:] - k * z[:2]])
+        force = 0.01 * v**2 * np.array((np.cos(v * t), np.sin(v * t)))
+        return np.concatenate([z[2:], force - (c * z[2:].T).T - (k * z[:2].T).T])
 
     start, turns = 400.0, 5
     end = start + turns * 2 * math.pi / v
     run = solve_ivp(slope, (0, end), np.zeros(4), rtol=1e-9, atol=1e-12, dense_output=True)
     times = np.linspace(start, end, 4001)[:-1]
-    x, y = np.array([slope(t, run.sol(t))[2:] for t in times]).T
+    x, y = slope(times, run.sol(times))[2:]
     braking = -(x * np.sin(v * times) - y * np.cos(v * times)).mean()
     assert hanging_bounds(scene).resonance == pytest.approx(braking / (scene.speed - v), rel=1e-4)
 

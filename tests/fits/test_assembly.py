@@ -188,7 +188,7 @@ def group_extremes(male: Limits, female: Limits, groups: int) -> tuple[float, fl
     return min(lows), max(highs)
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(derandomize=True, deadline=None, max_examples=100)
 @given(WHOLE, WIDTHS, WHOLE, WIDTHS, WHOLE, st.integers(1, 60))
 def test_groups_are_the_fewest_that_do(a, wide_a, b, wide_b, low, width):
     male, female = Limits(a * 1e-6, (a + wide_a) * 1e-6), Limits(b * 1e-6, (b + wide_b) * 1e-6)

@@ -85,7 +85,7 @@ def truncated_by_midpoints(male: Limits, female: Limits, count: int = 1500) -> f
     return total
 
 
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(derandomize=True, deadline=None, max_examples=25)
 @given(FIELDS.filter(lambda f: f.tolerance > 0), FIELDS.filter(lambda f: f.tolerance > 0))
 def test_truncated_agrees_with_a_double_sum(male, female):
     """The midpoint rule with 1500 steps over 6σ is good to about 1e-6, the jumps at the limits included."""

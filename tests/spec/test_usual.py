@@ -90,6 +90,7 @@ MISTAKES = [
     ("grinding={contact='face', cutting_coefficient=0.05}", []),
     ("run_up.time_s=1000", ["ms (1 s)"]),
     ("run_up.run_down_s=0.05", ["min (3 s)"]),
+    ("run_up={pause_speed_rpm=18}", ["Hz (1080 rpm)", "rad/s (171.9 rpm)"]),
     (MOTOR.replace("=3,", "=3000,"), ["N·mm (3 N·m)", "N·cm (30 N·m)"]),
     (MOTOR.replace("2e-3", "20"), ["kg·cm² (0.002 kg·m²)", "kg·mm² (2e-5 kg·m²)", "g·m² (0.02 kg·m²)"]),
     (ARM.replace("=350", "=35"), ["cm (350 mm)", "inch (889 mm)"]),

@@ -129,6 +129,8 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
      ("only together", "add transverse_inertia_kg_m2")),
     (LIMITS, '[[machine.handle]]\nname = "a"\nfrom_center_of_mass_mm = 1\n[[machine.handle]]\nname = "a"\n'
      "from_center_of_mass_mm = 2\n[limits]", 31, "machine.handle[1].name", ("two handles",)),
+    (LIMITS, "[run_up]\npause_speed_rpm = 5800\n[limits]", 28, "run_up.pause_speed_rpm", ("below 5800 rpm",)),
+    (LIMITS, "[run_up]\npause_speed_rpm = 900\n[motor]\n[limits]", 28, "run_up.pause_speed_rpm", ("beside [motor]",)),
     (LIMITS, "[motor]\nno_load_speed_rpm = 3000\n[limits]", 28, "motor.no_load_speed_rpm", ("at least 5800 rpm",)),
     (WIDTH, WIDTH + "\nbore_diameter_mm = 68", 22, "autobalancer.bore_diameter_mm", ("no room",)),
     (SIZE + "\n", "", 23, "bearing[0].bore_mm", ("no size", "designation")),

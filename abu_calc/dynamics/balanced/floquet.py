@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import reduce
 from typing import Final
 
 import numpy as np
@@ -13,8 +14,8 @@ Array = NDArray[np.float64]
 Matrices = Callable[[Array], Array]
 
 FIRST_STEPS, MOST_STEPS = 32, 16384
-DEGREE: Final = 13
-"""2^−14/14! is less than rounding."""
+SERIES: Final = tuple(tuple(1 / math.factorial(4 * k + order) for order in range(4)) for k in range(4))
+"""Of e^A to the degree 15, in powers of A⁴: 2^−16/16! is less than rounding."""
 
 SETTLED: Final = 1e-8
 """A growth or a map that changes by less, in logarithms and in shares of its size, when the steps are halved is found;
@@ -50,28 +51,37 @@ def magnus(matrices: Matrices, end: float, steps: int) -> Array:
     Exact where A does not change: motions that are fast against its changes, stiff or not, cost nothing. Error O(h⁴).
     Source: Blanes, Casas, Oteo & Ros 2009, Physics Reports 470, 5.4.
     """
-    step = end / steps
-    starts, apart = step * np.arange(steps), step * np.sqrt(3) / 6
-    one, two = matrices(starts + step / 2 - apart), matrices(starts + step / 2 + apart)
+    blocks = np.split(end / steps * (np.arange(steps) + 0.5), max(1, steps // FIRST_STEPS))
     with np.errstate(all="ignore"):
-        maps = _exponentials(step / 2 * (one + two) - step * apart / 2 * (one @ two - two @ one))
-        while len(maps) > 1:  # a power of two of them
-            maps = maps[1::2] @ maps[::2]
+        return reduce(lambda before, after: after @ before, (_over(matrices, block, end / steps) for block in blocks))
+
+
+def _over(matrices: Matrices, middles: Array, step: float) -> Array:
+    """The map over steps with these middles, a power of two of them: few enough that a processor's cache holds them."""
+    apart = step * np.sqrt(3) / 6
+    one, two = np.split(matrices(np.concatenate([middles - apart, middles + apart])), 2)
+    maps = _exponentials(step / 2 * (one + two) - step * apart / 2 * (one @ two - two @ one))
+    while len(maps) > 1:
+        maps = maps[1::2] @ maps[::2]
     return np.asarray(maps[0], dtype=float)
 
 
 def _exponentials(stack: Array) -> Array:
-    """e^A of each A, by scaling, Taylor's series to the degree 13 and squaring.
+    """e^A of each A, by scaling, Taylor's series to the degree 15 in six products, and squaring.
 
     All at once, by products alone: a loop over small matrices, each factorised, waits for threads most of the time.
-    Source: Moler & Van Loan 2003, SIAM Review 45(1), methods 1 and 3.
+    Sources: Moler & Van Loan 2003, SIAM Review 45(1), methods 1 and 3; Paterson & Stockmeyer 1973, SIAM Journal on
+    Computing 2(1), for the products.
     """
     norm = float(np.abs(stack).sum(axis=2).max(initial=0.0))
     squarings = max(0, math.frexp(norm)[1] + 1) if math.isfinite(norm) else 0
-    scaled, unit = stack / 2.0**squarings, np.eye(stack.shape[-1])
-    total = unit + scaled / DEGREE
-    for order in range(DEGREE - 1, 0, -1):
-        total = unit + scaled @ total / order
+    first, unit = stack / 2.0**squarings, np.eye(stack.shape[-1])
+    second = first @ first
+    third, fourth = second @ first, second @ second
+    parts = [a * unit + b * first + c * second + d * third for a, b, c, d in SERIES]
+    total = parts.pop()
+    while parts:
+        total = total @ fourth + parts.pop()
     for _ in range(squarings):
         total = total @ total
     return np.asarray(total, dtype=float)

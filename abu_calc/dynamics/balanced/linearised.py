@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.balanced import floquet
 from abu_calc.dynamics.balanced.blocks import diagonal, span_of
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.tracing.lanes import jacobians
 from abu_calc.errors import NotTrustworthyError
 
 Array = NDArray[np.float64]
@@ -154,10 +154,12 @@ class BalancedMotion:
         NotTrustworthyError when they do not settle.
         """
         terms = self.harmonics(speed)
-        orders = 1j * np.arange(len(terms))
+        parts, orders = np.concatenate([terms.real, -terms.imag[1:]]), np.arange(len(terms))
 
         def matrices(phases: Array) -> Array:
-            return np.asarray(np.einsum("tk,kij->tij", np.exp(phases[:, None] * orders), terms).real, dtype=float)
+            turned = phases[:, None] * orders
+            waves = np.concatenate([np.cos(turned), np.sin(turned[:, 1:])], axis=1)
+            return np.asarray(np.einsum("tk,kij->tij", waves, parts), dtype=float)
 
         turns = 1 if self._turns else 2
         own = floquet.multipliers(matrices, 2 * math.pi / turns, self._half_turn) ** turns
@@ -261,25 +263,26 @@ class BalancedMotion:
         """A at equally spaced phases of a turn, at x times the working speed; times x where A is a polynomial."""
         speed = x * self.scene.speed
         scene = replace(self._plain, speed=speed, duration=4 * math.pi / speed)
-        equations = assemble(scene)
-        return x * np.array([self._matrix(equations, 2 * math.pi * k / count) for k in range(count)])
+        equations, phases = assemble(scene), 2 * math.pi * np.arange(count) / count
+        return x * self._matrices(equations, phases)
 
-    def _matrix(self, equations: Equations, phase: float) -> Array:
-        """A at one phase: B⁻¹ (∂rhs B − B'), y = B z with q = R(φ) q_r; divided by Ω, in units of the scales."""
+    def _matrices(self, equations: Equations, phases: Array) -> Array:
+        """A at these phases: B⁻¹ (∂rhs B − B'), y = B z with q = R(φ) q_r; divided by Ω, in units of the scales."""
         speed, size = equations.scene.speed, self._size
-        amplitudes = np.array(self.motion or (0.0,) * size) * np.exp(1j * phase)
-        moving = np.concatenate([amplitudes, 1j * speed * amplitudes]).real
-        still = np.concatenate([moving, self.angles, np.zeros(len(self.angles))])
-        matrix: Array = jacobian(equations, phase / speed, still)
+        amplitudes = np.array(self.motion or (0.0,) * size) * np.exp(1j * phases)[:, None]
+        moving = np.concatenate([amplitudes, 1j * speed * amplitudes], axis=1).real
+        resting = np.tile([*self.angles, *(0.0 for _ in self.angles)], (len(phases), 1))
+        matrices = jacobians(equations, phases / speed, np.concatenate([moving, resting], axis=1))
         if self._turned:
-            pairs, c, s = np.eye(size // 2), math.cos(phase), math.sin(phase)
-            turn, spin = np.kron(pairs, np.array([[c, -s], [s, c]])), speed * np.kron(pairs, QUARTER)
-            B, spun = np.eye(len(still)), np.zeros_like(matrix)
-            B[:size, :size] = B[size : 2 * size, size : 2 * size] = turn
-            B[size : 2 * size, :size] = spin @ turn
+            pairs, c, s = np.eye(size // 2), np.cos(phases), np.sin(phases)
+            turn = np.kron(pairs, np.array([[c, -s], [s, c]]).transpose(2, 0, 1))
+            spin = speed * np.kron(pairs, QUARTER)
+            B, spun = np.tile(np.eye(matrices.shape[1]), (len(phases), 1, 1)), np.zeros(matrices.shape[1:])
+            B[:, :size, :size] = B[:, size : 2 * size, size : 2 * size] = turn
+            B[:, size : 2 * size, :size] = spin @ turn
             spun[:size, :size] = spun[size : 2 * size, size : 2 * size] = spin
-            matrix = np.asarray(np.linalg.solve(B, matrix @ B - spun @ B), dtype=float)
-        scaled = matrix * self.scales / self.scales[:, None] / speed
+            matrices = np.linalg.solve(B, matrices @ B - spun @ B)
+        scaled = matrices * self.scales / self.scales[:, None] / speed
         counted = diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
         return np.asarray(counted.T @ scaled @ counted, dtype=float)
 

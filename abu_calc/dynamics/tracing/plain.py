@@ -169,9 +169,14 @@ _makers: dict[Any, Maker] = {}
 def functions(equations: Equations, numbers: Numbers, modes: Modes) -> tuple[Function, Function]:
     """y'(t, y) and the watched numbers in these modes, plain where that is faster."""
     acting, (structure, values) = equations.in_mode(modes), numbers.of(modes)
-    if not 0 < equations.parameters.balls <= MOST_BALLS or len(values) > MOST_NUMBERS:
+    if not handful(equations, values):
         return lambda t, y: equations.rhs(np, t, y, acting), lambda t, y: watched(t, y, acting)
     return cached(_makers, structure, lambda: _write(equations, acting))(values)
+
+
+def handful(equations: Equations, values: Sequence[float]) -> bool:
+    """Whether the equations with these parameters are few enough to be written out."""
+    return 0 < equations.parameters.balls <= MOST_BALLS and len(values) <= MOST_NUMBERS
 
 
 def _write(equations: Equations, acting: Acting) -> Maker:

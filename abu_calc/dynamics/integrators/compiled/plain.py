@@ -3,21 +3,27 @@
 Arrays are memory views, whose parts are views too and whose numbers are Python's own: half as slow as NumPy's.
 """
 
+import __future__
+
 import ast
 import math
 from collections.abc import Callable, Sequence
-from copy import copy
+from dataclasses import dataclass
+from functools import cached_property
 from types import FunctionType, ModuleType
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from abu_calc.dynamics.integrators.compiled import arrays, contact, decide, friction, impact, locate, loop, method
-from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program
+from abu_calc.dynamics.integrators.compiled.program import Program
 from abu_calc.dynamics.integrators.compiled.spared import FOLDED, spared
 
 MODULES: Sequence[ModuleType] = (method, locate, friction, contact, impact, decide, loop)
 """In the order in which they import each other."""
+
+NAMES_ALONE: Final = __future__.annotations.compiler_flag
+"""Annotations are not looked up."""
 
 PARAMETERS, LAYOUT = 2, 3
 """Arguments of `loop.go` of which no part is taken: lists are read in half the time."""
@@ -26,7 +32,7 @@ PARAMETERS, LAYOUT = 2, 3
 OFTEN, MOST = 60, 64
 """Times that modes come with the same zeros until functions of their own pay, and how many of these there are."""
 
-MOST_KEPT = 256
+MOST_KEPT = 2048
 """Parameters of modes that are kept: in a run the same come again and again."""
 
 
@@ -50,34 +56,44 @@ SPARED = ("rates", "watched")
 """Functions that are made anew for modes that come often; a run has those of its modes behind its parameters."""
 
 
+@dataclass
+class _Kind:
+    """Modes with the same zeros and ones among their parameters; how often they came, and functions without these."""
+
+    known: dict[int, float]
+    came: int = 0
+    made: tuple[Callable[..., None], ...] | None = None
+
+
 class _Equations:
     """The functions of a structure, whole and without what is zero in modes that come often."""
 
     def __init__(self, program: Program) -> None:
-        self._count = program.parameters
-        tree = ast.parse(program.text)
-        self._parts = {one.name: one for one in tree.body if isinstance(one, ast.FunctionDef)}
-        self._whole = _compiled([self._parts[name] for name in EQUATIONS])
-        self._seen: dict[Any, int] = {}
-        self._made: dict[Any, tuple[Any, ...]] = {}
+        self._count, self._text = program.parameters, _guarded(program.text)
+        self._whole = _compiled(self._text)
+        self._kinds: dict[tuple[tuple[int, float], ...], _Kind] = {}
+        self._left = MOST
+
+    @cached_property
+    def _parts(self) -> list[ast.FunctionDef]:
+        functions = [one for one in ast.parse(self._text).body if isinstance(one, ast.FunctionDef)]
+        return [one for one in functions if one.name in SPARED]
 
     def functions(self) -> dict[str, Callable[..., None]]:
         """By their names, as the loop calls them."""
-        whole, setup = tuple(self._whole[name] for name in SPARED), self._whole["setup"]
-        count, made = self._count, self._made
-        kept: dict[bytes, tuple[list[float], tuple[float | None, ...]]] = {}
+        whole, setup, count = tuple(self._whole[name] for name in SPARED), self._whole["setup"], self._count
+        kept: dict[bytes, tuple[list[float], _Kind]] = {}
 
         def prepared(numbers: Any, par: Any) -> None:
             key = numbers.tobytes()
             known = kept.get(key)
             if known is None:
                 setup(numbers, par)
-                known = par[:count], tuple([one if one in FOLDED else None for one in par[:count]])
                 if len(kept) >= MOST_KEPT:
                     kept.clear()
-                kept[key] = known
-            numbers_made, zeros = known
-            par[:count], par[count:] = numbers_made, made.get(zeros) or self._often(zeros) or whole
+                known = kept[key] = par[:count], self._kind(par[:count])
+            par[:count], kind = known
+            par[count:] = kind.made or self._often(kind) or whole
 
         def rates(t: float, y: Any, par: Any, dy: Any) -> None:
             par[-2](t, y, par, dy)
@@ -87,39 +103,43 @@ class _Equations:
 
         return {"setup": prepared, "rates": rates, "watched": watched, "apparent": self._whole["apparent"]}
 
-    def _often(self, zeros: tuple[float | None, ...]) -> tuple[Any, ...] | None:
-        """Those for these zeros and ones, once they have come often enough."""
-        self._seen[zeros] = self._seen.get(zeros, 0) + 1
-        if self._seen[zeros] < OFTEN or len(self._made) >= MOST:
+    def _kind(self, parameters: Sequence[float]) -> _Kind:
+        known = {place: one for place, one in enumerate(parameters) if one in FOLDED}
+        return self._kinds.setdefault(tuple(known.items()), _Kind(known))
+
+    def _often(self, kind: _Kind) -> tuple[Callable[..., None], ...] | None:
+        """Functions of its own, once it has come often enough."""
+        kind.came += 1
+        if kind.came < OFTEN or self._left <= 0:
             return None
-        known = {place: one for place, one in enumerate(zeros) if one is not None}
-        found = _compiled([spared(self._parts[name], known) for name in SPARED])
-        self._made[zeros] = tuple(found[name] for name in SPARED)
-        return self._made[zeros]
+        self._left -= 1
+        found = _compiled(ast.Module([spared(one, kind.known) for one in self._parts], []))
+        kind.made = tuple(found[name] for name in SPARED)
+        return kind.made
 
 
-def _compiled(functions: Sequence[ast.FunctionDef]) -> dict[str, Callable[..., None]]:
-    """The functions of a structure by their names; their annotations are those of a compiler."""
+def _compiled(text: str | ast.Module) -> dict[str, Callable[..., None]]:
+    """The functions of a text by their names; their annotations are those of a compiler."""
     known: dict[str, Any] = {"nan": math.nan, "inf": math.inf, "sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
-    guarded = [_guarded(one) for one in functions]
-    exec(compile(ast.fix_missing_locations(ast.Module(guarded, [])), "<equations>", "exec"), known)
-    return {one.name: known[one.name] for one in functions}
+    exec(compile(text, "<equations>", "exec", NAMES_ALONE, dont_inherit=True), known)
+    return known
 
 
-def _guarded(function: ast.FunctionDef) -> ast.stmt:
-    """The same, whose rates are no numbers, as compiled code gives them, where Python would raise.
+def _guarded(text: str) -> str:
+    """The same functions, whose rates are no numbers, as compiled code gives them, where Python would raise.
 
     The step is then shortened.
     """
-    rates = any(one.arg == "dy" for one in function.args.args)
-    (guard,) = ast.parse(f"try: pass\nexcept (ArithmeticError, ValueError): {'dy[0] = nan' if rates else 'raise'}").body
-    assert isinstance(guard, ast.Try)
-    guard.body = function.body
-    found = copy(function)
-    arguments = [ast.arg(one.arg) for one in function.args.args]
-    found.args = ast.arguments(posonlyargs=[], args=arguments, kwonlyargs=[], kw_defaults=[], defaults=[])
-    found.body, found.returns = [guard], None
-    return found
+    lines: list[str] = []
+    rates = False
+    for line in [*text.splitlines(), "def "]:
+        if line.startswith("def "):
+            lines += [" except (ArithmeticError, ValueError):", "  dy[0] = nan"] if rates else []
+            rates = "dy: Reals" in line
+            lines += [line, " try:"] if rates else [line]
+        else:
+            lines.append(f" {line}" if rates else line)
+    return "\n".join(lines[:-1])
 
 
 def _bound(equations: dict[str, Callable[..., None]]) -> Callable[..., Any]:
