@@ -261,8 +261,8 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
     expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
         raise NotTrustworthyError(
-            f"{full.name}: the reference alone takes about {expected:.0f} s, {trial.events} events among it\n"
-            f"  give more time (--budget {2 * expected:.0f}, Python: budget_s=), "
+            f"{full.name}: the reference alone takes about {expected:.1f} s, {trial.events} events among it\n"
+            f"  give more time (--budget {2 * expected:.1f}, Python: budget_s=), "
             "or shorten the run (--duration, Python: duration_s=)"
         )
     first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))

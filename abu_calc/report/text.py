@@ -86,9 +86,10 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
             case Grid():
                 yield from map(_grid, block.within(width, MARGIN))
             case Picture(lines, caption, indent):
-                if indent + max(map(len, lines)) <= width:
-                    yield "\n".join(" " * indent + line for line in lines), ""
-                    yield fill(caption, width, MARGIN), ""
+                shown = [" " * indent + escaped(line) for line in lines]
+                if max(map(len, shown)) <= width:
+                    yield "\n".join(shown), ""
+                    yield fill(escaped(caption), width, MARGIN), ""
 
 
 def height(blocks: Sequence[Block], width: int = 80) -> int:
@@ -119,7 +120,7 @@ def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
 def _grid(grid: Grid) -> Table:
     table = Table(box=None, padding=(0, 0, 0, MARGIN), header_style="dim", show_header=any(grid.header))
     for index, title in enumerate(grid.header):
-        table.add_column(title, justify="right" if index in grid.right else "left", overflow="fold")
+        table.add_column(escaped(title), justify="right" if index in grid.right else "left", overflow="fold")
     for row in grid.rows:
         table.add_row(*(Text(escaped(cell), style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
     return table

@@ -241,7 +241,7 @@ def _too_few(finding: _Finding) -> _Words:
 def _too_many(finding: _Finding) -> _Words:
     allowed = f"at most {finding.facts['max_length']}"
     if subtable(finding.table, finding.key):
-        return "too many tables", allowed, "share them out among several files"
+        return f"too many tables, {len(finding.value)} of them", allowed, "share them out among several files"
     return "too many values in the list", allowed, "the decimal sign is a point; the comma parts the numbers"
 
 

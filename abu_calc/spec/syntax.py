@@ -9,6 +9,8 @@ from abu_calc.spec.text import key_path, quoted
 
 _WHERE: Final = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)")
 _NUMBER: Final = r"[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?"
+_DIGITS: Final = re.compile(r"\d(?:_?\d){4300}")
+"""Of a number that Python takes no time for; its error tells no line."""
 DECIMAL_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
 _WORDS: Final = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
 _NOTHING: Final = ("none", "null", "nil", "-")
@@ -32,6 +34,11 @@ def reworded(text: str, file: str, error: ValueError | RecursionError) -> InputE
     """The parser's error on a TOML text as one with the line, the key and the remedy."""
     if isinstance(error, RecursionError):
         return InputError("the file is nested too deeply", place=Place(file))
+    if "integer string conversion" in str(error) and (long := _DIGITS.search(text)):
+        line = text.count("\n", 0, long.start()) + 1
+        key = next((key_path(one.path) for one in statements(text) if one.line <= line <= one.last_line), None)
+        place = Place(file, line, key)
+        return InputError("not TOML: a number of thousands of digits", place=place, remedy="write a shorter number")
     message = str(error)
     where = _WHERE.search(message)
     rows = text.split("\n")

@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 from abu_calc.escapes import escaped, escaped_lines
+from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
 from abu_calc.report.files import FORMULAS
+from abu_calc.report.text import as_text
 from tests.cli.runner import abu
 from tests.spec.samples import BASIC, BEARINGS
 
@@ -32,6 +34,19 @@ def test_reports_show_what_acts_on_terminals_escaped(tmp_path: Path, more: tuple
     seen = abu("check-fit", str(named(tmp_path, HOSTILE)), *more)
     assert seen.status in (0, 1) and not ACTING.search(seen.out + seen.err)
     assert "\\x1b[2Jx\\x9b31m\\u202ey" in seen.out.replace("\n", "")
+
+
+ACTS = "\x1b[2J\u202ex\x9b31m"
+
+
+@pytest.mark.parametrize("block", [
+    Heading(ACTS), Paragraph(ACTS, None, 2), Facts(((ACTS, ACTS, ACTS),)), Grid((ACTS, "a"), ((ACTS, "b"),)),
+    Picture((ACTS,), ACTS, 2),
+], ids=lambda block: type(block).__name__)  # fmt: skip
+def test_every_part_of_a_report_is_escaped(block: Block) -> None:
+    """Headers of tables and captions, too, where handles' names stand."""
+    text = as_text([block], 100)
+    assert "\\x1b[2J\\u202ex\\x9b31m" in text and not ACTING.search(text)
 
 
 @pytest.mark.parametrize("suffix", [".txt", ".csv", ".toml", ".json"])

@@ -76,6 +76,19 @@ vibration_level_db = 109.0
 settling_time_s = 1.0
 """
 
+ON_ARM: Final = """\
+[swing_arm]
+arm_length_mm = 350.0
+moment_of_inertia_kg_m2 = 0.62
+joint_stiffness_N_per_m = 2000.0
+joint_damping_N_s_per_m = 40.0
+contact_stiffness_N_per_m = 1e6
+cutting_coefficient = 0.45
+contact_angle_deg = 90.0
+touch_angle_deg = 2.0
+pressing_moment_N_m = 20.0
+"""
+
 EXPECTATIONS: Final = """\
 [expected]
 status = "fail"
@@ -138,6 +151,15 @@ KINDS: Final = (
             ("compare", FILE, "--variant", "wheel.imbalance_g_mm=140"),
             ("sweep", FILE, *VARIED),
             ("sweep", FILE, *VARIED, "--json"),
+        ),
+    ),
+    Kind(
+        "computed arm",
+        (MACHINE + ON_ARM,),
+        (
+            ("simulate", FILE, "--scene", "swing-arm-cutting", *SHORT),
+            ("simulate", FILE, "--scene", "swing-arm-idle", *SHORT, "--json"),
+            ("stability", FILE, "--json"),
         ),
     ),
     Kind(

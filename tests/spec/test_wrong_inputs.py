@@ -26,6 +26,7 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (MASS, "mass_kg = 5 600", 5, "machine.mass_kg", ("gaps",)),
     (MASS, "mass_kg =", 5, "machine.mass_kg", ("missing", "leave the key out")),
     (MASS, "mass_kg = # later", 5, "machine.mass_kg", ("missing",)),
+    (MASS, "mass_kg = " + "9" * 5000, 5, "machine.mass_kg", ("thousands of digits", "shorter")),
     (MASS, "mass_kg 5.6", 5, None, ("write key = value",)),
     (MASS, "mass_kg: 5.6", 5, None, ("write mass_kg = 5.6",)),
     (MASS, "mass_kg = True", 5, "machine.mass_kg", ("write true",)),
