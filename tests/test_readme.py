@@ -25,7 +25,7 @@ def test_the_example_is_real_output() -> None:
 
 
 def test_the_scene_is_simulated(tmp_path: Path) -> None:
-    shown = re.search(r"```toml\n(.*?)```", README, re.DOTALL)
+    shown = re.search(r"```toml\n(\[scene\].*?)```", README, re.DOTALL)
     assert shown is not None
     file = tmp_path / "my-scene.toml"
     file.write_text(shown[1], encoding="utf-8")

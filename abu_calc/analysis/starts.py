@@ -29,13 +29,16 @@ class Again:
 
 
 def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, Outcome], ...]:
-    """The worst, that of the median time among those that balance, then the slowest of each kind at the drag given."""
+    """The worst of all; at the rated speed that of the median time among those that balance, then the slowest of each
+    kind at the drag given.
+    """
     found = [] if ensemble.worst is None else [("worst", ensemble.worst)]
-    settled = sorted((one for one in ensemble.outcomes if math.isfinite(one.time)), key=lambda one: one.time)
+    settled = sorted((one for one in ensemble.rated if math.isfinite(one.time)), key=lambda one: one.time)
     if settled:
         found.append(("typical", settled[len(settled) // 2]))
-    kinds = dict.fromkeys(one.member.name for one in ensemble.given)
-    found += [("", max((one for one in ensemble.given if one.member.name == kind), key=_slow)) for kind in kinds]
+    given = [one for one in ensemble.given if one.member.speed is None]
+    kinds = dict.fromkeys(one.member.name for one in given)
+    found += [("", max((one for one in given if one.member.name == kind), key=_slow)) for kind in kinds]
     first: dict[int, tuple[str, Outcome]] = {}
     for why, one in found:
         first.setdefault(id(one), (why, one))

@@ -2,11 +2,13 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.integrators.rates import rates
 from abu_calc.dynamics.integrators.recorder import Recorder
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.switching.modes import at_break, settled, starting
@@ -24,6 +26,10 @@ MOST_EVALUATIONS = 12_000_000
 
 EVENT = 50
 """Evaluations that the work of an event is worth: it is located, modes are settled, and the integrator starts anew."""
+
+CROWDED = 300
+"""Events of each ball, and of the axis, in a revolution or a cycle of what oscillates faster: beyond, balls chatter,
+and nothing that is found of them can be trusted. Presets have a dozen."""
 
 NOT_FINITE = "a state is no longer finite"
 
@@ -97,6 +103,14 @@ class Run(ABC):
         inner = {*self.equations.breaks, *(until.times if until else ())}
         return [*sorted(moment for moment in inner if 0 < moment < end), end]
 
+    def _crowded(self, t: float) -> bool:
+        most = CROWDED * (1 + len(self.equations.scene.ball_masses))
+        return self.events > most and self.events > most * (1 + t * self._fastest / (2 * np.pi))
+
+    @cached_property
+    def _fastest(self) -> float:
+        return rates(self.equations)[1]
+
     def _go(self) -> None:
         equations, ends = self.equations, self.ends()
         end = ends[-1]
@@ -110,7 +124,7 @@ class Run(ABC):
             if happened:
                 self.events += 1
                 stalled = stalled + 1 if t - before < STALLED * equations.scene.revolution else 0
-                if stalled > MOST_STALLED:
+                if stalled > MOST_STALLED or self._crowded(t):
                     raise lost(t, "the motion stalls in ever more events")
                 if self.evaluations + EVENT * self.events > self.most_evaluations:
                     raise exceeded(t, self.evaluations, self.events)
