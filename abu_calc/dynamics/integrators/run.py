@@ -27,7 +27,7 @@ MOST_EVALUATIONS = 12_000_000
 EVENT = 50
 """Evaluations that the work of an event is worth: it is located, modes are settled, and the integrator starts anew."""
 
-CROWDED = 300
+CROWDED = 100
 """Events of each ball, and of the axis, in a revolution or a cycle of what oscillates faster: beyond, balls chatter,
 and nothing that is found of them can be trusted. Presets have a dozen."""
 
