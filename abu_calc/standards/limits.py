@@ -57,8 +57,7 @@ def part_limits(seat: Seat, tolerance_class: str, size: float) -> Limits:
     if tolerance_class not in rows:
         raise unknown(f"tolerance class of a {seat}", tolerance_class, rows)
     _SIZES.check(_millimetres(size))
-    found = [_numbers(row) for row in rows[tolerance_class]]
-    return _look_up(found, size, f"size for {tolerance_class}", "Choose another tolerance class.")
+    return _look_up(rows[tolerance_class], size, f"size for {tolerance_class}", "Choose another tolerance class.")
 
 
 def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> Limits:
@@ -81,11 +80,11 @@ def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size:
 
 
 @cache
-def _rows(seat: Seat) -> dict[str, list[tuple[str, ...]]]:
+def _rows(seat: Seat) -> dict[str, list[_Row]]:
     """The rows of each tolerance class, without its name."""
-    found: dict[str, list[tuple[str, ...]]] = {}
+    found: dict[str, list[_Row]] = {}
     for name, *row in csv_rows(_FILES[seat]):
-        found.setdefault(name, []).append(tuple(row))
+        found.setdefault(name, []).append(_numbers(tuple(row)))
     return found
 
 
