@@ -37,8 +37,8 @@ def test_a_long_simulation_is_interrupted(integrator: str, tmp_path: Path) -> No
         pytest.skip("compiled code was not tried on this system")
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.replace("duration_s = 700.0", "duration_s = 1000000.0"), encoding="utf-8")
-    files = "--output", str(tmp_path / "out.json"), "--trajectory", str(tmp_path / "motion.csv")
-    files += "--most-evaluations", "1000000000000"
+    files = [f"--output={tmp_path / 'out.json'}", f"--trajectory={tmp_path / 'motion.csv'}"]
+    files.append("--most-evaluations=1000000000000")
     command = sys.executable, "-m", "abu_calc", "simulate", str(scene), "--accuracy", "1e-6", "--integrator", integrator
     # Whoever runs these tests in the background may have turned the signal off.
     with subprocess.Popen(
