@@ -1,8 +1,8 @@
 """The same work on many things, side by side on all processors; the outcome does not depend on how many there are."""
 
 import os
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from multiprocessing import get_context
@@ -20,6 +20,8 @@ class Workers:
 
     count: int
     processes: bool = False
+    begun: bool = field(default=False, init=False)
+    """Whether they stay, and have worked: to begin takes processes half a second."""
     _kept: Executor | None = field(default=None, init=False, repr=False)
 
     def __enter__(self) -> Self:
@@ -29,12 +31,13 @@ class Workers:
     def __exit__(self, *_: object) -> None:
         if self._kept is not None:
             self._kept.shutdown(wait=True, cancel_futures=True)
-        self._kept = None
+        self._kept, self.begun = None, False
 
     @contextmanager
     def running(self) -> Iterator[Executor]:
         """What runs them."""
         if self._kept is not None:
+            self.begun = True
             yield self._kept
             return
         with self:
@@ -54,31 +57,35 @@ def threads() -> Workers:
 
 
 def several(workers: Workers | None, tasks: int) -> Workers | None:
-    """The workers, where there are several and so many tasks are worth their start."""
-    return workers if workers is not None and workers.count > 1 and tasks > 2 else None
+    """The workers, where there are several, and so many tasks are worth their start or they have begun."""
+    return workers if workers is not None and workers.count > 1 and tasks > (1 if workers.begun else 2) else None
 
 
 def side_by_side(
     work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], workers: Workers | None, told: Callable[[int], None]
-) -> list[T]:
-    """What the work gives for each task, in their order; `told` how many are done. None: one after the other.
+) -> Generator[T, None, None]:
+    """What the work gives for each task, in their order, as it is asked for; `told` how many are done.
 
-    Threads begin when the first task is done, so that what all need is made once.
+    Without workers one after the other. Who asks for no more ends what has not begun. Threads begin when the first task
+    is done, so that what all need is made once.
     """
-    found: list[T] = []
     helpers = several(workers, len(tasks))
     alone = len(tasks) if helpers is None else 0 if helpers.processes else 1
-    for task in tasks[:alone]:
-        found.append(work(*task))
-        told(len(found))
+    for done, task in enumerate(tasks[:alone], 1):
+        found = work(*task)
+        told(done)
+        yield found
     if helpers is None:
-        return found
+        return
     with helpers.running() as executor:
-        waiting = [executor.submit(work, *task) for task in tasks[alone:]]
+        futures = [executor.submit(work, *task) for task in tasks[alone:]]
+        waiting = set(futures)
         try:
-            for done, _ in enumerate(as_completed(waiting), alone + 1):
-                told(done)
-            return [*found, *(one.result() for one in waiting)]
+            for one in futures:
+                while one in waiting:
+                    waiting = wait(waiting, return_when=FIRST_COMPLETED).not_done
+                    told(len(tasks) - len(waiting))
+                yield one.result()
         finally:
-            for one in waiting:
+            for one in futures:
                 one.cancel()

@@ -2,9 +2,11 @@
 
 import math
 import statistics
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import islice, product
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -166,13 +168,11 @@ def simulate_members(
         doubtful = hanging_bounds(design).largest or 0.0
     starts = list(members(design, doubtful, shares))
     found = _found(design, starts, accuracy, progress, workers)
-    for orders, early_end in (LOUD, False), (LATE, True):
-        while undecided := _deciding(found, design.case.drag, orders):
-            starts = [found[k].member for k in undecided]
-            again = _all(design, starts, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers,
-                         early_end=early_end)  # fmt: skip
-            for k, one in zip(undecided, again, strict=True):
-                found[k] = _worse(found[k], one)
+    while undecided := _deciding(found, design.case.drag):
+        again = [(found[k].member, early_end) for k, early_end in undecided.items()]
+        runs = _all(design, again, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers)
+        for k, one in zip(undecided, runs, strict=True):
+            found[k] = _worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
     return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
 
@@ -223,24 +223,24 @@ def _found(
     design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: Workers | None
 ) -> list[Outcome | Lost]:
     """All starts, those at the drag given first; the others only where these have answers."""
-    first = [one for one in starts if one.drag == design.case.drag]
-    others = [one for one in starts if one.drag != design.case.drag]
-    found = _all(design, first, accuracy, TOLERANCE, progress, workers, (0, len(starts)))
-    if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
-        return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one in others)]
-    return found + _all(design, others, accuracy, TOLERANCE, progress, workers, (len(first), len(starts)))
+    first = [(one, True) for one in starts if one.drag == design.case.drag]
+    others = [(one, True) for one in starts if one.drag != design.case.drag]
+    with closing(_all(design, [*first, *others], accuracy, TOLERANCE, progress, workers)) as runs:
+        found = list(islice(runs, len(first)))
+        if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
+            return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one, _ in others)]
+        return [*found, *runs]
 
 
 def _all(
-    design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress,
-    workers: Workers | None, counted: tuple[int, int] = (0, 0), early_end: bool = True,
-) -> list[Outcome | Lost]:  # fmt: skip
-    """Each once; `counted`: how many came before, and of how many in all."""
-    before, total = counted[0], counted[1] or len(starts)
-    tasks = [(design, one, accuracy, tolerance, WORK, early_end) for one in starts]
+    design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
+    workers: Workers | None,
+) -> Generator[Outcome | Lost, None, None]:  # fmt: skip
+    """Each start once, and whether it may end early."""
+    tasks = [(design, one, accuracy, tolerance, WORK, early_end) for one, early_end in starts]
 
     def told(done: int) -> None:
-        progress(Stage(f"idle: {before + done} of {total} starts", (before + done) / total))
+        progress(Stage(f"idle: {done} of {len(tasks)} starts", done / len(tasks)))
 
     return side_by_side(start_once, tasks, workers, told)
 
@@ -260,26 +260,38 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
     )
 
 
-Order = tuple[Callable[[Outcome], Any], float]
-"""By what starts are judged, the last of it a number, and a difference of that number that decides nothing."""
+SLACK = 0.3
+"""A difference in level [dB] that decides nothing."""
 
-LOUD: tuple[Order, ...] = (attrgetter("badness"), 0.3), (lambda one: (one.loudest,), 0.3)
-LATE: tuple[Order, ...] = ((lambda one: (one.time,), 0.0),)
-"""The level [dB] of one that decides is that at the very end; when it settled [s] is known before."""
+Order = tuple[Callable[[Outcome], Any], float, bool]
+"""By what starts are judged, the last of it a number; a difference of that number that decides nothing; and whether a
+run that confirms one may end early: its level is that at the very end, when it settled is known before."""
+
+ORDERS: tuple[Order, ...] = (
+    (attrgetter("badness"), SLACK, False),
+    (lambda one: (one.level,), SLACK, False),
+    (lambda one: (one.time,), 0.0, True),
+)
 
 
-def _deciding(found: Sequence[Outcome | Lost], drag: float, orders: Iterable[Order]) -> list[int]:
-    """Which are worst, among those at the drag given and among all, and not confirmed, nor as bad as one that is."""
+def _deciding(found: Sequence[Outcome | Lost], drag: float) -> dict[int, bool]:
+    """Which are worst, among those at the drag given and among all, and not confirmed, nor as bad as one that is.
+
+    And those that might have become the loudest. With whether the run that confirms it may end early.
+    """
     done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
-    groups = done, [(k, one) for k, one in done if one.member.drag == drag]
-    needed = set()
-    for group, (order, slack) in ((group, order) for group in groups if group for order in orders):
+    groups = [group for group in (done, [(k, one) for k, one in done if one.member.drag == drag]) if group]
+    undecided: dict[int, bool] = {}
+    for group in groups:
+        most = max(one.level for _, one in group)
+        undecided.update((k, False) for k, one in group if one.loudest > most + SLACK)
+    for (order, slack, early_end), group in product(ORDERS, groups):
         k, worst = max(group, key=lambda pair: order(pair[1]))
         *kind, value = order(worst)
         confirmed = [order(one) for _, one in group if one.confirmed]
         if not any([*same] == kind and (near == value or near >= value - slack) for *same, near in confirmed):
-            needed.add(k)
-    return sorted(needed)
+            undecided.setdefault(k, early_end)
+    return undecided
 
 
 def _worse(loose: Outcome | Lost, tight: Outcome | Lost) -> Outcome | Lost:

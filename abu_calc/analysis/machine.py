@@ -49,7 +49,7 @@ def simulated(
         if watched is silent:
             progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
 
-    found = side_by_side(_simulated, tasks, workers, told)
+    found = list(side_by_side(_simulated, tasks, workers, told))
     return tuple(one for one in found if isinstance(one, Run)), tuple(one for one in found if isinstance(one, Failure))
 
 

@@ -4,7 +4,7 @@ import ast
 import math
 import random
 
-from abu_calc.dynamics.integrators.compiled.spared import spared
+from abu_calc.dynamics.integrators.compiled.spared import spared, without
 
 WHOLE = """
 def rates(t, y, par, dy):
@@ -37,3 +37,27 @@ def test_the_same_digits_with_less() -> None:
         assert found[0] == found[1]
         size = len(ast.unparse(less))
         assert size < len(ast.unparse(whole)) if 0 in known else size <= len(ast.unparse(whole))
+
+
+def test_rates_are_what_is_watched_without_storing_it() -> None:
+    """Nothing is worked out for an array that is left out, and the others get the same digits."""
+    (whole,) = ast.parse("""
+def watched(t, y, par, dy, w):
+ try:
+  a = (y[0] * par[0])
+  b = (a - 1.5)
+  c = (b * b)
+  dy[0] = b
+  w[0] = (c + a)
+  return
+ except ArithmeticError:
+  dy[0] = nan
+""").body
+    assert isinstance(whole, ast.FunctionDef)
+    less = without(whole, "w", "rates")
+    text, scope = ast.unparse(less), dict[str, object]()
+    assert "c =" not in text and "w" not in text and "except ArithmeticError" in text
+    exec(compile(ast.fix_missing_locations(ast.Module([less], [])), "<test>", "exec"), scope)
+    dy = [9.0]
+    scope["rates"](0.0, [2.0], [3.0], dy)  # type: ignore[operator]
+    assert dy == [4.5] and [one.arg for one in whole.args.args][-1] == "w" and whole.name == "watched"

@@ -144,7 +144,7 @@ class BallContact(Effect):
             loads.own(mates=mode.chains, leads=mode.chains.leads(p.balls))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """Gaps that are open: gap − 2β. Joined: what the chain behind pushes with, and what the chain ahead resists.
+        """Of each gap: gap − 2β while open; what the chain behind pushes with, the chain ahead resists, while joined.
 
         Balls that move press by what their own inertia leaves over. Where they stick, friction takes up to f n of each,
         and what holds is every distribution of forces that pulls nobody.
@@ -158,7 +158,7 @@ class BallContact(Effect):
         held = 0.0 * left if loads.hold is None else loads.hold * m.static_moments * solved.normal * (1 - loads.free)
         push = mode.chains.behind(left + held)[list(mode.behind)] / unit + 1
         resist = mode.chains.ahead(held - left)[list(mode.ahead)] / unit + 1
-        return [*(joined * push + (1 - joined) * gaps), *(joined * resist + (1 - joined))]
+        return [*((1 - joined) * gaps + joined), *(joined * push + (1 - joined)), *(joined * resist + (1 - joined))]
 
     def _margin(self, p: Parameters) -> Any:
         """What counts as no torque between two balls [N m]."""

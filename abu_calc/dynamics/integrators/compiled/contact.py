@@ -49,7 +49,7 @@ def pressed(y: Reals, numbers: Reals, lay: Integers, con: Reals, k: Reals, w: Re
     changed = False
     for p in range(pairs):
         if joined[p] > 0.0:
-            if w[fell + p] < 0.5 or w[fell + pairs + p] < 0.5:
+            if w[fell + pairs + p] < 0.5 or w[fell + 2 * pairs + p] < 0.5:
                 joined[p] = 0.0
                 changed = True
         elif still[p] > 0.0:

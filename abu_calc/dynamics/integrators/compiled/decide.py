@@ -7,6 +7,7 @@ as it must be, the general decision is asked.
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
     BALLS,
+    DIRECTION,
     EVALUATIONS,
     FOUND,
     FRICTION,
@@ -75,17 +76,19 @@ def switched(
     if fell == lay[ONE_SIDED]:
         numbers[lay[TOUCHES]] = 1.0 - numbers[lay[TOUCHES]]
         return True
-    if lay[GAPS] >= 0 and fell >= lay[GAPS] and fell < lay[GAPS] + 2 * pairs:
-        p = fell - lay[GAPS] if fell < lay[GAPS] + pairs else fell - lay[GAPS] - pairs
-        if numbers[lay[JOINED] + p] > 0.0:
-            numbers[lay[JOINED] + p] = 0.0
+    if lay[GAPS] >= 0 and fell >= lay[GAPS] and fell < lay[GAPS] + 3 * pairs:
+        if fell >= lay[GAPS] + pairs:
+            p = fell - lay[GAPS] - pairs
+            numbers[lay[JOINED] + (p if p < pairs else p - pairs)] = 0.0
             return True
         if approaching(y, numbers, lay, con):
             return meeting(t, y, numbers, par, lay, con, count, k, room)
         return True
     if lay[FRICTION] >= 0 and fell >= lay[FRICTION] and fell < lay[FRICTION] + 3 * lay[BALLS]:
         if fell < lay[FRICTION] + lay[BALLS]:
-            y[lay[RATES] + fell - lay[FRICTION]] *= 1e-12
+            # It has come to rest; most turn back at once, and what follows says whether this one does.
+            y[lay[RATES] + fell - lay[FRICTION]] = 0.0
+            numbers[lay[DIRECTION] + fell - lay[FRICTION]] *= -1.0
         return True
     return False
 

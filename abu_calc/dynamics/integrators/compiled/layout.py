@@ -43,7 +43,9 @@ def layout(
     flags = arrays.BEHIND + 2 * p.balls + 2
     found = np.full(flags + criteria, -1, dtype=np.int64)
     found[arrays.APPARENT] = flags
-    found[[flags + one for one in program.apparent]] = 1
+    for one, states in program.apparent.items():
+        found[flags + one] = len(found)
+        found = np.append(found, (len(states), *states))
     first = min(min(row.values(), default=program.numbers) for row in mode_places)
     found[: arrays.NUMBERS + 1] = (
         len(equations.states), p.balls, 2 * p.size + p.balls, criteria, program.values, first, mode_places[-1][""],

@@ -17,7 +17,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     apparent,
     watched,
 )
-from abu_calc.dynamics.integrators.compiled.method import dense
+from abu_calc.dynamics.integrators.compiled.method import dense, within
 
 CHECKS = 4
 NEVER = 2.0
@@ -40,9 +40,12 @@ def peek(
     index: int, x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
     at: Reals, dy: Reals, w: Reals,
 ) -> float:  # fmt: skip
-    """One watched number at a share x of the step; of the others, no more than comes with it."""
-    if lay[lay[APPARENT] + index] > 0:
-        dense(x, lay[STATES], y, between, at)
+    """One watched number at a share x of the step; the others are then of no moment."""
+    few = lay[lay[APPARENT] + index]
+    if few >= 0:
+        for k in range(lay[few]):
+            i = lay[few + 1 + k]
+            at[i] = within(i, x, lay[STATES], y, between)
         apparent(t + x * h, at, par, w)
     else:
         look(x, t, h, y, par, lay, count, between, at, dy, w)
@@ -115,11 +118,12 @@ def fallen(
 ) -> float:  # fmt: skip
     """The first event of the numbers that are below zero at a check.
 
-    Looked for is the one that a straight line says is first, then any that is below zero there too.
+    Looked for is the one that a straight line says is first, then, where others are below zero at the check, any that
+    is there too.
     """
     values, start, found = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
     before, low = rows[(check - 1) * values :], rows[check * values :]
-    which = earliest(lay, before, low)
+    which = earliest(lay, before, low, -1)
     if which < 0:
         return NEVER
     while which >= 0:
@@ -127,23 +131,27 @@ def fallen(
         if before[which] <= 0.0:
             return start
         x = crossing(which, start, before[which], found, low[which], t, h, y, par, lay, count, between, at, dy, w)
-        if x > found - resolved(t, h):
+        if x > found - resolved(t, h) or earliest(lay, before, low, which) < 0:
             return x
         found = x
         look(found, t, h, y, par, lay, count, between, at, dy, w)
-        w[which], low = 0.0, w
-        which = earliest(lay, before, low)
+        low = w
+        which = earliest(lay, before, low, which)
     return found
 
 
-def earliest(lay: Integers, before: Reals, here: Reals) -> int:
-    """Of the numbers below zero, the one that falls first by a straight line; −1 where none is."""
-    which, least = -1, NEVER
+def earliest(lay: Integers, before: Reals, here: Reals, known: int) -> int:
+    """Of the numbers below zero but one, the one that falls first by a straight line; −1 where none is.
+
+    Those that cost next to nothing come before all others: few of these are below zero where the first of them is.
+    """
+    which, least, cheap = -1, NEVER, False
     for i in range(lay[WATCHED]):
-        if here[i] < 0.0:
+        if here[i] < 0.0 and i != known:
+            alone = lay[lay[APPARENT] + i] >= 0
             share = before[i] / (before[i] - here[i]) if before[i] > 0.0 else 0.0
-            if share < least:
-                which, least = i, share
+            if (alone and not cheap) or (share < least and alone == cheap):
+                which, least, cheap = i, share, alone
     return which
 
 

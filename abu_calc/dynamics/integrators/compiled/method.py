@@ -70,6 +70,12 @@ def dense(x: float, n: int, y: Reals, between: Reals, found: Reals) -> None:
         found[i] = y[i] + x * (between[i] + z * more)
 
 
+def within(i: int, x: float, n: int, y: Reals, between: Reals) -> float:
+    """One of its numbers."""
+    more = between[n + i] + x * (between[2 * n + i] + (1.0 - x) * between[3 * n + i])
+    return y[i] + x * (between[i] + (1.0 - x) * more)
+
+
 def shorter(off: float) -> float:
     """Factor on a step whose error is too large, or no number."""
     if off < 1e10:

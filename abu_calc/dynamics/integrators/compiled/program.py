@@ -67,8 +67,8 @@ class Program:
     """How many numbers each effect watches, in order."""
     criteria: tuple[int, ...]
     """How many numbers its rule chooses by."""
-    apparent: tuple[int, ...]
-    """Which of the watched numbers cost next to nothing."""
+    apparent: Mapping[int, tuple[int, ...]]
+    """Which of the watched numbers cost next to nothing, and what states they ask for."""
 
     @property
     def values(self) -> int:
@@ -117,7 +117,8 @@ def program(equations: Equations, acting: Acting) -> Program:
     ]
     setup, numbers, parameters = _setup(tape)
     counts = [tuple(len(row) for row in rows) for rows in (watched, criteria)]
-    return Program("\n".join([*setup, *lines, ""]), numbers, parameters, counts[0], counts[1], tuple(cheap))
+    apparent = {k: _states(source.lines([one])) for k, one in cheap.items()}
+    return Program("\n".join([*setup, *lines, ""]), numbers, parameters, counts[0], counts[1], apparent)
 
 
 def _setup(tape: Tape) -> tuple[list[str], int, int]:
@@ -132,11 +133,15 @@ def _setup(tape: Tape) -> tuple[list[str], int, int]:
 def _function(name: str, arguments: str, source: Source, results: Mapping[str, Mapping[int, Any]]) -> list[str]:
     """One function that stores its results at their places in arrays."""
     lines, texts = source.lines([one for row in results.values() for one in row.values()])
-    states = sorted({int(one) for text in (*lines, *texts) for one in STATE.findall(text)})
-    lines = [*(f"y{k} = y[{k}]" for k in states), *lines]  # each is read once
+    lines = [*(f"y{k} = y[{k}]" for k in _states((lines, texts))), *lines]  # each is read once
     text = [f"def {name}({arguments}) -> None:", *(f" {line}" for line in lines)]
     places = [f"{array}[{k}]" for array, row in results.items() for k in row]
     return [*text, *(f" {place} = {one}" for place, one in zip(places, texts, strict=True)), " return"]
+
+
+def _states(texts: tuple[list[str], list[str]]) -> tuple[int, ...]:
+    """Which of them are in assignments and results."""
+    return tuple(sorted({int(one) for rows in texts for text in rows for one in STATE.findall(text)}))
 
 
 def places(modes: Modes) -> list[dict[str, int]]:

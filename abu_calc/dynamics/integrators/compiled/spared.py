@@ -5,7 +5,7 @@ Left out are x·0, x + 0, 0 + x, x − 0, x·1 and x/1, which change no digit of
 """
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from typing import Final, TypeVar
 
@@ -26,15 +26,33 @@ Body = TypeVar("Body", ast.FunctionDef, ast.Try)
 
 def spared(whole: Body, known: Mapping[int, float]) -> Body:
     """One of the functions of a program, where parameters par[…] have these values; of one that stores in arrays."""
-    found = copy(whole)
-    inner = whole.body[0]
-    found.body = [spared(inner, known)] if isinstance(inner, ast.Try) else _spared(whole.body, known)
+    folding = _Folding(known)
+    return _rewritten(whole, lambda body: _needed([one for one in map(folding.line, body) if one is not None]))
+
+
+def without(whole: ast.FunctionDef, array: str, name: str) -> ast.FunctionDef:
+    """The same under another name, that does not store in the array which is its last argument."""
+    found = _rewritten(whole, lambda body: _needed([one for one in body if not _stores(one, array)]))
+    arguments = copy(whole.args)
+    found.name, found.args, arguments.args = name, arguments, whole.args.args[:-1]
     return found
 
 
-def _spared(body: Sequence[ast.stmt], known: Mapping[int, float]) -> list[ast.stmt]:
-    folding = _Folding(known)
-    lines = [one for one in map(folding.line, body) if one is not None]
+def _rewritten(whole: Body, lines: Callable[[list[ast.stmt]], list[ast.stmt]]) -> Body:
+    """With other lines in its body, or in what it tries."""
+    found, inner = copy(whole), whole.body[0]
+    found.body = [_rewritten(inner, lines)] if isinstance(inner, ast.Try) else lines(whole.body)
+    return found
+
+
+def _stores(line: ast.stmt, array: str) -> bool:
+    """Whether it is an assignment to an element of this array."""
+    target = line.targets[0] if isinstance(line, ast.Assign) else None
+    return isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and target.value.id == array
+
+
+def _needed(lines: Sequence[ast.stmt]) -> list[ast.stmt]:
+    """Those that store in arrays, and those that make what these use."""
     kept, needed = [], set[str]()
     for line in reversed(lines):
         if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name) and line.targets[0].id not in needed:
