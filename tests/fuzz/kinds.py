@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 
 from abu_calc.spec.presets import text_of
 from tests.spec.samples import BEARINGS
-from tests.spec.scenes import ARM, PLANAR, SCENE, TILTING
+from tests.spec.scenes import ARM, JOINT_AND_CONTACT, PLANAR, SCENE, TILTING
 
 FILE: Final = "@"
 """Stands for the file in a command."""
@@ -76,18 +76,11 @@ vibration_level_db = 109.0
 settling_time_s = 1.0
 """
 
-ON_ARM: Final = """\
+ON_ARM: Final = f"""\
 [swing_arm]
 arm_length_mm = 350.0
 moment_of_inertia_kg_m2 = 0.62
-joint_stiffness_N_per_m = 2000.0
-joint_damping_N_s_per_m = 40.0
-contact_stiffness_N_per_m = 1e6
-cutting_coefficient = 0.45
-contact_angle_deg = 90.0
-touch_angle_deg = 2.0
-pressing_moment_N_m = 20.0
-"""
+{JOINT_AND_CONTACT}"""
 
 EXPECTATIONS: Final = """\
 [expected]

@@ -98,7 +98,16 @@ bearing_damping_N_s_per_m = [[5.375, 3.95], [5.375, 3.95]]
 couple_imbalance_angle = { magnitude_rad = 6.8e-5, angle_deg = 0.0 }
 ball_tilt_inertia = true
 """
-ARM = """\
+JOINT_AND_CONTACT = """\
+joint_stiffness_N_per_m = 2000.0
+joint_damping_N_s_per_m = 40.0
+contact_stiffness_N_per_m = 1e6
+cutting_coefficient = 0.45
+contact_angle_deg = 90.0
+touch_angle_deg = 2.0
+pressing_moment_N_m = 20.0
+"""
+ARM = f"""\
 [scene]
 support = "swing-arm"
 speed_rpm = 2864.8
@@ -112,14 +121,7 @@ start_angles_deg = [114.6, -57.3]
 [scene.swing_arm]
 arm_length_mm = 300.0
 moment_of_inertia_kg_m2 = 0.45
-joint_stiffness_N_per_m = 2000.0
-joint_damping_N_s_per_m = 40.0
-contact_stiffness_N_per_m = 1e6
-cutting_coefficient = 0.45
-contact_angle_deg = 90.0
-touch_angle_deg = 2.0
-pressing_moment_N_m = 20.0
-wheel_radius_mm = 115.0
+{JOINT_AND_CONTACT}wheel_radius_mm = 115.0
 cutting = true
 """
 
