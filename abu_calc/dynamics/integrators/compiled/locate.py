@@ -1,8 +1,8 @@
 """The first moment within a step at which a watched number falls below zero, on the dense output.
 
-Numbers are looked at at quarters of the step, at its middle where it is at most half as long as the longest. One that
-starts at or below zero has just been switched: it counts once it has risen, and if it never does, the event is the very
-start. One that falls and rises again between three looks is found by a parabola through its values there.
+Numbers are looked at at quarters of the step. One that starts at or below zero has just been switched: it counts once
+it has risen, and if it never does, the event is the very start. One that falls and rises again within two quarters is
+found by a parabola through three of its values.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
@@ -89,21 +89,21 @@ def crossing(
 
 
 def dips(
-    check: int, wide: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
-    at: Reals, dy: Reals, w: Reals, rows: Reals,
+    check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
+    dy: Reals, w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
-    """The first event of the numbers that fall and rise again between the last three looks, `wide` quarters apart."""
+    """The first event of the numbers that fall and rise again within the last two quarters."""
     values, found = lay[VALUES], NEVER
-    first, second, third = rows[(check - 2 * wide) * values :], rows[(check - wide) * values :], rows[check * values :]
+    first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
     for i in range(lay[WATCHED]):
         slope, later = second[i] - first[i], third[i] - second[i]
         bend = 0.5 * (later - slope)
         if slope < 0.0 and later > 0.0 and first[i] > 0.0 and second[i] > 0.0 and third[i] > 0.0:
             lowest = 0.5 - slope / (2.0 * bend)
             if lowest > 0.0 and lowest < 2.0 and first[i] + lowest * (slope + bend * (lowest - 1.0)) < 0.0:
-                x = (check - (2.0 - lowest) * wide) / CHECKS
+                x = (check - 2 + lowest) / CHECKS
                 if peek(i, x, t, h, y, par, lay, count, between, at, dy, w) < 0.0:
-                    above = (check - 2 * wide) / CHECKS if lowest < 1.0 else (check - wide) / CHECKS
+                    above = (check - 2) / CHECKS if lowest < 1.0 else (check - 1) / CHECKS
                     high = first[i] if lowest < 1.0 else second[i]
                     x = crossing(i, above, high, x, w[i], t, h, y, par, lay, count, between, at, dy, w)
                     if x < found:
@@ -113,16 +113,16 @@ def dips(
 
 
 def fallen(
-    check: int, wide: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
-    at: Reals, dy: Reals, w: Reals, rows: Reals,
+    check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
+    dy: Reals, w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
     """The first event of the numbers that are below zero at a check.
 
-    Looked for is the one that a straight line says is first, then, where others are below zero at the check, any that
-    is there too.
+    Looked for is the one that a straight line says is first, then any that is below zero there: in between others may
+    have fallen and risen again, such as what presses balls together shortly before another hits them.
     """
-    values, start, found = lay[VALUES], (check - wide) / CHECKS, check / CHECKS
-    before, low = rows[(check - wide) * values :], rows[check * values :]
+    values, start, found = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
+    before, low = rows[(check - 1) * values :], rows[check * values :]
     which = earliest(lay, before, low, -1)
     if which < 0:
         return NEVER
@@ -131,7 +131,7 @@ def fallen(
         if before[which] <= 0.0:
             return start
         x = crossing(which, start, before[which], found, low[which], t, h, y, par, lay, count, between, at, dy, w)
-        if x > found - resolved(t, h) or earliest(lay, before, low, which) < 0:
+        if x > found - resolved(t, h):
             return x
         found = x
         look(found, t, h, y, par, lay, count, between, at, dy, w)
@@ -156,20 +156,18 @@ def earliest(lay: Integers, before: Reals, here: Reals, known: int) -> int:
 
 
 def located(
-    t: float, h: float, longest: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
-    dy: Reals, w: Reals, rows: Reals,
+    t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals, dy: Reals,
+    w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
     """The share of the step at which the first event is, and in the counts which number fell."""
-    check, wide = 0, 1 if 2.0 * h > longest else 2
-    while check < CHECKS:
-        check += wide
+    for check in range(1, CHECKS + 1):
         if check < CHECKS:
             look(check / CHECKS, t, h, y, par, lay, count, between, at, dy, rows[check * lay[VALUES] :])
         found = NEVER
-        if check > wide:
-            found = dips(check, wide, t, h, y, par, lay, count, between, at, dy, w, rows)
+        if check > 1:
+            found = dips(check, t, h, y, par, lay, count, between, at, dy, w, rows)
         which = count[FOUND]
-        other = fallen(check, wide, t, h, y, par, lay, count, between, at, dy, w, rows)
+        other = fallen(check, t, h, y, par, lay, count, between, at, dy, w, rows)
         if found < other:
             count[FOUND] = which
             return found

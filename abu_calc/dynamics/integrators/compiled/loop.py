@@ -104,7 +104,7 @@ def go(
         if lay[WATCHED] > 0 or (count[DONE] < count[SAMPLES] and samples[count[DONE]] <= reached):
             prepared(step, n, y, end, room, between)
         if lay[WATCHED] > 0:
-            x = located(t, step, con[LONGEST], y, par, lay, count, between, at, dy, w, rows)
+            x = located(t, step, y, par, lay, count, between, at, dy, w, rows)
         came = reached if x == NEVER else t + x * step
         while count[DONE] < count[SAMPLES] and samples[count[DONE]] <= came:
             dense((samples[count[DONE]] - t) / step, n, y, between, states[count[DONE] * n :])
