@@ -5,6 +5,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from importlib import import_module
 from multiprocessing import get_context
 from typing import Any, Self, TypeVar
 
@@ -32,6 +33,12 @@ class Workers:
         if self._kept is not None:
             self._kept.shutdown(wait=True, cancel_futures=True)
         self._kept, self.begun = None, False
+
+    def begin(self, module: str) -> None:
+        """Processes start and import a module while this one does something else."""
+        if self._kept is not None and self.processes:
+            for _ in range(self.count):
+                self._kept.submit(import_module, module)
 
     @contextmanager
     def running(self) -> Iterator[Executor]:

@@ -101,8 +101,9 @@ def size(
     WORKERS.check(1 if workers is None else workers)
     tables = machine.whole("size")
     with machine.located():
-        sized = size_design(tables)
         with _side_by_side(workers) as side_by_side:
+            side_by_side.begin(proven.__module__)
+            sized = size_design(tables)
             tried = proven(sized, accuracy=accuracy, progress=progress, workers=side_by_side)
             design = tried.design
             runs, failures = simulated(design, accuracy, progress, workers=side_by_side)

@@ -96,9 +96,12 @@ def dips(
     values, found = lay[VALUES], NEVER
     first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
     for i in range(lay[WATCHED]):
-        slope, later = second[i] - first[i], third[i] - second[i]
-        bend = 0.5 * (later - slope)
-        if slope < 0.0 and later > 0.0 and first[i] > 0.0 and second[i] > 0.0 and third[i] > 0.0:
+        slope = second[i] - first[i]
+        if slope >= 0.0:
+            continue
+        later = third[i] - second[i]
+        if later > 0.0 and first[i] > 0.0 and second[i] > 0.0 and third[i] > 0.0:
+            bend = 0.5 * (later - slope)
             lowest = 0.5 - slope / (2.0 * bend)
             if lowest > 0.0 and lowest < 2.0 and first[i] + lowest * (slope + bend * (lowest - 1.0)) < 0.0:
                 x = (check - 2 + lowest) / CHECKS

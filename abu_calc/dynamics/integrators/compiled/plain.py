@@ -15,7 +15,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from abu_calc.dynamics.integrators.compiled import arrays, contact, decide, friction, impact, locate, loop, method
+from abu_calc.dynamics.integrators.compiled import contact, decide, friction, impact, locate, loop, method
 from abu_calc.dynamics.integrators.compiled.program import Program
 from abu_calc.dynamics.integrators.compiled.spared import FOLDED, spared, without
 
@@ -40,20 +40,19 @@ class Plain:
     """A structure's equations, and the loop through their motion, as `Code` has them."""
 
     def __init__(self, functions: Program) -> None:
-        self.program = functions
-        self._go = _bound(_Equations(functions).functions())
+        self.program, self._equations = functions, _Equations(functions)
 
     def go(self, *given: np.ndarray) -> int:
         """`loop.go` on these arrays."""
         views: list[Any] = [one.reshape(-1).data for one in given]
-        # Its own: runs of one structure may go side by side; the loop fills it at its start.
-        views[PARAMETERS] = [0.0] * self.program.parameters + [None] * len(SPARED)
+        # Its own, as the loop is: runs of one structure may go side by side.
+        views[PARAMETERS] = [0.0] * self.program.parameters
         views[LAYOUT] = views[LAYOUT].tolist()
-        return int(self._go(*views))
+        return int(_loop(self._equations)(*views))
 
 
-SPARED = ("rates", "watched")
-"""Functions that are made anew for modes that come often; a run has those of its modes behind its parameters."""
+SPARED: Final = ("rates", "watched")
+"""Functions that are made anew for modes that come often."""
 
 
 @dataclass
@@ -62,16 +61,17 @@ class _Kind:
 
     known: dict[int, float]
     came: int = 0
-    made: tuple[Callable[..., None], ...] | None = None
+    made: dict[str, Callable[..., None]] | None = None
 
 
 class _Equations:
     """The functions of a structure, whole and without what is zero in modes that come often."""
 
     def __init__(self, program: Program) -> None:
-        self._count, self._text = program.parameters, _guarded(program.text)
+        self._text = _guarded(program.text)
         self._whole = _compiled(self._text)
         self._kinds: dict[tuple[tuple[int, float], ...], _Kind] = {}
+        self._kept: dict[bytes, tuple[list[float], _Kind]] = {}
         self._left = MOST
 
     @cached_property
@@ -80,35 +80,28 @@ class _Equations:
         functions = (one for one in ast.parse(self._text).body if isinstance(one, ast.FunctionDef))
         return next(one for one in functions if one.name == "watched")
 
-    def functions(self) -> dict[str, Callable[..., None]]:
-        """By their names, as the loop calls them."""
-        whole, setup, count = tuple(self._whole[name] for name in SPARED), self._whole["setup"], self._count
-        kept: dict[bytes, tuple[list[float], _Kind]] = {}
+    def put(self, names: dict[str, Any]) -> None:
+        """Into the names of a loop; `setup` changes those of SPARED to functions for its modes."""
+        kept, whole = self._kept, {name: self._whole[name] for name in SPARED}
 
-        def prepared(numbers: Any, par: Any) -> None:
+        def setup(numbers: Any, par: Any) -> None:
             key = numbers.tobytes()
             known = kept.get(key)
             if known is None:
-                setup(numbers, par)
+                self._whole["setup"](numbers, par)
                 if len(kept) >= MOST_KEPT:
                     kept.clear()
-                known = kept[key] = par[:count], self._kind(par[:count])
-            par[:count], kind = known
-            par[count:] = kind.made or self._often(kind) or whole
+                known = kept[key] = list(par), self._kind(par)
+            par[:], kind = known
+            names.update(kind.made or self._often(kind) or whole)
 
-        def rates(t: float, y: Any, par: Any, dy: Any) -> None:
-            par[-2](t, y, par, dy)
-
-        def watched(t: float, y: Any, par: Any, dy: Any, w: Any) -> None:
-            par[-1](t, y, par, dy, w)
-
-        return {"setup": prepared, "rates": rates, "watched": watched, "apparent": self._whole["apparent"]}
+        names.update(whole, setup=setup, apparent=self._whole["apparent"])
 
     def _kind(self, parameters: Sequence[float]) -> _Kind:
         known = {place: one for place, one in enumerate(parameters) if one in FOLDED}
         return self._kinds.setdefault(tuple(known.items()), _Kind(known))
 
-    def _often(self, kind: _Kind) -> tuple[Callable[..., None], ...] | None:
+    def _often(self, kind: _Kind) -> dict[str, Callable[..., None]] | None:
         """Functions of its own, once it has come often enough."""
         kind.came += 1
         if kind.came < OFTEN or self._left <= 0:
@@ -116,7 +109,7 @@ class _Equations:
         self._left -= 1
         less = spared(self._watched, kind.known)
         found = _compiled(ast.Module([without(less, "w", "rates"), less], []))
-        kind.made = tuple(found[name] for name in SPARED)
+        kind.made = {name: found[name] for name in SPARED}
         return kind.made
 
 
@@ -144,12 +137,12 @@ def _guarded(text: str) -> str:
     return "\n".join(lines[:-1])
 
 
-def _bound(equations: dict[str, Callable[..., None]]) -> Callable[..., Any]:
-    """The loop, all of whose functions call these equations."""
-    made: dict[Any, Any] = {getattr(arrays, name): function for name, function in equations.items()}
+def _loop(equations: _Equations) -> Callable[..., Any]:
+    """`loop.go`, all of whose functions call these equations."""
+    names: dict[str, Any] = {}
     for module in MODULES:
-        names = {name: made.get(value, value) if callable(value) else value for name, value in vars(module).items()}
         for name, value in vars(module).items():
-            if isinstance(value, FunctionType) and value.__module__ == module.__name__:
-                names[name] = made[value] = FunctionType(value.__code__, names, name)
-    return made[loop.go]  # type: ignore[no-any-return]
+            own = isinstance(value, FunctionType) and value.__module__ == module.__name__
+            names[name] = FunctionType(value.__code__, names, name) if own else names.get(name, value)
+    equations.put(names)
+    return names["go"]  # type: ignore[no-any-return]
