@@ -65,7 +65,7 @@ def threads() -> Workers:
 
 def several(workers: Workers | None, tasks: int) -> Workers | None:
     """The workers, where there are several, and so many tasks are worth their start or they have begun."""
-    return workers if workers is not None and workers.count > 1 and tasks > (1 if workers.begun else 2) else None
+    return workers if workers is not None and workers.count > 1 and (workers.begun or tasks > 2) else None
 
 
 def side_by_side(

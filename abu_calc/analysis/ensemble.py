@@ -284,7 +284,8 @@ def _deciding(found: Sequence[Outcome | Lost], drag: float) -> dict[int, bool]:
     undecided: dict[int, bool] = {}
     for group in groups:
         most = max(one.level for _, one in group)
-        undecided.update((k, False) for k, one in group if one.loudest > most + SLACK)
+        # Half of it: what is near would be asked for next, by itself.
+        undecided.update((k, False) for k, one in group if one.loudest > most + SLACK / 2)
     for (order, slack, early_end), group in product(ORDERS, groups):
         k, worst = max(group, key=lambda pair: order(pair[1]))
         *kind, value = order(worst)

@@ -42,14 +42,15 @@ def simulated(
 ) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:  # fmt: skip
     """All of them, or those of some names, each within the work that `abu size` may take."""
     names = scenes_of(design) if names is None else names
-    watched = progress if several(workers, len(names)) is None else silent  # of those side by side, each on its own
+    helpers = several(workers, len(names)) if len(names) > 1 else None
+    watched = progress if helpers is None else silent  # of those side by side, each on its own
     tasks = [(design, name, accuracy, watched) for name in names]
 
     def told(done: int) -> None:
         if watched is silent:
             progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
 
-    found = list(side_by_side(_simulated, tasks, workers, told))
+    found = list(side_by_side(_simulated, tasks, helpers, told))
     return tuple(one for one in found if isinstance(one, Run)), tuple(one for one in found if isinstance(one, Failure))
 
 

@@ -4,6 +4,7 @@ import ast
 import math
 import random
 
+from abu_calc.dynamics.integrators.compiled.plain import MODULES
 from abu_calc.dynamics.integrators.compiled.spared import spared, without
 
 WHOLE = """
@@ -61,3 +62,13 @@ def watched(t, y, par, dy, w):
     dy = [9.0]
     scope["rates"](0.0, [2.0], [3.0], dy)  # type: ignore[operator]
     assert dy == [4.5] and [one.arg for one in whole.args.args][-1] == "w" and whole.name == "watched"
+
+
+def test_one_name_is_one_thing_in_all_of_the_loop() -> None:
+    """Plain Python runs the loop's modules with their names together."""
+    known: dict[str, object] = {}
+    for module in MODULES:
+        for name, value in vars(module).items():
+            if not name.startswith("__"):
+                assert known.setdefault(name, value) is value or known[name] == value, f"{module.__name__}: {name}"
+    assert "go" in known and "located" in known
