@@ -21,9 +21,10 @@ DRAGS = (1.0, 1 / 3, 3.0)
 RUN_UP, SLOW = 1.0, 4.0
 """Run-up [s] of a file that names none, and one slow enough to catch balls at a resonance."""
 
-OPPOSITE, ALIKE = math.pi, 0.0
+OPPOSITE, ALIKE = math.pi, math.tau
 """Where the centre of the race stands, from the imbalance: opposite it asks for the most capacity, on the same side
-balls settle latest and friction leaves the loudest arrangements."""
+balls settle latest and friction leaves the loudest arrangements. A whole turn, since equations without an angle would
+be made and compiled once more."""
 
 LAGS = 3.0
 """Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
