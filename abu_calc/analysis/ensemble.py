@@ -1,19 +1,18 @@
 """One design switched on in many ways: which starts balance, how soon, how loud, and which leave balls hanging."""
 
 import math
-import statistics
-from collections.abc import Callable, Generator, Iterable, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from itertools import islice, product
-from operator import attrgetter
-from typing import Any, NamedTuple
+from itertools import islice
+from typing import NamedTuple
 
-from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
+from abu_calc.analysis.balanced import allowed_imbalance, balances, slip
 from abu_calc.analysis.early import Early
 from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.analysis.ledger import chosen
+from abu_calc.analysis.outcomes import Ensemble, Lost, Outcome, deciding, worse
 from abu_calc.analysis.response import Response, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
@@ -43,115 +42,12 @@ ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What one start came to. Settling [s] from full speed on, None: never; `residual`: axis amplitude [m].
-
-    `level` [dB] at the loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
-    """
-
-    member: Member
-    settling: float | None
-    residual: float
-    level: float
-    slip: float
-    imbalance: float
-    allowed: float
-    work: int = 0
-    confirmed: bool = False
-    rise: float = 0.0
-    """By how much the level might still have risen [dB] where the run ended early."""
-
-    @property
-    def hanging(self) -> bool:
-        """Whether balls keep going round behind the rotor."""
-        return self.slip > SLIPPING
-
-    @property
-    def balanced(self) -> bool:
-        """Whether the balls are at rest in their race, and what they leave is allowed [kg m]."""
-        return balances(self.imbalance, self.allowed, self.slip)
-
-    @property
-    def time(self) -> float:
-        """Until it settled where it balances [s]; infinite if never."""
-        return self.settling if self.settling is not None and self.balanced else math.inf
-
-    @property
-    def loudest(self) -> float:
-        """The level it might have risen to [dB]."""
-        return self.level + self.rise
-
-    @property
-    def badness(self) -> tuple[bool, bool, float]:
-        """Sorts the worst last."""
-        return self.hanging, not self.balanced, self.loudest
-
-
-@dataclass(frozen=True)
-class Lost:
-    """A start that gave no number to be trusted, and why; `work`: the evaluations it was allowed."""
-
-    member: Member
-    reason: str
-    work: int
-
-
 class StartRun(NamedTuple):
     """What one start came to, and the run that says so."""
 
     outcome: Outcome
     scene: Scene
     trajectory: Trajectory
-
-
-@dataclass(frozen=True)
-class Ensemble:
-    """All starts of one design; `drag` [1/s]: the one given, which decides what fails."""
-
-    drag: float
-    outcomes: tuple[Outcome, ...]
-    lost: tuple[Lost, ...]
-
-    @property
-    def members(self) -> int:
-        """How many starts there are."""
-        return len(self.outcomes) + len(self.lost)
-
-    @property
-    def work(self) -> int:
-        """Evaluations of all of them, in SciPy's."""
-        return sum(one.work for one in self.outcomes) + sum(one.work for one in self.lost)
-
-    @property
-    def given(self) -> tuple[Outcome, ...]:
-        """Those at the drag given."""
-        return tuple(one for one in self.outcomes if one.member.drag == self.drag)
-
-    @property
-    def rated(self) -> tuple[Outcome, ...]:
-        """Those at the rated speed."""
-        return tuple(one for one in self.outcomes if one.member.speed is None)
-
-    @property
-    def balanced(self) -> int:
-        """How many balance."""
-        return sum(one.balanced for one in self.outcomes)
-
-    @property
-    def hanging(self) -> tuple[Outcome, ...]:
-        """Those whose balls hang."""
-        return tuple(one for one in self.outcomes if one.hanging)
-
-    @property
-    def worst(self) -> Outcome | None:
-        """Of all: hanging before not balanced before loud."""
-        return max(self.outcomes, key=lambda one: one.badness, default=None)
-
-    def typical(self, values: Iterable[float]) -> float | None:
-        """Their median; None where most are infinite."""
-        middle = statistics.median(list(values) or [math.inf])
-        return middle if math.isfinite(middle) else None
 
 
 def simulate_members(
@@ -168,11 +64,11 @@ def simulate_members(
         doubtful = hanging_bounds(design).largest or 0.0
     starts = list(members(design, doubtful, shares))
     found = _found(design, starts, accuracy, progress, workers)
-    while undecided := _deciding(found, design.case.drag):
+    while undecided := deciding(found, design.case.drag):
         again = [(found[k].member, early_end) for k, early_end in undecided.items()]
         runs = _all(design, again, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers)
         for k, one in zip(undecided, runs, strict=True):
-            found[k] = _worse(found[k], one)
+            found[k] = worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
     return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
 
@@ -258,47 +154,3 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, scene.imbalance),
     )
-
-
-SLACK = 0.3
-"""A difference in level [dB] that decides nothing."""
-
-Order = tuple[Callable[[Outcome], Any], float, bool]
-"""By what starts are judged, the last of it a number; a difference of that number that decides nothing; and whether a
-run that confirms one may end early: its level is that at the very end, when it settled is known before."""
-
-ORDERS: tuple[Order, ...] = (
-    (attrgetter("badness"), SLACK, False),
-    (lambda one: (one.level,), SLACK, False),
-    (lambda one: (one.time,), 0.0, True),
-)
-
-
-def _deciding(found: Sequence[Outcome | Lost], drag: float) -> dict[int, bool]:
-    """Which are worst, among those at the drag given and among all, and not confirmed, nor as bad as one that is.
-
-    And those that might have become the loudest. With whether the run that confirms it may end early.
-    """
-    done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
-    groups = [group for group in (done, [(k, one) for k, one in done if one.member.drag == drag]) if group]
-    undecided: dict[int, bool] = {}
-    for group in groups:
-        most = max(one.level for _, one in group)
-        # Half of it: what is near would be asked for next, by itself.
-        undecided.update((k, False) for k, one in group if one.loudest > most + SLACK / 2)
-    for (order, slack, early_end), group in product(ORDERS, groups):
-        k, worst = max(group, key=lambda pair: order(pair[1]))
-        *kind, value = order(worst)
-        confirmed = [order(one) for _, one in group if one.confirmed]
-        if not any([*same] == kind and (near == value or near >= value - slack) for *same, near in confirmed):
-            undecided.setdefault(k, early_end)
-    return undecided
-
-
-def _worse(loose: Outcome | Lost, tight: Outcome | Lost) -> Outcome | Lost:
-    """The tighter of two runs of a start; where they end differently the worse: less than any error decides there."""
-    if isinstance(loose, Lost) or isinstance(tight, Lost):
-        return tight if isinstance(tight, Lost) else loose
-    if (loose.hanging, loose.balanced) == (tight.hanging, tight.balanced):
-        return replace(tight, confirmed=True)
-    return replace(max(loose, tight, key=lambda one: one.badness), confirmed=True)

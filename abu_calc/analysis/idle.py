@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterable
 
 from abu_calc.analysis.balanced import balanced_well
-from abu_calc.analysis.ensemble import Ensemble, Outcome
+from abu_calc.analysis.outcomes import Ensemble, Outcome
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.scenes.from_design import guided
 from abu_calc.sizing.design import Design

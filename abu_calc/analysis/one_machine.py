@@ -3,7 +3,8 @@
 from dataclasses import dataclass, replace
 
 from abu_calc.analysis.balanced import HALF, allowed_imbalance, balances, slip
-from abu_calc.analysis.ensemble import MANY, WORK, Outcome, outcome_of
+from abu_calc.analysis.ensemble import MANY, WORK, outcome_of
+from abu_calc.analysis.outcomes import Outcome
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.many import Way, integrate, way_for

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from abu_calc.analysis.ensemble import Ensemble, simulate_members
+from abu_calc.analysis.ensemble import simulate_members
+from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.remedies import passes, remedy
 from abu_calc.parallel import Workers
 from abu_calc.progress import Progress, silent, within

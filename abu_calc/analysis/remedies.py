@@ -4,7 +4,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from abu_calc.analysis.ensemble import Ensemble, simulate_members
+from abu_calc.analysis.ensemble import simulate_members
+from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.formulas.suspension import Springs
 from abu_calc.parallel import Workers
 from abu_calc.progress import Progress, within

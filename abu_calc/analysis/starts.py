@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
-from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, WORK, Ensemble, Outcome, run_of_start
+from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, WORK, run_of_start
+from abu_calc.analysis.outcomes import Ensemble, Outcome
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Annotated, Self
 
-from abu_calc.analysis.ensemble import Ensemble, Outcome
+from abu_calc.analysis.outcomes import Ensemble, Outcome
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.simulated_scene import finite
 from abu_calc.units import from_si

@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from abu_calc import analysis
-from abu_calc.analysis.ensemble import TOLERANCE, WORK, Ensemble, Lost, Outcome, simulate_members, start_once
+from abu_calc.analysis.ensemble import TOLERANCE, WORK, simulate_members, start_once
 from abu_calc.analysis.idle import ensemble_checks, level_check
 from abu_calc.analysis.machine import simulated
+from abu_calc.analysis.outcomes import Ensemble, Lost, Outcome
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.remedies import Change, changes, other_drags, passes
 from abu_calc.checks import Check, Grade, coded

@@ -16,9 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.analysis.ensemble import ALWAYS, Outcome, outcome_of
+from abu_calc.analysis.ensemble import ALWAYS, outcome_of
 from abu_calc.analysis.idle import ensemble_checks, level_check
 from abu_calc.analysis.ledger import chosen
+from abu_calc.analysis.outcomes import Outcome
 from abu_calc.analysis.proven import proven
 from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
