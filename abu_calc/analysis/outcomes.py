@@ -54,7 +54,7 @@ class Outcome:
     @property
     def badness(self) -> tuple[bool, bool, float]:
         """Sorts the worst last."""
-        return self.hanging, not self.balanced, self.loudest
+        return self.hanging, not self.balanced, self.level
 
 
 @dataclass(frozen=True)
