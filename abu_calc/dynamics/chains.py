@@ -30,15 +30,15 @@ class Chains:
         >>> Chains(((0, 1, 2, 3),), np.array((1.0, 0.0, 0.0, 1.0))).sums(np.array((1.0, 2.0, 4.0, 8.0))).tolist()
         [11.0, 11.0, 4.0, 11.0]
         """
-        return self.behind(x) + self.ahead(x) - x
+        return x + self._gathered(x, self._gaps) + self._gathered(x, self._turned)
 
     def behind(self, x: Array) -> Array:
         """Of each ball, the sum over itself and all of its chain behind it."""
-        return self._gathered(x, [(ring, gaps) for ring, gaps in self._gaps])
+        return x + self._gathered(x, self._gaps)
 
     def ahead(self, x: Array) -> Array:
         """Of each ball, the sum over itself and all of its chain ahead of it."""
-        return self._gathered(x, [(ring[::-1], [*gaps[-2::-1], gaps[-1]]) for ring, gaps in self._gaps])
+        return x + self._gathered(x, self._turned)
 
     @cached_property
     def _gaps(self) -> list[tuple[tuple[int, ...], list[Any]]]:
@@ -48,6 +48,11 @@ class Chains:
             found.append((ring, list(self.joined[first : first + len(ring)])))
             first += len(ring)
         return found
+
+    @property
+    def _turned(self) -> list[tuple[tuple[int, ...], list[Any]]]:
+        """The same, the other way round."""
+        return [(ring[::-1], [*gaps[-2::-1], gaps[-1]]) for ring, gaps in self._gaps]
 
     def leads(self, balls: int) -> Array:
         """1 for the last ball of each chain, 0 for those that have a joined gap behind them."""
@@ -63,13 +68,13 @@ class Chains:
         return np.array([self.sums(row) for row in unity])
 
     def _gathered(self, x: Array, rings: list[tuple[tuple[int, ...], list[Any]]]) -> Array:
-        """Each ball's own and what the one before it in its ring has gathered, where the gap between them is joined."""
-        found = x.copy()
+        """Of each ball, what its chain before it in its ring sums up to: nothing where that gap is open."""
+        found: list[Any] = [0.0] * len(x)
         for ring, gaps in rings:
-            for place in range(1, len(ring)):
-                found[ring[place]] = found[ring[place]] + gaps[place - 1] * found[ring[place - 1]]
-            wrapped, share = found[ring[-1]], gaps[-1]
-            for place in range(len(ring) - 1):
-                found[ring[place]] = found[ring[place]] + share * wrapped
-                share = share * gaps[place]
-        return found
+            for before, ball, gap in zip(ring, ring[1:], gaps, strict=False):
+                found[ball] = gap * (x[before] + found[before])
+            wrapped, share = x[ring[-1]] + found[ring[-1]], gaps[-1]
+            for ball, gap in zip(ring[:-1], gaps, strict=False):
+                found[ball] = found[ball] + share * wrapped
+                share = share * gap
+        return np.array(found)

@@ -37,19 +37,23 @@ class RaceEccentricity(Effect):
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:
         """The races stand off the axis."""
-        place = m.turn + self.angle
-        m.offset = (self.magnitude * m.xp.cos(place), self.magnitude * m.xp.sin(place))
+        x, y = self._direction(m)
+        m.offset = (self.magnitude * x, self.magnitude * y)
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """The races are carried round with the rotor."""
-        x, y = m.offset
-        square, a = m.speed * m.speed, m.acceleration
-        ax, ay = -square * x - a * y, -square * y + a * x
-        levers.carry(ay * m.cos - ax * m.sin, ax * m.cos + ay * m.sin)
+        x, y = self._direction(m)
         along, outward = x * m.cos + y * m.sin, x * m.sin - y * m.cos
+        steady, growing = self.magnitude * (m.speed * m.speed), self.magnitude * m.acceleration
+        levers.carry(steady * outward + growing * along, growing * outward - steady * along)
         for row in p.frame.turning:
-            levers.along[row] = levers.along[row] + along
-            levers.outward[row] = levers.outward[row] + outward
+            levers.along[row] = levers.along[row] + self.magnitude * along
+            levers.outward[row] = levers.outward[row] + self.magnitude * outward
+
+    def _direction(self, m: Motion) -> tuple[Any, Any]:
+        """From the axis to the races' centres."""
+        place = m.turn + self.angle
+        return m.xp.cos(place), m.xp.sin(place)
 
     def weight(self, scene: Circumstances) -> Weight:
         """Δ, relative to the axis amplitude without it."""

@@ -92,6 +92,7 @@ def _reduced(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> _Reduced
         give = _together(p.masses * inertias, m.radii, loads.mates, loads)
         shared = along * (p.masses * give)
         weights = np.array([loads.mates.sums(row) for row in shared]) * (p.masses * m.radii)
+    drive, weights = +drive, +weights  # worked out once for all that takes them
     force, mass = force - weights.dot(drive), mass - weights.dot(felt.T)
     if across:
         beside = across.along * (p.masses * across.give)
@@ -152,7 +153,7 @@ def _frame_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple
     force = frame.held.dot(m.support) + levers.outward.dot(swung)
     mass = frame.mass + _summed(levers, p) if levers.mass is None else levers.mass
     if levers.carried_along is not None:
-        force = force - levers.along.dot(p.masses * levers.carried_along)
+        force = force - levers.along.dot(+(p.masses * levers.carried_along))
     if p.rotor.given and p.spin_inertia is not None:
         force = force - p.spin_inertia[frame.turning[0]] * m.acceleration
     if levers.axial is not None:

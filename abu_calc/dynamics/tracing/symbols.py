@@ -158,6 +158,10 @@ class Symbol:
         negative = self.tape.constant(-1.0)
         return Symbol(self.tape, [(self.tape.apply(operator.mul, c, negative), e) for c, e in self.terms])
 
+    def __pos__(self) -> "Symbol":
+        """The same as one expression: what it is multiplied with does not take its coefficient anew each time."""
+        return Symbol(self.tape, [(self.tape.one, self.expression())])
+
     def __sub__(self, other: Any) -> Any:
         more = self._other(other)
         return NotImplemented if more is None else self + -more

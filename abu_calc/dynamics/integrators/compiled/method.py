@@ -39,10 +39,11 @@ def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Real
 
 def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, relative: Reals) -> float:
     """The estimated error of a step in units of what is allowed, root mean square."""
+    c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
     total = 0.0
     for i in range(n):
-        off = 71 / 57600 * k[i] - 71 / 16695 * k[2 * n + i] + 71 / 1920 * k[3 * n + i]
-        off += 22 / 525 * k[5 * n + i] - 17253 / 339200 * k[4 * n + i] - 1 / 40 * k[6 * n + i]
+        off = 71 / 57600 * k[i] - 71 / 16695 * c[i] + 71 / 1920 * d[i]
+        off += 22 / 525 * f[i] - 17253 / 339200 * e[i] - 1 / 40 * g[i]
         off = h * off / (absolute[i] + relative[i] * max(abs(y[i]), abs(end[i])))
         total += off * off
     return sqrt(total / n)
@@ -50,24 +51,26 @@ def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, rel
 
 def prepared(h: float, n: int, y: Reals, end: Reals, k: Reals, between: Reals) -> None:
     """What the dense output of a step needs."""
+    c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
+    second, third, fourth = between[n:], between[2 * n :], between[3 * n :]
     for i in range(n):
-        way = end[i] - y[i]
-        bend = h * k[i] - way
+        way, first, last = end[i] - y[i], k[i], g[i]
+        bend = h * first - way
         between[i] = way
-        between[n + i] = bend
-        between[2 * n + i] = way - h * k[6 * n + i] - bend
-        more = -12715105075 / 11282082432 * k[i] + 87487479700 / 32700410799 * k[2 * n + i]
-        more += 701980252875 / 199316789632 * k[4 * n + i] - 10690763975 / 1880347072 * k[3 * n + i]
-        more += 69997945 / 29380423 * k[6 * n + i] - 1453857185 / 822651844 * k[5 * n + i]
-        between[3 * n + i] = h * more
+        second[i] = bend
+        third[i] = way - h * last - bend
+        more = -12715105075 / 11282082432 * first + 87487479700 / 32700410799 * c[i]
+        more += 701980252875 / 199316789632 * e[i] - 10690763975 / 1880347072 * d[i]
+        more += 69997945 / 29380423 * last - 1453857185 / 822651844 * f[i]
+        fourth[i] = h * more
 
 
 def dense(x: float, n: int, y: Reals, between: Reals, found: Reals) -> None:
     """The state at a share x of a step."""
     z = 1.0 - x
+    second, third, fourth = between[n:], between[2 * n :], between[3 * n :]
     for i in range(n):
-        more = between[n + i] + x * (between[2 * n + i] + z * between[3 * n + i])
-        found[i] = y[i] + x * (between[i] + z * more)
+        found[i] = y[i] + x * (between[i] + z * (second[i] + x * (third[i] + z * fourth[i])))
 
 
 def within(i: int, x: float, n: int, y: Reals, between: Reals) -> float:

@@ -70,7 +70,7 @@ class _Equations:
     def __init__(self, program: Program) -> None:
         self._text = _guarded(program.text)
         self._whole = _compiled(self._text)
-        self._kinds: dict[tuple[tuple[int, float], ...], _Kind] = {}
+        self._kinds: dict[bytes, _Kind] = {}
         self._kept: dict[bytes, tuple[list[float], _Kind]] = {}
         self._left = MOST
 
@@ -98,8 +98,11 @@ class _Equations:
         names.update(whole, setup=setup, apparent=self._whole["apparent"])
 
     def _kind(self, parameters: Sequence[float]) -> _Kind:
-        known = {place: one for place, one in enumerate(parameters) if one in FOLDED}
-        return self._kinds.setdefault(tuple(known.items()), _Kind(known))
+        values = np.array(parameters)
+        key = b"".join((values == one).tobytes() for one in FOLDED)
+        if key not in self._kinds:
+            self._kinds[key] = _Kind({place: one for place, one in enumerate(parameters) if one in FOLDED})
+        return self._kinds[key]
 
     def _often(self, kind: _Kind) -> dict[str, Callable[..., None]] | None:
         """Functions of its own, once it has come often enough."""
