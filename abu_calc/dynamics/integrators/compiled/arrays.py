@@ -15,9 +15,10 @@ GAPS, PAIRS, TURNS, TOUCHING, LEAST, JOINED = 12, 13, 14, 15, 16, 17
 """Ball contact: its watched numbers (−1 without), how many gaps, and its mode among the numbers."""
 ONE_SIDED, TOUCHES = 18, 19
 """One-sided contact: its watched number (−1 without) and its mode."""
-APPARENT, BEHIND = 20, 21
+APPARENT, SEEN, ORDER, BEHIND = 20, 21, 22, 23
 """From where on, for each watched number that `apparent` gives, the place stands of how many states it asks for, and
-which (−1: it is not given); the ball behind each gap, then the ball ahead of each."""
+which (−1: it is not given); how many it gives, and from where on these stand, and then all others; the ball behind each
+gap, then the ball ahead of each."""
 
 # Constants of a run.
 LONGEST, END, REST, SLOW, RESTITUTION, KICK, STALLED, UNIT = 0, 1, 2, 3, 4, 5, 6, 7

@@ -46,6 +46,9 @@ def layout(
     for one, states in program.apparent.items():
         found[flags + one] = len(found)
         found = np.append(found, (len(states), *states))
+    found[arrays.SEEN], found[arrays.ORDER] = len(program.apparent), len(found)
+    others = (one for one in range(criteria) if one not in program.apparent)
+    found = np.append(found, np.array((*program.apparent, *others), dtype=np.int64))
     first = min(min(row.values(), default=program.numbers) for row in mode_places)
     found[: arrays.NUMBERS + 1] = (
         len(equations.states), p.balls, 2 * p.size + p.balls, criteria, program.values, first, mode_places[-1][""],

@@ -2,13 +2,18 @@
 
 Numbers are looked at at quarters of the step. One that starts at or below zero has just been switched: it counts once
 it has risen, and if it never does, the event is the very start. One that falls and rises again within two quarters is
-found by a parabola through three of its values.
+found by a parabola through three of its values. Numbers that stay as they are, or are far from zero at both ends, are
+left alone; where all that cost an evaluation do, the others are looked at by themselves.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
     APPARENT,
+    BALLS,
     EVALUATIONS,
     FOUND,
+    FRICTION,
+    ORDER,
+    SEEN,
     STATES,
     VALUES,
     WATCHED,
@@ -22,18 +27,36 @@ from abu_calc.dynamics.integrators.compiled.method import dense, within
 CHECKS = 4
 NEVER = 2.0
 """No event in the step."""
+PRESSED = 0.5
+"""Of the force of the race on a ball that goes round with the rotor: where so much is left at both ends of a step it
+does not let go of it in between. The steps resolve the swinging that would take it off."""
 FINE = 2e-16
 """Share of a step, or of the time itself, to which an event is located."""
 
 
+def moving(lay: Integers, before: Reals, after: Reals) -> int:
+    """How many of the watched numbers, in their order, may fall within a step; by all of them at its ends."""
+    sides = lay[FRICTION] + 2 * lay[BALLS]
+    for k in range(lay[SEEN], lay[WATCHED]):
+        i = lay[lay[ORDER] + k]
+        if before[i] != after[i]:
+            side = lay[FRICTION] >= 0 and i >= sides and i < sides + lay[BALLS]
+            if not (side and before[i] > PRESSED and after[i] > PRESSED):
+                return lay[WATCHED]
+    return lay[SEEN]
+
+
 def look(
-    x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
-    dy: Reals, w: Reals,
+    many: int, x: float, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
+    at: Reals, dy: Reals, w: Reals,
 ) -> None:  # fmt: skip
-    """State and watched numbers at a share x of the step."""
-    count[EVALUATIONS] += 1
+    """State and so many of the watched numbers at a share x of the step."""
     dense(x, lay[STATES], y, between, at)
-    watched(t + x * h, at, par, dy, w)
+    if many > lay[SEEN]:
+        count[EVALUATIONS] += 1
+        watched(t + x * h, at, par, dy, w)
+    else:
+        apparent(t + x * h, at, par, w)
 
 
 def peek(
@@ -48,7 +71,7 @@ def peek(
             at[i] = within(i, x, lay[STATES], y, between)
         apparent(t + x * h, at, par, w)
     else:
-        look(x, t, h, y, par, lay, count, between, at, dy, w)
+        look(lay[WATCHED], x, t, h, y, par, lay, count, between, at, dy, w)
     return w[index]
 
 
@@ -89,13 +112,14 @@ def crossing(
 
 
 def dips(
-    check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
-    dy: Reals, w: Reals, rows: Reals,
+    many: int, check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
+    at: Reals, dy: Reals, w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
     """The first event of the numbers that fall and rise again within the last two quarters."""
     values, found = lay[VALUES], NEVER
     first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
-    for i in range(lay[WATCHED]):
+    for k in range(many):
+        i = lay[lay[ORDER] + k]
         slope = second[i] - first[i]
         if slope >= 0.0:
             continue
@@ -116,8 +140,8 @@ def dips(
 
 
 def fallen(
-    check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals, at: Reals,
-    dy: Reals, w: Reals, rows: Reals,
+    many: int, check: int, t: float, h: float, y: Reals, par: Reals, lay: Integers, count: Integers, between: Reals,
+    at: Reals, dy: Reals, w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
     """The first event of the numbers that are below zero at a check.
 
@@ -126,7 +150,7 @@ def fallen(
     """
     values, start, found = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
     before, low = rows[(check - 1) * values :], rows[check * values :]
-    which = earliest(lay, before, low, -1)
+    which = earliest(many, lay, before, low, -1)
     if which < 0:
         return NEVER
     while which >= 0:
@@ -137,24 +161,26 @@ def fallen(
         if x > found - resolved(t, h):
             return x
         found = x
-        look(found, t, h, y, par, lay, count, between, at, dy, w)
+        look(many, found, t, h, y, par, lay, count, between, at, dy, w)
         low = w
-        which = earliest(lay, before, low, which)
+        which = earliest(many, lay, before, low, which)
     return found
 
 
-def earliest(lay: Integers, before: Reals, here: Reals, known: int) -> int:
+def earliest(many: int, lay: Integers, before: Reals, here: Reals, known: int) -> int:
     """Of the numbers below zero but one, the one that falls first by a straight line; −1 where none is.
 
     Those that cost next to nothing come before all others: few of these are below zero where the first of them is.
     """
-    which, least, cheap = -1, NEVER, False
-    for i in range(lay[WATCHED]):
+    which, least = -1, NEVER
+    for k in range(many):
+        if k == lay[SEEN] and which >= 0:
+            break
+        i = lay[lay[ORDER] + k]
         if here[i] < 0.0 and i != known:
-            alone = lay[lay[APPARENT] + i] >= 0
             share = before[i] / (before[i] - here[i]) if before[i] > 0.0 else 0.0
-            if (alone and not cheap) or (share < least and alone == cheap):
-                which, least, cheap = i, share, alone
+            if share < least:
+                which, least = i, share
     return which
 
 
@@ -163,14 +189,15 @@ def located(
     w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
     """The share of the step at which the first event is, and in the counts which number fell."""
+    many = moving(lay, rows, rows[CHECKS * lay[VALUES] :])
     for check in range(1, CHECKS + 1):
         if check < CHECKS:
-            look(check / CHECKS, t, h, y, par, lay, count, between, at, dy, rows[check * lay[VALUES] :])
+            look(many, check / CHECKS, t, h, y, par, lay, count, between, at, dy, rows[check * lay[VALUES] :])
         found = NEVER
         if check > 1:
-            found = dips(check, t, h, y, par, lay, count, between, at, dy, w, rows)
+            found = dips(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
         which = count[FOUND]
-        other = fallen(check, t, h, y, par, lay, count, between, at, dy, w, rows)
+        other = fallen(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
         if found < other:
             count[FOUND] = which
             return found
