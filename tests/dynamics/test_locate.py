@@ -43,7 +43,6 @@ def test_looking_at_all_numbers_finds_the_same_events(name: str, monkeypatch: py
     assert found.evaluations < every.evaluations
 
 
-
 def looked_at(before: Reals, after: Reals) -> int:
     """By the numbers at both ends, of which the state gives 3 and 0; 4 and 5 are forces of the race."""
     lay: Integers = [0] * 40
