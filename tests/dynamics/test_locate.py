@@ -55,13 +55,15 @@ def looked_at(before: Reals, after: Reals) -> int:
     ("before", "after", "many"),
     [
         ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0], [0.2, 1.0, 1.0, -3.0, 1.0, 1.0], 2),
-        ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0, 0.7, 9.0], 2),
+        ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0, 0.7, 1.9], 2),
         ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0, 0.4, 1.0], 6),
         ([1.0, 1.0, 1.0, 1.0, 0.4, 1.0], [1.0, 1.0, 1.0, 1.0, 0.9, 1.0], 6),
+        ([1.0, 1.0, 1.0, 1.0, 3.2, 3.2], [1.0, 1.0, 1.0, 1.0, 56.0, 3.2], 6),
+        ([1.0, 1.0, 1.0, 1.0, 6.0, 150.0], [1.0, 1.0, 1.0, 1.0, 5.0, 90.0], 6),
         ([1.0, 1.0, 7.0, 1.0, 1.0, 1.0], [1.0, 1.0, 8.0, 1.0, 1.0, 1.0], 6),
         ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0, 1.0, float("nan")], 6),
     ],
 )
 def test_numbers_are_left_alone_that_cannot_fall(before: Reals, after: Reals, many: int) -> None:
-    """Those that do not move, and a ball that is pressed on; one that moves, or is no number, has all looked at."""
+    """Those that do not move, and balls that the race goes on pressing alike; one that moves, or is no number, has all looked at."""
     assert looked_at(before, after) == many

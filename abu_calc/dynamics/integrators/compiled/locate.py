@@ -28,21 +28,25 @@ CHECKS = 4
 NEVER = 2.0
 """No event in the step."""
 PRESSED = 0.5
-"""Of the force of the race on a ball that goes round with the rotor: where so much is left at both ends of a step it
-does not let go of it in between. The steps resolve the swinging that would take it off."""
+"""Where the race presses on all balls with so much of what it presses most with, and of what keeps a ball on its way
+round with the rotor, at both ends of a step, none leaves it in between."""
 FINE = 2e-16
 """Share of a step, or of the time itself, to which an event is located."""
 
 
 def moving(lay: Integers, before: Reals, after: Reals) -> int:
     """How many of the watched numbers, in their order, may fall within a step; by all of them at its ends."""
-    sides = lay[FRICTION] + 2 * lay[BALLS]
+    first, balls = lay[FRICTION] + 2 * lay[BALLS], lay[BALLS] if lay[FRICTION] >= 0 else 0
     for k in range(lay[SEEN], lay[WATCHED]):
         i = lay[lay[ORDER] + k]
-        if before[i] != after[i]:
-            side = lay[FRICTION] >= 0 and i >= sides and i < sides + lay[BALLS]
-            if not (side and before[i] > PRESSED and after[i] > PRESSED):
-                return lay[WATCHED]
+        if before[i] != after[i] and not (i >= first and i < first + balls):
+            return lay[WATCHED]
+    least = PRESSED
+    for i in range(first, first + balls):
+        least = max(least, PRESSED * max(before[i], after[i]))
+    for i in range(first, first + balls):
+        if not (before[i] > least and after[i] > least):
+            return lay[WATCHED]
     return lay[SEEN]
 
 
