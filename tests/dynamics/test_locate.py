@@ -65,5 +65,5 @@ def looked_at(before: Reals, after: Reals) -> int:
     ],
 )
 def test_numbers_are_left_alone_that_cannot_fall(before: Reals, after: Reals, many: int) -> None:
-    """Those that do not move, balls that the race goes on pressing alike; one that moves, or is none, has all looked at."""
+    """Those that stay, balls that the race goes on pressing alike; one that moves or is none has all looked at."""
     assert looked_at(before, after) == many
