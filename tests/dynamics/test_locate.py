@@ -13,6 +13,7 @@ from abu_calc.dynamics.integrators.compiled import locate, run
 from abu_calc.dynamics.integrators.compiled.arrays import BALLS, FRICTION, ORDER, SEEN, WATCHED, Integers, Reals
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
+from tests.dynamics.random_scenes import random_scene
 from tests.dynamics.scenes import scene_on
 
 FRICTION_, MEETING = DryRollingFriction(0.002, 0.1), BallContact(0.1, 0.5)
@@ -26,21 +27,39 @@ SCENES = {
     "eccentric": scene_on("tilting", RaceEccentricity(0.05, 0.3), MEETING, FRICTION_),
 }
 
+SWINGING = (30, 104)
+"""Random scenes whose race presses on some balls many times as much as the rotor's speed asks, and lets go of others
+within a step."""
+
 
 def through(scene: Scene) -> Trajectory:
-    """The scene in the plain loop."""
-    return run.integrate(assemble(scene), 1e-4, np.linspace(0, min(scene.duration, 20.0), 17), compiled=False)
+    """The scene in the plain loop, in long steps."""
+    times = np.linspace(0, min(scene.duration, 20 * scene.revolution), 17)
+    return run.integrate(assemble(scene), 1e-3, times, compiled=False)
+
+
+def both(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> tuple[Trajectory, Trajectory]:
+    """As it is and with all numbers looked at: the same to the last bit."""
+    found = through(scene)
+    monkeypatch.setattr(locate, "moving", lambda lay, before, after: lay[WATCHED])
+    every = through(scene)
+    assert np.array_equal(found.y, every.y)
+    assert (found.events, found.steps) == (every.events, every.steps)
+    return found, every
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_looking_at_all_numbers_finds_the_same_events(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """To the last bit, with more evaluations."""
-    found = through(SCENES[name])
-    monkeypatch.setattr(locate, "moving", lambda lay, before, after: lay[WATCHED])
-    every = through(SCENES[name])
-    assert np.array_equal(found.y, every.y)
-    assert (found.events, found.steps) == (every.events, every.steps)
-    assert found.evaluations < every.evaluations
+    """With more evaluations."""
+    found, every = both(SCENES[name], monkeypatch)
+    assert found.events and found.evaluations < every.evaluations
+
+
+@pytest.mark.parametrize("seed", SWINGING)
+def test_a_race_that_lets_go_within_a_step_is_seen(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However much it presses on other balls."""
+    found, _ = both(random_scene(seed), monkeypatch)
+    assert found.events
 
 
 def looked_at(before: Reals, after: Reals) -> int:

@@ -42,7 +42,7 @@ class RaceEccentricity(Effect):
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """The races are carried round with the rotor."""
-        x, y = self._direction(m)
+        x, y = self._direction(m)  # Δ comes last, once for all balls
         along, outward = x * m.cos + y * m.sin, x * m.sin - y * m.cos
         steady, growing = self.magnitude * (m.speed * m.speed), self.magnitude * m.acceleration
         levers.carry(steady * outward + growing * along, growing * outward - steady * along)

@@ -2,8 +2,8 @@
 
 Numbers are looked at at quarters of the step. One that starts at or below zero has just been switched: it counts once
 it has risen, and if it never does, the event is the very start. One that falls and rises again within two quarters is
-found by a parabola through three of its values. Numbers that stay as they are, or are far from zero at both ends, are
-left alone; where all that cost an evaluation do, the others are looked at by themselves.
+found by a parabola through three of its values. Where all numbers that cost an evaluation are the same at both ends, or
+far from zero there, the others are looked at by themselves.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
