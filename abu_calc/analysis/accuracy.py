@@ -13,7 +13,7 @@ from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.integrators import choice, estimates
+from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
@@ -28,13 +28,13 @@ TRIAL, ORDER = 1e-3, 8
 FINEST: Final = 2e-6
 """Accuracy for which the verifying integrators are at the tightest tolerances they have; no reference is finer."""
 
-QUICK: Final = ("compiled-rk45", "heyoka", "scipy-dop853")
+QUICK: Final = (*choice.LOOP, "scipy-dop853")
 """Integrators that are measured first."""
 MOST_EVALUATIONS, MOST_IN_PYTHON = 2_000_000, 150_000
 """Of one run, events counted in, in compiled code and in Python: some seconds. What needs more is left out."""
 
-ASKED: Final = estimates.EVENT
-"""Time of an event by the second of the verifying integrators [s]."""
+ASKED: Final = 1.2e-3
+"""Time of an event by the second of the verifying integrators [s], whose decisions are made in Python."""
 
 REPEATS: Final = 3
 LONG, LOADING = 0.5, 3.0
@@ -173,8 +173,6 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
         for tolerance in ENVELOPE_TOLERANCES
     ])  # fmt: skip
     here = list(choice.available(assemble(scene)))
-    if choice.COMPILED in here:
-        here.remove(choice.PLAIN)  # the same numbers, slower
     quick = [name for name in QUICK if name in here]
     found += [[_integration("equations", scene, name, tolerance) for tolerance in TOLERANCES] for name in quick]
     if full.effects != scene.effects:
@@ -190,7 +188,7 @@ def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
 
 def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method:
     equations, times = assemble(scene), needed_times(scene)
-    most = MOST_EVALUATIONS if name in (choice.COMPILED, "heyoka") else MOST_IN_PYTHON
+    most = MOST_EVALUATIONS if name.startswith("compiled") else MOST_IN_PYTHON
 
     def read(trajectory: Trajectory) -> tuple[Measures, int, int]:
         """What is compared of a run, and its work."""

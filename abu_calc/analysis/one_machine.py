@@ -7,7 +7,7 @@ from abu_calc.analysis.ensemble import MANY, WORK, outcome_of
 from abu_calc.analysis.outcomes import Outcome
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators.many import Way, integrate, way_for
+from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.supports.receptance import reference_imbalance
@@ -18,12 +18,10 @@ from abu_calc.sizing.built import with_worst
 from abu_calc.sizing.design import Design
 
 
-def machine_started(
-    design: Design, start: SwitchedOn, lighter: tuple[float, ...], tolerance: float, way: Way | None = None
-) -> Outcome:
+def machine_started(design: Design, start: SwitchedOn, lighter: tuple[float, ...], tolerance: float) -> Outcome:
     """One start of one machine, by one run with every effect there is data for. Raises NotTrustworthyError."""
     scene, _ = with_parted_balls(scene_switched_on(design, start, lighter))
-    response = _response(scene, tolerance, way, WORK * MANY // max(MANY, len(scene.ball_masses)))
+    response = _response(scene, tolerance, WORK * MANY // max(MANY, len(scene.ball_masses)))
     found = outcome_of(design, start.member(design), scene, response)
     if found.balanced or found.hanging or found.imbalance > HALF * scene.imbalance:
         return found
@@ -40,10 +38,10 @@ class SceneOutcome:
     balanced: bool
 
 
-def scene_once(scene: Scene, tolerance: float, way: Way | None = None) -> SceneOutcome:
+def scene_once(scene: Scene, tolerance: float) -> SceneOutcome:
     """One run of a scene. It balances as a machine does: see `balanced`. Raises NotTrustworthyError."""
     scene, _ = with_parted_balls(scene)
-    response = _response(scene, tolerance, way, MOST_EVALUATIONS)
+    response = _response(scene, tolerance, MOST_EVALUATIONS)
     slipping = slip(response, abs(response.final.speed) or scene.speed)
     balanced = balances(response.residual_imbalance, _allowed(scene, response), slipping)
     return SceneOutcome(response, slipping, balanced)
@@ -64,7 +62,8 @@ def _allowed(scene: Scene, response: Response) -> float:
     return max(tenth, min(tenth + mass * held, HALF * scene.imbalance))
 
 
-def _response(scene: Scene, tolerance: float, way: Way | None, work: int) -> Response:
+def _response(scene: Scene, tolerance: float, work: int) -> Response:
     equations = assemble(scene)
-    run = integrate(equations, way or way_for(equations), tolerance, needed_times(scene), work)
+    choice = choose(equations, "auto", tolerance)
+    run = choice.integrate(equations, tolerance, needed_times(scene), choice.evaluations(work))
     return evaluate(scene, run)

@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from abu_calc.analysis.response import Response, evaluate, needed_times, samplin
 from abu_calc.analysis.rungs import Offer, offer
 from abu_calc.analysis.unreached import unreached
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators.choice import choose, unfit
+from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.rates import softer
 from abu_calc.dynamics.integrators.run import too_much
 from abu_calc.dynamics.scene import Scene, with_parted_balls
@@ -34,9 +34,6 @@ something oscillates far faster than the rotor turns: mostly a stiffness in anot
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but
 two runs may come near each other by chance. By 300 random scenes and both integrators: tests/studies/claims.py."""
-
-NEAR = 100.0
-"""Accuracies within which SciPy may come before rounding ends it: heyoka, of higher order, rounds less often."""
 
 LEAST = 0.9
 """Of the work of a run, that one at a tighter tolerance takes: 0.98 and more by three integrators on 17 scenes."""
@@ -90,7 +87,7 @@ def simulate(
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, in
     SciPy's evaluations: what takes more by counting is not begun; None: WORK or WORK_FAST. `integrator` is auto, scipy,
-    plain, compiled or heyoka; any but auto asks for the equations. `progress` gets what is being done. Raises
+    plain or compiled; any but auto asks for the equations. `progress` gets what is being done. Raises
     NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
     chaotic, or decided by less than rounding.
     """
@@ -119,7 +116,7 @@ def _integrated(
     """The finer of two runs a decade of tolerance apart, the first whose difference promises the accuracy."""
     equations, needed = assemble(scene), needed_times(scene)
     needed = needed if len(needed) < len(times.times) else times.times  # one array of both where they are the same
-    choice = choose(equations, integrator, tolerances(accuracy)[0], progress)
+    choice = choose(equations, integrator, tolerances(accuracy)[0])
     about, fast = choice.expected(equations, tolerances(accuracy)[0]), softer(equations)
     most = most or (WORK_FAST if fast else WORK)
     if about > most:
@@ -128,6 +125,7 @@ def _integrated(
     runs: list[Response] = []
     apart, spared, last = math.nan, 0, 0
     for tolerance in tolerances(accuracy):
+        choice = choose(equations, integrator, tolerance, progress)
         text = f"{scene.name}: {choice.name}, tolerance {tolerance:g}"
         progress(text)
         course, remarks = Course(scene), Remarks(equations, needed)
@@ -161,10 +159,6 @@ def _integrated(
             texts = (*warnings, *remarks.texts)
             return Simulation(scene, runs[1], trajectory, cost, error, texts, "equations", offered)
         del trajectory
-    if integrator == "auto" and choice.name != "heyoka" and unfit(equations) is None and apart <= NEAR * accuracy:
-        other = _integrated(scene, accuracy, times, most, "heyoka", warnings, offered, progress)
-        both = replace(other.cost, evaluations=other.cost.evaluations + evaluations, steps=other.cost.steps + steps)
-        return replace(other, cost=both)
     raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)
 
 

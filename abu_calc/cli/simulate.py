@@ -27,7 +27,7 @@ def simulate(
     scene: WhichScene = None,
     start: WhichStart = None,
     accuracy: Accuracy = 0.01,
-    integrator: Annotated[str, typer.Option("--integrator", help="auto, scipy, plain, compiled or heyoka.")] = "auto",
+    integrator: Annotated[str, typer.Option("--integrator", help="auto, scipy, plain or compiled.")] = "auto",
     duration_s: Duration = None,
     trajectory: Annotated[
         Path | None, typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.")

@@ -127,7 +127,7 @@ class Effect:
     switches: ClassVar[bool] = False
     """Whether it has modes that the state may end."""
     traceable: ClassVar[bool] = True
-    """Whether heyoka can trace it: no function but sin and cos, no decision by values that are not its own numbers."""
+    """Whether it can be traced: no function but sin and cos, no decision by values that are not its own numbers."""
     averaged: ClassVar[bool] = False
     """Whether the averaged slow motion accounts for it: by `offset`, by `falling`, or since it averages out."""
     whole_run: ClassVar[bool] = False

@@ -34,8 +34,7 @@ class Samples:
 class Trajectory(Samples):
     """A whole run, at the times asked for; one that fails raises.
 
-    `evaluations` counts calls of the right-hand side and of what is watched (order × steps stands for them with heyoka,
-    which makes none).
+    `evaluations` counts calls of the right-hand side and of what is watched.
     """
 
     integrator: str

@@ -11,7 +11,8 @@ from abu_calc.studies.accuracy import AccuracyResult, MeasuredPoint
 
 MARKS: Final = {
     "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
-    "scipy-radau": "I", "scipy-bdf": "B", "heyoka": "H", "compiled-rk45": "C", "plain-rk45": "P",
+    "scipy-radau": "I", "scipy-bdf": "B", "compiled-dop853": "E", "compiled-rk45": "C",
+    "plain-dop853": "E", "plain-rk45": "C",
 }  # fmt: skip
 WIDTH: Final = 58
 HEIGHT: Final = 16

@@ -11,6 +11,7 @@ from abu_calc.analysis.response import Response
 from abu_calc.analysis.simulate import ACCURACY, Simulation
 from abu_calc.analysis.simulate import simulate as integrated
 from abu_calc.checks import Check, verdict
+from abu_calc.dynamics.integrators.choice import WANTED, refuse_removed
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing.compared import compared, compared_design, measured_place
@@ -26,8 +27,6 @@ from abu_calc.studies.subject import Source, Subject, subject_of
 from abu_calc.validity import Range
 
 EVALUATIONS: Final = Range("most evaluations", 1, 10**12, key="most_evaluations")
-
-INTEGRATORS: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
 
 
 @record
@@ -83,7 +82,8 @@ def simulate(
     """
     ACCURACY.check(accuracy)
     EVALUATIONS.check(1 if most_evaluations is None else most_evaluations)
-    one_of("integrator", integrator, INTEGRATORS)
+    refuse_removed(integrator)
+    one_of("integrator", integrator, WANTED)
     subject = subject_of(source, scene, start).lasting(duration_s)
     times = equally_spaced(subject.scene, samples)
     ledger = subject.ledger(accuracy, with_effects, without_effects)

@@ -132,7 +132,6 @@ def _columns(study: Study) -> tuple[tuple[Column, ...], frozenset[str]]:
 def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
     """What the members hang on, and nothing else: the machine, what varies, seeds, versions."""
     study, sample = plan.study, plan.study.sample
-    ways = getattr(study, "ways", {}).values() or (getattr(study, "way", None),)
     return {
         "what": study.what,
         "runs": sample.runs,
@@ -143,7 +142,7 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
         "vary": {one.key: one.variation.text for one in sample.factors},
         "order": [one.key for one in sample.factors],
         "file": plan.content,
-        "versions": versions(*(("heyoka",) if "heyoka" in ways else ())),
+        "versions": versions(),
     }
 
 
@@ -156,7 +155,7 @@ def _computed(
     facts = {
         "file": source.file,
         "sha256": source.sha256,
-        "versions": json.dumps(versions("llvmlite", "heyoka", "distributed")),
+        "versions": json.dumps(versions("llvmlite", "distributed")),
         "seed": plan.study.sample.seed,
         "command": command,
         "workers": described(workers, executor),

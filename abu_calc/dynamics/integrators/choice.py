@@ -1,30 +1,51 @@
-"""Which integrator: SciPy, always there; a loop of its own for scenes that switch; heyoka, quick but slow to start."""
+"""Which integrator: one loop of steps for nearly all scenes; SciPy's methods for stiff ones and on request.
 
-import importlib.util
+The loop runs as compiled code, or as plain Python where there is no compiler and where a run is over before compiled
+code is loaded; the numbers are the same. Its method hangs on the scene and the tolerance alone: order 8 (DOP853) for
+smooth scenes and for tight tolerances, order 5 (RK45) for looser ones where events cut the steps short anyway.
+"""
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Final, cast
+from typing import TYPE_CHECKING, Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.integrators import heyoka_, scipy_
-from abu_calc.dynamics.integrators.estimates import START, Seconds, counts, held_by_decay, seconds
+from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators.counts import counts, held_by_decay
 from abu_calc.dynamics.integrators.rates import stiff_decay
-from abu_calc.dynamics.integrators.run import EVENT, Array, work
+from abu_calc.dynamics.integrators.run import EVENT, work
 from abu_calc.dynamics.switching.modes import watches
-from abu_calc.dynamics.trajectory import Trajectory
-from abu_calc.errors import InputError
+from abu_calc.dynamics.trajectory import Times, Trajectory
+from abu_calc.errors import InputError, Place
 from abu_calc.progress import Progress, silent
 
-COMPILED, PLAIN = "compiled-rk45", "plain-rk45"
-"""Names as trajectories tell them."""
+if TYPE_CHECKING:
+    from abu_calc.dynamics.integrators.compiled.kernels import Method
 
-WANTED: Final = ("auto", "scipy", "plain", "compiled", "heyoka")
+LOOP: Final = ("compiled-dop853", "compiled-rk45", "plain-dop853", "plain-rk45")
+"""Names of the loop, as trajectories give them."""
 
-LOOP_WORK = 1 / 5
+WANTED: Final = ("auto", "scipy", "plain", "compiled")
+
+REMOVED: Final = "heyoka"
+"""An integrator of earlier versions."""
+
+TIGHT: Final = 3e-6
+"""Tolerance from which on order 8 costs less than order 5 in scenes that switch: between 2e-4 for the presets with few
+events and 1e-6 for those with many."""
+
+LOOP_WORK: Final = 1 / 5
 """Work of an evaluation in the loop, that of SciPy's being one; compiled or not, so that what is refused does not hang
 on it either: compiled it takes a twentieth of SciPy's time, in plain Python some times as long."""
+
+COMPILED_TIME: Final = 1 / 20
+"""Time of a compiled evaluation in units of one of SciPy's."""
+
+SHORT: Final = 15_000
+"""Evaluations, times one more than the balls, that plain Python does before compiled code is loaded: a tenth of a
+second."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +66,7 @@ class Choice:
     def expected(self, equations: Equations, tolerance: float) -> float:
         """About the work of the two runs that a result takes, in SciPy's evaluations, by counting."""
         about = counts(equations, tolerance)
-        return self.share * ((about.loop if self.name in (COMPILED, PLAIN) else about.scipy) + EVENT * about.events)
+        return self.share * ((about.loop if self.name in LOOP else about.scipy) + EVENT * about.events)
 
     def work(self, run: Trajectory) -> int:
         """What a run took, counted in SciPy's evaluations."""
@@ -53,121 +74,101 @@ class Choice:
 
 
 def choose(equations: Equations, wanted: str, tolerance: float, progress: Progress = silent) -> Choice:
-    """The integrator for a scene, `wanted` being auto, scipy, plain, compiled or heyoka; its library is loaded.
+    """The integrator for a scene, `wanted` being auto, scipy, plain or compiled; its code or library is loaded.
 
-    auto takes what is done first, by `estimates`, compilation counted in: SciPy; heyoka; the loop through scenes that
-    switch, compiled or as plain Python. Stiff equations go to SciPy's Radau unless another is asked for, or
-    compiled code bears their short steps.
-    `progress` gets what one waits for. Raises InputError for other words, and for what is not installed or cannot trace
-    an effect.
+    Stiff equations go to SciPy's Radau, unless events keep all steps short anyway or another integrator is asked for;
+    all others go to the loop. `progress` gets what one waits for. Raises InputError for other words, and for what is
+    not installed or cannot trace an effect.
     """
+    refuse_removed(wanted)
     if wanted not in WANTED:
         raise InputError("unknown integrator", found=wanted, allowed=", ".join(WANTED))
-    if wanted == "compiled":
-        return _compiled_or_refused(equations)
-    if wanted == "heyoka":
-        if missing := unfit(equations):
-            raise InputError(f"heyoka cannot integrate this scene: {missing[0]}", remedy=missing[1])
-        return _heyoka("asked for")
-    if wanted == "plain":
-        if missing := untraceable(equations):
-            raise InputError(f"plain code cannot be written for this scene: {missing[0]}", remedy=missing[1])
-        return _plain("asked for")
-    if decay := stiff_decay(equations):
-        if wanted == "auto" and _bears(equations, tolerance, decay):
-            return _compiled("stiff equations that switch: short steps in compiled code are done sooner than long ones")
+    if wanted in ("plain", "compiled"):
+        return loop(equations, tolerance, compiled=wanted == "compiled")
+    decay = stiff_decay(equations)
+    if decay and (wanted == "scipy" or not _events_rule(equations, tolerance, decay)):
         return _scipy("scipy-radau", "the equations are stiff: something dies out far faster than anything oscillates")
     if wanted == "scipy":
         return _scipy("scipy-dop853", "asked for")
-    return _quickest(equations, seconds(equations, tolerance), progress)
+    if effect := untraceable(equations):
+        return _scipy("scipy-dop853", f"the loop cannot trace the effect {effect}")
+    return _loop(equations, tolerance, progress)
 
 
-def _bears(equations: Equations, tolerance: float, decay: float) -> bool:
-    """Whether the compiled loop goes through a stiff scene that switches sooner than an implicit method."""
-    from abu_calc.dynamics.integrators.compiled import waiting
-
-    about = seconds(equations, tolerance)
-    if not about.switches or untraceable(equations) or waiting.unfit(equations):
-        return False
-    own = about.compiled + held_by_decay(equations, decay) + waiting.waiting(equations)
-    return own < about.scipy and waiting.load(equations)
+def refuse_removed(wanted: str) -> None:
+    """Raise InputError for an integrator that earlier versions had, naming what replaces it."""
+    if wanted == REMOVED:
+        raise InputError(
+            "heyoka is not an integrator of this version", place=Place(key="integrator"), found=REMOVED,
+            allowed=", ".join(WANTED), remedy="Use auto or compiled: the compiled loop of order 8 replaces it.",
+        )  # fmt: skip
 
 
-def _quickest(equations: Equations, about: Seconds, progress: Progress) -> Choice:
-    """What is done first, with what is installed. Numbers must not hang on what is on disk: the loop's never do."""
-    if about.switches and not untraceable(equations):
-        return _loop(equations, about, progress)
-    from abu_calc.dynamics.integrators.compiled import waiting
+def loop(equations: Equations, tolerance: float, compiled: bool) -> Choice:
+    """The loop, compiled or as plain Python, for those who ask for it. Raises InputError where it cannot run."""
+    from abu_calc.dynamics.integrators.compiled import ready
 
-    work = f"about {about.scipy:.2g} s of work"
-    missing, lacks = unfit(equations), waiting.unfit(equations)
-    if about.scipy <= START:
-        return _scipy("scipy-dop853", f"a short run, {work}: anything else would take longer to start")
-    if not missing:
-        return _heyoka(f"a long run, {work} for SciPy")
-    if not lacks and about.compiled + waiting.compiling(equations) < about.scipy and waiting.load(equations):
-        return _compiled(f"a long run, {work} for SciPy")
-    return _scipy("scipy-dop853", f"a long run, {work}; heyoka would be faster, but {missing[0]}")
+    name = "compiled code" if compiled else "plain code"
+    if effect := untraceable(equations):
+        raise InputError(f"{name} cannot trace the effect {effect}", remedy="use scipy, or leave the effect out")
+    if compiled and not ready.load(equations, loop_method(equations, tolerance)):
+        raise InputError(f"there is no compiled code: {ready.missing()}", remedy="use plain or scipy")
+    return _loop_of(compiled, loop_method(equations, tolerance), "asked for")
 
 
-def _loop(equations: Equations, about: Seconds, progress: Progress) -> Choice:
-    """Through a scene that switches: compiled where that is done sooner, with the same numbers."""
-    from abu_calc.dynamics.integrators.compiled import waiting
-
-    work, lacks = f"a scene that switches, about {about.scipy:.2g} s of work for SciPy", waiting.unfit(equations)
-    if about.plain <= waiting.LEAST:
-        return _plain(f"a short run, about {about.plain:.2g} s of work: anything else would take longer to start")
-    if lacks:
-        return _plain(f"{work}; compiled code would be faster, but {lacks[0]}")
-    wait = waiting.waiting(equations)
-    if wait + about.compiled > about.plain:
-        return _plain(f"{work}; compiling would take longer")
-    if wait > waiting.LEAST:
-        progress(f"{equations.scene.name}: compiling, about {wait:.1g} s")
-    return _compiled(work) if waiting.load(equations) else _plain(f"{work}; compiled code does not run here")
+def loop_method(equations: Equations, tolerance: float) -> "Method":
+    """The method of the loop: dop853 or rk45."""
+    return "rk45" if watches(equations) and tolerance > TIGHT else "dop853"
 
 
-def untraceable(equations: Equations) -> tuple[str, str] | None:
-    """The effect that cannot be written in another language, and the remedy; None when all can."""
-    for effect in equations.scene.effects:
-        if not effect.traceable:
-            return f"it cannot trace the effect {effect.name}", "use scipy, or leave the effect out"
-    return None
+def _loop(equations: Equations, tolerance: float, progress: Progress) -> Choice:
+    """The loop, compiled where that is done sooner."""
+    from abu_calc.dynamics.integrators.compiled import ready
+
+    method = loop_method(equations, tolerance)
+    why = "a scene that switches" if watches(equations) else "a smooth scene"
+    if ready.loaded(equations, method):
+        return _loop_of(True, method, why)
+    about = counts(equations, tolerance)
+    if (about.loop + EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
+        return _loop_of(False, method, f"{why}, over before compiled code would be loaded")
+    progress(f"{equations.scene.name}: loading compiled code")
+    if ready.load(equations, method):
+        return _loop_of(True, method, why)
+    return _loop_of(False, method, f"{why}; compiled code would be faster, but {ready.missing()}")
 
 
-def unfit(equations: Equations) -> tuple[str, str] | None:
-    """Why heyoka cannot integrate a scene, and the remedy; None when it can."""
-    if importlib.util.find_spec("heyoka") is None:
-        return "it is not installed", 'pip install "abu-calc[fast]" on Linux; elsewhere from conda-forge; or use scipy'
-    return untraceable(equations)
+def _loop_of(compiled: bool, method: "Method", why: str) -> Choice:
+    return Choice(_name(compiled, method), why, partial(_through, compiled=compiled), LOOP_WORK)
 
 
-def _compiled_or_refused(equations: Equations) -> Choice:
-    """Compiled code, which is made when it is asked for; InputError where it does not run."""
-    from abu_calc.dynamics.integrators.compiled import waiting
-
-    if waiting.unfit(equations) is None:
-        waiting.load(equations)
-    if missing := waiting.unfit(equations):
-        raise InputError(f"compiled code cannot integrate this scene: {missing[0]}", remedy=missing[1])
-    return _compiled("asked for")
+def _name(compiled: bool, method: "Method") -> str:
+    return f"{'compiled' if compiled else 'plain'}-{method}"
 
 
-def _compiled(why: str) -> Choice:
+def _through(
+    equations: Equations, tolerance: float, sample_times: Times, most: int, *, compiled: bool,
+    method: "Method | None" = None,
+) -> Trajectory:  # fmt: skip
+    """The motion by the loop, whose method follows the tolerance of each run where none is given."""
     from abu_calc.dynamics.integrators.compiled import run  # some twenty modules, which not every command needs
 
-    return Choice(COMPILED, why, run.integrate, LOOP_WORK)
+    method = method or loop_method(equations, tolerance)
+    return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method)
 
 
-def _plain(why: str) -> Choice:
-    from abu_calc.dynamics.integrators.compiled import run
+def _events_rule(equations: Equations, tolerance: float, decay: float) -> bool:
+    """Whether the loop goes through a stiff scene sooner than an implicit method that begins anew at each event."""
+    if not watches(equations) or untraceable(equations):
+        return False
+    about = counts(equations, tolerance)
+    own = about.loop + EVENT * about.events + held_by_decay(equations, decay)
+    return COMPILED_TIME * own < about.scipy + EVENT * about.events
 
-    return Choice(PLAIN, why, partial(run.integrate, compiled=False), LOOP_WORK)
 
-
-def _heyoka(why: str) -> Choice:
-    heyoka_.load()
-    return Choice("heyoka", why, heyoka_.integrate)
+def untraceable(equations: Equations) -> str | None:
+    """The name of an effect that cannot be traced; None where all can."""
+    return next((effect.name for effect in equations.scene.effects if not effect.traceable), None)
 
 
 def _scipy(method: scipy_.Method, why: str) -> Choice:
@@ -176,33 +177,33 @@ def _scipy(method: scipy_.Method, why: str) -> Choice:
 
 
 def available(equations: Equations) -> tuple[str, ...]:
-    """Names of all integrators that can take a scene here."""
-    from abu_calc.dynamics.integrators.compiled import waiting
+    """Names of all integrators that can take a scene here; the loop as plain Python only where nothing is compiled."""
+    from abu_calc.dynamics.integrators.compiled import ready
 
     names = ("scipy-dop853", "scipy-rk45", "scipy-lsoda", "scipy-radau", "scipy-bdf")
-    plain = () if untraceable(equations) else (PLAIN,)
-    compiled = () if waiting.unfit(equations) else (COMPILED,)
-    return (*names, *plain, *compiled, *(() if unfit(equations) else ("heyoka",)))
+    if untraceable(equations):
+        return names
+    way = "plain" if ready.missing() else "compiled"
+    return (f"{way}-dop853", f"{way}-rk45", *names)
 
 
-def integrate_with(name: str, equations: Equations, tolerance: float, sample_times: Array, most: int) -> Trajectory:
+def integrate_with(name: str, equations: Equations, tolerance: float, sample_times: Times, most: int) -> Trajectory:
     """The motion by an integrator given by name, within so many evaluations."""
-    if name in ("compiled", COMPILED):
-        return _compiled_or_refused(equations).integrate(equations, tolerance, sample_times, most)
-    if name == PLAIN:
-        return _plain("asked for").integrate(equations, tolerance, sample_times, most)
-    if name == "heyoka":
-        return heyoka_.integrate(equations, tolerance, sample_times, most)
+    if name in LOOP:
+        way, method = name.split("-")
+        if way == "compiled":
+            loop(equations, tolerance, compiled=True)  # raises where there is none
+        return _through(
+            equations, tolerance, sample_times, most, compiled=way == "compiled", method=cast("Method", method)
+        )
     return scipy_.integrate(equations, tolerance, sample_times, most, method=cast(scipy_.Method, name))
 
 
 def verifiers(equations: Equations, accuracy: float) -> tuple[tuple[str, float], tuple[str, float]]:
     """Two integrators of different kinds, each with a tolerance tight for that accuracy, to hold against each other."""
     tight = min(max(1e-5 * accuracy, 1e-11), 1e-7)
-    names = available(equations)
-    if watches(equations) and COMPILED in names:
-        return (COMPILED, tight), ("heyoka", tight / 100) if "heyoka" in names else ("scipy-dop853", tight / 10)
-    if "heyoka" in names:
-        return ("scipy-dop853", tight), ("heyoka", tight / 100)
-    # LSODA interpolates too loosely for events; its steps are cheap where there are none.
-    return ("scipy-dop853", tight / 10), ("scipy-rk45" if watches(equations) else "scipy-lsoda", tight)
+    own = [name for name in available(equations) if name in LOOP]
+    if watches(equations):
+        # LSODA interpolates too loosely for events; its steps are cheap where there are none.
+        return (own[1] if own else "scipy-rk45", tight), ("scipy-dop853", tight / 10)
+    return (own[0] if own else "scipy-dop853", tight / 10), ("scipy-lsoda", tight)

@@ -1,6 +1,7 @@
 """How fast a scene's motion dies out and oscillates at its start: what an integrator has to follow, or to step over."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -15,6 +16,7 @@ FAST = 10.0
 """Oscillations in a revolution that stand out: hard work on a grinder makes one or two."""
 
 
+@lru_cache(maxsize=8)
 def rates(equations: Equations) -> tuple[float, float]:
     """Fastest decay and fastest oscillation at the start [1/s, rad/s]; the rotor's turning counts as one."""
     state, modes = starting(equations)

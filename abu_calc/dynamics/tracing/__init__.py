@@ -1,7 +1,7 @@
-"""The equations translated into other languages: plain Python, heyoka.
+"""The equations as straight-line code, traced from the one right-hand side.
 
-symbols.py   what stands for states and numbers while the one right-hand side runs
-traced.py    the trace, one for every language, and the numbers its code is run with
-plain.py     straight-line Python of it; heyoka's own expressions need no file, `integrators.heyoka_` compiles them
-lanes.py     straight-line code on arrays: derivatives at many states at once
+graph.py     all expressions, each once, and the symbols that stand for states and parameters while they are made
+traced.py    the trace, and the numbers that its code runs with
+plain.py     plain Python on numbers, for SciPy's methods
+lanes.py     the same on arrays: derivatives at many states at once
 """

@@ -11,7 +11,8 @@ import numpy as np
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.jacobian import STEP, jacobian
 from abu_calc.dynamics.motion import Array
-from abu_calc.dynamics.tracing.plain import Source, handful
+from abu_calc.dynamics.tracing.graph import Graph
+from abu_calc.dynamics.tracing.plain import handful, made_of_parameters
 from abu_calc.dynamics.tracing.traced import Numbers, cached, trace
 
 Rates = Callable[[Array, Any], list[Any]]
@@ -34,12 +35,12 @@ def jacobians(equations: Equations, times: Array, states: Array) -> Array:
 
 
 def _write(equations: Equations) -> Maker:
-    source, names = Source(), [f"y{k}" for k in range(len(equations.states))]
-    traced = trace(equations, equations.acting, source, [source.name(name) for name in names], scaled=False)
-    lines, results = source.lines([symbol.expression() for symbol in traced.rates])
-    text = ["def make(numbers):", f" [{', '.join(f'p{k}' for k in range(traced.tape.used))}] = values(numbers)"]
-    text += [" def rates(t, y):", f"  [{', '.join(names)}] = y", *(f"  {line}" for line in lines)]
+    graph = Graph("p{}")
+    traced = trace(equations, equations.acting, graph)
+    lines, results = graph.lines([symbol.expression() for symbol in traced.rates])
+    text = [*made_of_parameters(graph), " def rates(t, y):"]
+    text += [f"  [{', '.join(f'y{k}' for k in range(len(equations.states)))}] = y", *(f"  {line}" for line in lines)]
     text += [f"  return [{', '.join(results)}]", " return rates"]
-    scope: dict[str, Any] = {"sin": np.sin, "cos": np.cos, "sqrt": np.sqrt, "values": traced.tape.values()}
+    scope: dict[str, Any] = {"sin": np.sin, "cos": np.cos, "sqrt": np.sqrt, "inf": np.inf}
     exec(compile("\n".join(text), "<equations of many states>", "exec"), scope)
     return cast(Maker, scope["make"])

@@ -5,7 +5,7 @@ All other numbers are parameters of the code.
 """
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -15,7 +15,7 @@ import numpy as np
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.switching.modes import watched, watches
-from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
+from abu_calc.dynamics.tracing.graph import Array, Functions, Graph, Symbol
 
 MOST_KEPT = 32
 """Structures whose code this process holds at most."""
@@ -27,36 +27,29 @@ elsewhere those of matrices, which tell how the support is built."""
 
 @dataclass(frozen=True)
 class Traced:
-    """Rates of the states and watched numbers as symbols, and the tape that makes parameters of a scene's numbers."""
+    """Rates of the states and watched numbers as symbols."""
 
-    tape: Tape
-    t: Any
-    units: tuple[Any, ...]
-    rates: tuple[Any, ...]
-    watched: tuple[Any, ...]
+    rates: tuple[Symbol, ...]
+    watched: tuple[Symbol, ...]
 
 
-def trace(equations: Equations, acting: Acting, library: Any, states: Sequence[Any], scaled: bool) -> Traced:
-    """The equations in these modes, in a library's expressions; where `scaled`, states come in units of their own.
+def trace(equations: Equations, acting: Acting, graph: Graph) -> Traced:
+    """The equations in these modes as expressions of a graph, over t and y0, y1, …
 
-    The tape's parameters are the units, then the numbers that `Numbers` finds.
+    The graph's parameters are the numbers that `Numbers` finds, in its order.
     """
-    tape = Tape(library)
-    units = tuple(tape.parameter() for _ in states) if scaled else ()
-    symbolic = mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
-    y = [tape.variable(state) for state in states]
-    if scaled:
-        y = [unit * one for unit, one in zip(units, y, strict=True)]
-    t: Any = tape.variable(library.time)
-    rates = equations.rhs(Functions, t, np.array(y), symbolic)
-    numbers = watched(t, np.array(y), symbolic, Functions) if watches(equations) else ()
-    return Traced(tape, t, units, tuple(rates), tuple(_symbol(tape, value) for value in numbers))
+    symbolic, t, y = symbols(equations, acting, graph)
+    rates = equations.rhs(Functions, t, y, symbolic)
+    numbers = watched(t, y, symbolic, Functions) if watches(equations) else ()
+    zero = Symbol(graph, [])
+    return Traced(*(tuple(value + zero for value in values) for values in (rates, numbers)))
 
 
-def _symbol(tape: Tape, value: Any) -> Symbol:
-    """A watched number may be a constant."""
-    symbol: Symbol = value + Symbol(tape, [])
-    return symbol
+def symbols(equations: Equations, acting: Acting, graph: Graph) -> tuple[Acting, Any, Array]:
+    """The numbers of a scene as parameters of a graph, time and states."""
+    symbolic = mapped(acting, lambda _, nonzero: graph.parameter(nonzero), lambda _: None)
+    y = np.array([graph.variable(f"y{k}") for k in range(len(equations.states))])
+    return symbolic, graph.variable("t"), y
 
 
 class Numbers:

@@ -4,7 +4,7 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
 import numpy as np
@@ -13,7 +13,6 @@ from abu_calc.analysis.batches import Row
 from abu_calc.analysis.one_machine import machine_started, scene_once
 from abu_calc.analysis.sampling import Sample
 from abu_calc.analysis.time_limit import Overtime, limited
-from abu_calc.dynamics.integrators.many import Way
 from abu_calc.errors import AbuError
 from abu_calc.formulas.oil import drag_ratio
 from abu_calc.scenes.from_design import AHEAD
@@ -92,8 +91,6 @@ class Builds(Study):
 
     variants: Variants[MachineFile]
     design: Design
-    ways: Mapping[bool, Way] = field(default_factory=dict)
-    """The integrator, of run-ups and of other starts."""
 
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
         """One start of one machine."""
@@ -105,8 +102,7 @@ class Builds(Study):
         made, start = built(self.design, table), start_of(values)
         lot = np.random.default_rng(seed).uniform(-LOT, LOT, made.autobalancer.ball_count)
         lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
-        way = self.ways.get(start.kind == "run-up")
-        found = machine_started(made, start, lighter, TOLERANCE * self.accuracy, way)
+        found = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
         limits = table.limits
         soon, quiet = found.time <= limits.settling_time_s, found.level <= limits.vibration_level_db
         flags = found.balanced, not found.hanging, quiet, soon
@@ -153,7 +149,6 @@ class Scenes(Study):
     what: ClassVar[What] = "scene"
 
     variants: Variants[SceneFile]
-    way: Way | None = None
 
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
         """One run."""
@@ -162,7 +157,7 @@ class Scenes(Study):
         scene = turned(
             scene, to_si(values.get("start.angle_deg", 0.0), "deg"), 1.0 if warm is None else drag_ratio(warm)
         )
-        found = scene_once(scene, TOLERANCE * self.accuracy, self.way)
+        found = scene_once(scene, TOLERANCE * self.accuracy)
         one = found.response
         return (
             one.level, one.settling_time, from_si(one.axis_amplitude, "mm"),

@@ -4,13 +4,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.analysis.sampling import Factor, Sample
-from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators.many import Way, way_for
-from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.oil import TEMPERATURE
 from abu_calc.scenes.from_scene import scene_from
-from abu_calc.scenes.switched_on import KINDS, SwitchedOn, scene_switched_on
+from abu_calc.scenes.switched_on import KINDS
 from abu_calc.sizing import size as sized
 from abu_calc.sizing.design import Design
 from abu_calc.spec.machine import MachineFile
@@ -78,10 +75,7 @@ def _planned(source: Machine | SceneDescription, ask: Asked, accuracy: float) ->
         return Plan(
             Designs(sample, accuracy, ask.time_limit, source), variants.content, design, _grid(ask, sample), warnings
         )
-    usual = {
-        up: _way(scene_switched_on(design, SwitchedOn(kind))) for up, kind in ((False, "bunched"), (True, KINDS[-1]))
-    }
-    study = Builds(sample, accuracy, ask.time_limit, variants, design, usual)
+    study = Builds(sample, accuracy, ask.time_limit, variants, design)
     return Plan(study, variants.content, design, _grid(ask, sample), warnings)
 
 
@@ -94,15 +88,11 @@ def _of_scene(source: SceneDescription, ask: Asked, accuracy: float) -> Plan:
             "nothing varies", place=Place(key="vary"), remedy='Give --vary "scene.speed_rpm=uniform(1000, 6000)".'
         )
     with source.located():
-        way = _way(scene_from(source.scene))
+        scene_from(source.scene)
     variants, sample = Variants.of(source, SceneFile), _sample(dict(ask.vary), ask, "scene")
     warnings = _tried(variants, sample)
-    study = Scenes(sample, accuracy, ask.time_limit, variants, way)
+    study = Scenes(sample, accuracy, ask.time_limit, variants)
     return Plan(study, variants.content, None, _grid(ask, sample), warnings)
-
-
-def _way(scene: Scene) -> Way:
-    return way_for(assemble(scene))
 
 
 def _sample(ways: dict[str, Variation], ask: Asked, what: str) -> Sample:

@@ -24,6 +24,9 @@ MOST_BYTES = 50_000_000
 OURS = re.compile(r"[0-9a-f]{64}\.o(\.[0-9a-f]+)?")
 """Names of our files; a folder that somebody chose may hold others."""
 
+NOWHERE = Path(os.devnull) / "no-home"
+"""A folder that cannot be there, so that a warning says so."""
+
 _told: set[str] = set()
 
 
@@ -35,9 +38,12 @@ class Cache:
 
     @classmethod
     def own(cls) -> "Cache":
-        """Where programs of this system keep what they can make again."""
+        """Where programs of this system keep what they can make again; a folder without a home cannot be used."""
         chosen = os.environ.get(FOLDER)
-        return cls(Path(chosen).expanduser() if chosen else _base() / "abu-calc" / "compiled")
+        try:
+            return cls(Path(chosen).expanduser() if chosen else _base() / "abu-calc" / "compiled")
+        except RuntimeError:  # ~somebody who is not known here
+            return cls(NOWHERE)
 
     def read(self, key: str) -> bytes | None:
         """What was written under a key, None where that is not there or not whole."""
@@ -102,7 +108,7 @@ def _digest(key: str, content: bytes) -> bytes:
 
 
 def _base() -> Path:
-    """Of this system; where there is no home, a folder that cannot be there, so that a warning says so."""
+    """Of this system; or nowhere, where there is no home."""
     places = {"win32": ("LOCALAPPDATA", "~/AppData/Local"), "darwin": ("", "~/Library/Caches")}
     variable, usual = places.get(sys.platform, ("XDG_CACHE_HOME", "~/.cache"))
     chosen = os.environ.get(variable, "") if variable else ""
@@ -111,4 +117,4 @@ def _base() -> Path:
             raise RuntimeError
         return Path(chosen or usual).expanduser()
     except RuntimeError:
-        return Path(os.devnull) / "no-home"
+        return NOWHERE

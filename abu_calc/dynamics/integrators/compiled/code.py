@@ -12,30 +12,14 @@ import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import rhs
-from abu_calc.dynamics.integrators.compiled import (
-    arrays,
-    calls,
-    contact,
-    decide,
-    expressions,
-    friction,
-    impact,
-    language,
-    locate,
-    loop,
-    machine,
-    method,
-    writer,
-)  # fmt: skip
+from abu_calc.dynamics.integrators.compiled import arrays, calls, expressions, language, machine, writer
 from abu_calc.dynamics.integrators.compiled.cache import Cache
+from abu_calc.dynamics.integrators.compiled.kernels import Method, kernels, step_numbers
 from abu_calc.dynamics.integrators.compiled.machine import CompilerError, Loaded
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program, program
 from abu_calc.dynamics.parameters import Acting
 from abu_calc.dynamics.tracing.traced import cached
 from abu_calc.version import __version__
-
-KERNELS: tuple[ModuleType, ...] = (method, locate, friction, contact, impact, decide, loop)
-"""What every structure's code has, beside its equations."""
 
 TRANSLATOR: tuple[ModuleType, ...] = (language, calls, expressions, writer, machine, arrays)
 
@@ -53,13 +37,15 @@ _texts: dict[object, Program] = {}
 
 
 class Code:
-    """A structure's equations, and the loop through their motion. Raises CompilerError."""
+    """A structure's equations, and the loop through their motion by one method. Raises CompilerError."""
 
-    def __init__(self, functions: Program) -> None:
+    def __init__(self, functions: Program, method: Method) -> None:
         self.program = functions
         self._equations = _module([(functions.text, NAMES)], EQUATIONS)
         # One module for each: the loop is the same for all structures.
-        self._loop = _module([(_text(one), vars(one)) for one in KERNELS], ("go",), _text(arrays))
+        numbers = step_numbers(method)
+        parts: list[language.Part] = [(_text(kernel), vars(kernel) | numbers) for kernel in kernels(method)]
+        self._loop = _module(parts, ("go",), _text(arrays))
         self._loop.function("connect", len(EQUATIONS))(*map(self._equations.address, EQUATIONS))
         self._call = self._loop.function("go", POINTERS)
 
@@ -78,16 +64,16 @@ class Code:
             raise CompilerError("compiled code does not give what the equations do")
 
 
-def code(structure: object, equations: Equations, acting: Acting, numbers: np.ndarray) -> Code:
+def code(structure: object, equations: Equations, acting: Acting, numbers: np.ndarray, method: Method) -> Code:
     """That of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
 
     def make() -> Code:
-        made = Code(text(structure, equations, acting))
+        made = Code(text(structure, equations, acting), method)
         with np.errstate(all="ignore"):
             made.check(equations, acting, numbers)
         return made
 
-    return cached(_codes, structure, make)
+    return cached(_codes, (structure, method), make)
 
 
 def text(structure: object, equations: Equations, acting: Acting) -> Program:
@@ -95,20 +81,14 @@ def text(structure: object, equations: Equations, acting: Acting) -> Program:
     return cached(_texts, structure, lambda: program(equations, acting))
 
 
-def known(structure: object) -> bool:
+def known(structure: object, method: Method) -> bool:
     """Whether this process has it."""
-    return structure in _codes
+    return (structure, method) in _codes
 
 
 def installed() -> bool:
     """Whether there is a compiler."""
     return importlib.util.find_spec("llvmlite") is not None
-
-
-def on_disk(functions: Program) -> bool:
-    """Whether it was compiled before. Raises CompilerError."""
-    with machine.guarded("compiled code on disk"):
-        return Cache.own().place(_key([(functions.text, NAMES)])).is_file()
 
 
 def _text(module: ModuleType) -> str:

@@ -7,6 +7,7 @@ from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Rule
 from abu_calc.dynamics.effects.ball_contact import MARGIN
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.compiled import arrays
+from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.program import Program, places
 from abu_calc.dynamics.integrators.run import STALLED
 from abu_calc.dynamics.parameters import Modes
@@ -14,12 +15,12 @@ from abu_calc.dynamics.switching.sticking import AT_REST
 
 Array = NDArray[np.float64]
 
-LOOSE, ORDER = 1e-3, 5
+LOOSE = 1e-3
 """As with SciPy: below this tolerance the longest step shrinks as the method's own steps do."""
 
-SHARE = 0.1
+SHARES: dict[Method, float] = {"rk45": 0.1, "dop853": 0.3}
 """Of the tolerance, that a step is held to: events are located on the dense output, whose error is not that of the
-steps' ends, so the motion is about as far off as DOP853's."""
+steps' ends, so the motion is about as far off by both methods."""
 
 
 def rules(equations: Equations, modes: Modes) -> list[Rule | None]:
@@ -67,14 +68,15 @@ def layout(
     return found
 
 
-def constants(equations: Equations, modes: Modes, tolerance: float) -> Array:
+def constants(equations: Equations, modes: Modes, tolerance: float, method: Method) -> Array:
     """What the loop needs of a scene beside its equations, by the places that `arrays` names."""
     p = equations.parameters
-    longest = equations.longest_step * min(1.0, (tolerance / LOOSE) ** (1 / ORDER))
+    order = METHODS[method].METHOD_ORDER
+    longest = equations.longest_step * min(1.0, (tolerance / LOOSE) ** (1 / order))
     slow = equations.scales[2 * p.size + p.balls] if p.balls else 1.0
     inertias = p.static_moments * p.radii
     restitution = next((rule.restitution for rule in rules(equations, modes) if rule and rule.restitution), 0.0)
-    held, rounding = SHARE * tolerance, 100 * np.finfo(float).eps
+    held, rounding = SHARES[method] * tolerance, 100 * np.finfo(float).eps
     torque = (inertias.max() * p.speed**2, MARGIN * inertias.mean() * p.speed**2) if p.balls else (1.0, 1.0)
     return np.concatenate([
         (longest, 0.0, AT_REST * slow, slow, restitution, torque[0], STALLED * equations.scene.revolution, torque[1]),

@@ -1,4 +1,7 @@
-"""The loop of steps, located events and decisions, until the end or until something needs the general decision."""
+"""The loop of steps, located events and decisions, until the end or until something needs the general decision.
+
+The names of a method are those of `rk45`; where the loop is built for another method, they are that one's.
+"""
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
     BEGUN,
@@ -35,23 +38,24 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
 )  # fmt: skip
 from abu_calc.dynamics.integrators.compiled.decide import decided
 from abu_calc.dynamics.integrators.compiled.locate import NEVER, located
-from abu_calc.dynamics.integrators.compiled.method import (
-    MOST_FACTOR,
+from abu_calc.dynamics.integrators.compiled.rk45 import (
+    BETWEEN,
+    EXTRA,
+    KEPT,
+    LAST,
+    STAGES,
     dense,
     error,
-    longer,
     prepared,
-    shorter,
     stages,
 )  # fmt: skip
+from abu_calc.dynamics.integrators.compiled.step_size import MOST_FACTOR, longer, shorter
 from abu_calc.dynamics.integrators.run import EVENT, MOST_STALLED
 
 SMALLEST = 4e-15
 """Steps below this share of the time are lost in rounding."""
 CLOSER = 1e-4
 """Of the longest step: in shorter ones, a number that does not rise from the start has not been switched rightly."""
-ROWS = 16
-"""Of states in the room to work in, before the watched numbers."""
 
 
 def go(
@@ -60,8 +64,8 @@ def go(
 ) -> int:  # fmt: skip
     """From where the run is toward its end; how it comes back."""
     n, values = lay[STATES], lay[VALUES]
-    end, between, at, dy = room[7 * n :], room[8 * n :], room[12 * n :], room[13 * n :]
-    rows = room[ROWS * n :]
+    end, at, dy = room[KEPT * n :], room[(KEPT + 1) * n :], room[(KEPT + 2) * n :]
+    between, rows = room[(KEPT + 3) * n :], room[(KEPT + 3 + BETWEEN) * n :]
     w, last, deciding = rows[5 * values :], rows[4 * values :], rows[6 * values :]
     t, h, bound = run[TIME], run[STEP], con[END]
     absolute, relative = con[SCALES:], con[SCALES + n :]
@@ -88,7 +92,7 @@ def go(
         if reached >= bound:
             reached, step = bound, bound - t
         stages(t, step, n, y, par, room, end, last)
-        count[EVALUATIONS] += 6
+        count[EVALUATIONS] += STAGES
         off = error(step, n, y, end, room, absolute, relative)
         if not off <= 1.0:
             h, most = step * shorter(off), 1.0
@@ -102,7 +106,8 @@ def go(
         most = MOST_FACTOR
         x = NEVER
         if lay[WATCHED] > 0 or (count[DONE] < count[SAMPLES] and samples[count[DONE]] <= reached):
-            prepared(step, n, y, end, room, between)
+            prepared(t, step, n, y, par, end, room, between, at)
+            count[EVALUATIONS] += EXTRA
         if lay[WATCHED] > 0:
             x = located(t, step, y, par, lay, count, between, at, dy, w, rows)
         came = reached if x == NEVER else t + x * step
@@ -112,7 +117,7 @@ def go(
         if x == NEVER:
             t = reached
             for i in range(n):
-                y[i], room[i] = end[i], room[6 * n + i]
+                y[i], room[i] = end[i], room[LAST * n + i]
             for i in range(values):
                 rows[i] = last[i]
             h = max(further, h) if step < h else further

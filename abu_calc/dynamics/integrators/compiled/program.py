@@ -5,9 +5,8 @@
     watched(t, y, par, dy, w)     y', the watched numbers, and the criteria of the effects' rules
     apparent(t, y, par, w)        those watched numbers that cost next to nothing, such as a ball's speed
 
-The one right-hand side is traced here as it is for heyoka and for plain Python. All modes have one code: balls are
-always tied in chains, whose gaps are open (0) or joined (1), and a push on each ball, 0 but in an impact, is among the
-numbers.
+The one right-hand side is traced. All modes have one code: balls are always tied in chains, whose gaps are open (0) or
+joined (1), and a push on each ball, 0 but in an impact, is among the numbers.
 """
 
 import re
@@ -23,9 +22,8 @@ from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import accelerations, derivative, with_states
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
-from abu_calc.dynamics.tracing.plain import Node, Source
-from abu_calc.dynamics.tracing.symbols import Functions, Symbol, Tape
-from abu_calc.dynamics.tracing.traced import mapped
+from abu_calc.dynamics.tracing.graph import Functions, Graph, Symbol
+from abu_calc.dynamics.tracing.traced import symbols
 
 EQUATIONS = ("setup", "rates", "watched", "apparent")
 """Functions of a structure, in the order in which `arrays` declares them."""
@@ -76,67 +74,49 @@ class Program:
         return sum(self.watched) + sum(self.criteria)
 
 
-class _Named(Source):
-    """Expressions over y… and par[…]."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.par = _Places(self)
-
-
-class _Places:
-    def __init__(self, source: Source) -> None:
-        self.source = source
-
-    def __getitem__(self, place: int) -> Node:
-        return self.source.name(f"par[{place}]")
-
-
 def program(equations: Equations, acting: Acting) -> Program:
     """The functions for a structure, from any of its modes."""
-    source = _Named()
-    tape = Tape(source)
-    symbolic = mapped(acting, lambda _, nonzero: tape.parameter(nonzero), lambda _: None)
-    y = np.array([tape.variable(source.name(f"y{k}")) for k in range(len(equations.states))])
-    motion, loads, solved = accelerations(Functions, tape.variable(source.time), y, symbolic)
+    graph = Graph()
+    symbolic, t, y = symbols(equations, acting, graph)
+    motion, loads, solved = accelerations(Functions, t, y, symbolic)
     rates = list(derivative(motion, solved, y, symbolic))
     p, parts = symbolic.parameters, with_states(y, symbolic)
     watched = [effect.watch(motion, mode, own, loads, solved, p) for effect, mode, own in parts]
     criteria = [effect.criteria(motion, mode, own, loads, solved, p) for effect, mode, own in parts]
-    zero = Symbol(tape, [])
+    zero = Symbol(graph, [])
     dy, seen, chosen = (
-        [(zero + one).expression() for row in rows for one in row] for rows in ([rates], watched, criteria)
+        [(zero + value).expression() for row in rows for value in row] for rows in ([rates], watched, criteria)
     )
-    whole = source.operations(seen)
-    cheap = {k: one for k, one in enumerate(seen) if source.operations([one]) < CHEAP * whole}
+    whole = graph.operations(seen)
+    cheap = {k: place for k, place in enumerate(seen) if graph.operations([place]) < CHEAP * whole}
     given, rows = "t: float, y: Reals, par: Reals", {"dy": dict(enumerate(dy))}
     lines = [
-        *_function("rates", f"{given}, dy: Reals", source, rows),
-        *_function("watched", f"{given}, dy: Reals, w: Reals", source, rows | {"w": dict(enumerate([*seen, *chosen]))}),
-        *_function("apparent", f"{given}, w: Reals", source, {"w": cheap}),
+        *_function("rates", f"{given}, dy: Reals", graph, rows),
+        *_function("watched", f"{given}, dy: Reals, w: Reals", graph, rows | {"w": dict(enumerate([*seen, *chosen]))}),
+        *_function("apparent", f"{given}, w: Reals", graph, {"w": cheap}),
     ]
-    setup, numbers, parameters = _setup(tape)
+    setup, numbers, parameters = _setup(graph)
     counts = [tuple(len(row) for row in rows) for rows in (watched, criteria)]
-    apparent = {k: _states(source.lines([one])) for k, one in cheap.items()}
+    apparent = {k: _states(graph.lines([place])) for k, place in cheap.items()}
     return Program("\n".join([*setup, *lines, ""]), numbers, parameters, counts[0], counts[1], apparent)
 
 
-def _setup(tape: Tape) -> tuple[list[str], int, int]:
-    """The function that makes parameters of numbers, when all expressions have asked for them; how many of each."""
-    names, lines, results = tape.lines()
+def _setup(graph: Graph) -> tuple[list[str], int, int]:
+    """The function that fills the slots from the numbers, once all other code is written; how many of each."""
+    names, lines, results = graph.setup()
     text = ["def setup(numbers: Reals, par: Reals) -> None:"]
     text += [f" {name} = numbers[{k}]" for k, name in enumerate(names)] + [f" {line}" for line in lines]
-    text += [f" par[{k}] = {one}" for k, one in enumerate(results)] or [" pass"]
+    text += [f" par[{k}] = {result}" for k, result in enumerate(results)] or [" pass"]
     return text, len(names), len(results)
 
 
-def _function(name: str, arguments: str, source: Source, results: Mapping[str, Mapping[int, Any]]) -> list[str]:
+def _function(name: str, arguments: str, graph: Graph, results: Mapping[str, Mapping[int, int]]) -> list[str]:
     """One function that stores its results at their places in arrays."""
-    lines, texts = source.lines([one for row in results.values() for one in row.values()])
+    lines, texts = graph.lines([place for row in results.values() for place in row.values()])
     lines = [*(f"y{k} = y[{k}]" for k in _states((lines, texts))), *lines]  # each is read once
     text = [f"def {name}({arguments}) -> None:", *(f" {line}" for line in lines)]
     places = [f"{array}[{k}]" for array, row in results.items() for k in row]
-    return [*text, *(f" {place} = {one}" for place, one in zip(places, texts, strict=True)), " return"]
+    return [*text, *(f" {place} = {text}" for place, text in zip(places, texts, strict=True)), " return"]
 
 
 def _states(texts: tuple[list[str], list[str]]) -> tuple[int, ...]:

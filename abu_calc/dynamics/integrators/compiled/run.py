@@ -10,8 +10,8 @@ from abu_calc.dynamics.effects.ball_contact import Neighbours
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.compiled import arrays
 from abu_calc.dynamics.integrators.compiled.code import Code, code, text
+from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.layout import constants, decides, layout, numbers_places, rules
-from abu_calc.dynamics.integrators.compiled.loop import ROWS
 from abu_calc.dynamics.integrators.compiled.order import Places, in_order
 from abu_calc.dynamics.integrators.compiled.plain import Plain
 from abu_calc.dynamics.integrators.compiled.program import widened
@@ -21,15 +21,12 @@ from abu_calc.dynamics.switching.modes import at_break, settled, starting
 from abu_calc.dynamics.tracing.traced import Numbers, cached
 from abu_calc.dynamics.trajectory import Times, Trajectory
 
-NAME, PLAIN = "compiled-rk45", "plain-rk45"
-"""The method, with a compiler and without."""
+WAYS = {True: "compiled", False: "plain"}
+"""What names of integrators begin with, with a compiler and without."""
 
 AT_ONCE = 20_000
 """Evaluations between two returns from compiled code, within which no interrupt is heard: some hundredths of a
 second."""
-
-STAGES = 6
-"""Evaluations of a step."""
 
 REASONS = {
     arrays.NOT_FINITE: NOT_FINITE,
@@ -44,6 +41,7 @@ def integrate(
     sample_times: Times,
     most_evaluations: int = MOST_EVALUATIONS,
     compiled: bool = True,
+    method: Method = "rk45",
 ) -> Trajectory:
     """The motion from t = 0 to the last of `sample_times` [s], ascending; in plain Python if not `compiled`.
 
@@ -51,7 +49,8 @@ def integrate(
     """
     ordered, places = in_order(equations)
     given = np.argsort(places)
-    return _Run(ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled).trajectory()
+    run = _Run(ordered, tolerance, sample_times, most_evaluations, given=given, compiled=compiled, method=method)
+    return run.trajectory()
 
 
 @dataclass
@@ -63,35 +62,37 @@ class _Run(Run):
 
     given: Places = field(kw_only=True)
     compiled: bool = field(kw_only=True)
+    method: Method = field(kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         equations = self.equations
         self.modes = at_break(equations, 0.0, equations.first_modes)
-        found: tuple[Code | Plain, Array] = (prepared if self.compiled else written)(equations)
+        found: tuple[Code | Plain, Array] = (prepared if self.compiled else written)(equations, self.method)
         self.code, self.numbers = found
         program = self.code.program
         wide = widened(equations, self.modes)
         self.places = numbers_places(wide.modes, len(self.numbers))
         self.layout = layout(equations, self.modes, program, self.places)
-        self.constants = constants(equations, self.modes, self.tolerance)
+        self.constants = constants(equations, self.modes, self.tolerance, self.method)
         self.parameters = np.empty(program.parameters)
         self.room = np.zeros(self._room(program.values))
         self.clock = np.array([0.0, self.constants[arrays.LONGEST] / 100, 0.0])
         self.counts = np.zeros(arrays.COUNTS, dtype=np.int64)
         self.counts[arrays.MOST] = self.most_evaluations
-        self.per_step, self.longest = STAGES, float(self.constants[arrays.LONGEST])
+        self.per_step, self.longest = METHODS[self.method].STAGES, float(self.constants[arrays.LONGEST])
 
     @property
     def name(self) -> str:
         """The method, and whether it is compiled."""
-        return NAME if self.compiled else PLAIN
+        return f"{WAYS[self.compiled]}-{self.method}"
 
     def _room(self, values: int) -> int:
         """Numbers that the loop works with."""
         states, pairs = len(self.equations.states), max(int(self.layout[arrays.PAIRS]), 0)
         deciding = states + len(self.numbers) + pairs * (6 + 2 * pairs + states)
-        return ROWS * states + 6 * values + deciding
+        method = METHODS[self.method]
+        return int(method.KEPT + 3 + method.BETWEEN) * states + 6 * values + deciding
 
     def _put(self, modes: Modes) -> None:
         """Modes as numbers."""
@@ -141,7 +142,7 @@ class _Run(Run):
 
     def _go_on(self) -> int:
         """Up to the next return from compiled code, with the samples that come until then."""
-        far = float(self.clock[arrays.TIME]) + (AT_ONCE / STAGES + 2) * self.longest
+        far = float(self.clock[arrays.TIME]) + (AT_ONCE / self.per_step + 2) * self.longest
         times = self.samples[self.done : np.searchsorted(self.samples, far, side="right")]
         rows = np.empty((len(times), len(self.state)))
         self.counts[arrays.DONE], self.counts[arrays.SAMPLES] = 0, len(times)
@@ -177,16 +178,17 @@ class _Run(Run):
                 state, modes = settled(equations, t, state, modes)
 
 
-def prepared(equations: Equations) -> tuple[Code, Array]:
+def prepared(equations: Equations, method: Method) -> tuple[Code, Array]:
     """The code of a scene whose balls are in order, and its numbers. Raises CompilerError."""
     wide, structure, numbers = described(equations)
-    return code(structure, equations, wide, numbers), numbers.copy()
+    return code(structure, equations, wide, numbers, method), numbers.copy()
 
 
-def written(equations: Equations) -> tuple[Plain, Array]:
+def written(equations: Equations, method: Method) -> tuple[Plain, Array]:
     """The same in plain Python."""
     wide, structure, numbers = described(equations)
-    return cached(_written, structure, lambda: Plain(text(structure, equations, wide))), numbers.copy()
+    made = cached(_written, (structure, method), lambda: Plain(text(structure, equations, wide), method))
+    return made, numbers.copy()
 
 
 _written: dict[object, Plain] = {}

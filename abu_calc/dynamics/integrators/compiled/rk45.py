@@ -8,7 +8,13 @@ from math import sqrt
 
 from abu_calc.dynamics.integrators.compiled.arrays import Reals, rates, watched
 
-LEAST_FACTOR, MOST_FACTOR, SAFETY = 0.2, 10.0, 0.9
+METHOD_ORDER = 5
+EXPONENT = -1 / 5
+"""Of the error in the factor on the next step."""
+STAGES, EXTRA = 6, 0
+"""Evaluations of a step, and of its dense output."""
+KEPT, LAST, BETWEEN = 7, 6, 4
+"""Rows of rates, which of them is that at the end, and rows of the dense output."""
 
 
 def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Reals, w: Reals) -> None:
@@ -34,7 +40,7 @@ def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Real
     for i in range(n):
         more = 35 / 384 * a[i] + 500 / 1113 * c[i] + 125 / 192 * d[i] - 2187 / 6784 * e[i] + 11 / 84 * f[i]
         end[i] = y[i] + h * more
-    watched(t + h, end, par, k[6 * n :], w)
+    watched(t + h, end, par, k[LAST * n :], w)
 
 
 def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, relative: Reals) -> float:
@@ -49,7 +55,7 @@ def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, rel
     return sqrt(total / n)
 
 
-def prepared(h: float, n: int, y: Reals, end: Reals, k: Reals, between: Reals) -> None:
+def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Reals, between: Reals, at: Reals) -> None:
     """What the dense output of a step needs."""
     c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
     second, third, fourth = between[n:], between[2 * n :], between[3 * n :]
@@ -77,19 +83,3 @@ def within(i: int, x: float, n: int, y: Reals, between: Reals) -> float:
     """One of its numbers."""
     more = between[n + i] + x * (between[2 * n + i] + (1.0 - x) * between[3 * n + i])
     return y[i] + x * (between[i] + (1.0 - x) * more)
-
-
-def shorter(off: float) -> float:
-    """Factor on a step whose error is too large, or no number."""
-    if off < 1e10:
-        factor: float = SAFETY * off**-0.2
-        return max(LEAST_FACTOR, factor)
-    return LEAST_FACTOR
-
-
-def longer(off: float) -> float:
-    """Factor on the next step."""
-    if off > 1e-10:
-        factor: float = SAFETY * off**-0.2
-        return min(MOST_FACTOR, factor)
-    return MOST_FACTOR

@@ -1,0 +1,33 @@
+"""The modules whose functions make up the loop, for either method of its steps."""
+
+from types import ModuleType
+from typing import Final, Literal
+
+from abu_calc.dynamics.integrators.compiled import (
+    contact,
+    decide,
+    dop853,
+    friction,
+    impact,
+    locate,
+    loop,
+    rk45,
+    step_size,
+)  # fmt: skip
+
+Method = Literal["rk45", "dop853"]
+
+METHODS: Final[dict[Method, ModuleType]] = {"rk45": rk45, "dop853": dop853}
+
+STEP_NAMES: Final = ("METHOD_ORDER", "EXPONENT", "STAGES", "EXTRA", "KEPT", "LAST", "BETWEEN")
+"""Numbers of a method, which other modules know as those of `rk45`."""
+
+
+def kernels(method: Method) -> tuple[ModuleType, ...]:
+    """In the order in which they import each other."""
+    return (METHODS[method], step_size, locate, friction, contact, impact, decide, loop)
+
+
+def step_numbers(method: Method) -> dict[str, float]:
+    """Numbers of a method by their names, which take the place of those of `rk45` in the other modules."""
+    return {name: getattr(METHODS[method], name) for name in STEP_NAMES}
