@@ -1,6 +1,7 @@
 """The same work on many things, side by side on all processors; the outcome does not depend on how many there are."""
 
 import os
+import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
@@ -55,7 +56,12 @@ class Workers:
         if not self.processes:
             return ThreadPoolExecutor(self.count)
         # Started afresh on every system: a copy of this process would have its locks, but not its threads.
-        return ProcessPoolExecutor(self.count, mp_context=get_context("spawn"))
+        return ProcessPoolExecutor(self.count, mp_context=get_context("spawn"), initializer=_quiet)
+
+
+def _quiet() -> None:
+    """Leave to the process that began them what processes have to say of compiled code, so that it is said once."""
+    warnings.filterwarnings("ignore", message="compiled code")
 
 
 def threads() -> Workers:

@@ -35,15 +35,3 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> None:
     base = tmp_path_factory.getbasetemp()
     if base.name.startswith("popen-"):
         remembered.share(base.parent / "studies")
-
-
-SYSTEMS: dict[Any, Any] = {}
-
-
-@pytest.fixture
-def in_loops(monkeypatch: pytest.MonkeyPatch) -> None:
-    """heyoka unrolls no code, which of small smooth scenes takes up to four times as long to compile as loops do."""
-    from abu_calc.dynamics.integrators import heyoka_
-
-    monkeypatch.setattr(heyoka_, "MOST_UNROLLED", 0)
-    monkeypatch.setattr(heyoka_, "_systems", SYSTEMS)

@@ -29,7 +29,15 @@ SWITCHING = {
         dimensionless(3.0, 0.02, 0.01, 0.3, 0.01, (1.5, -1.7), 20.0), effects=(DryRollingFriction(1e-4, 0.15),)
     ),
 }
-INTEGRATORS = ("scipy-rk45", "scipy-dop853", "scipy-lsoda", "scipy-radau", "scipy-bdf", "heyoka")
+INTEGRATORS = (
+    "scipy-rk45",
+    "scipy-dop853",
+    "scipy-lsoda",
+    "scipy-radau",
+    "scipy-bdf",
+    "compiled-dop853",
+    "compiled-rk45",
+)
 TOLERANCES = np.logspace(-3, -9, 7)
 REFERENCE = 2e-13
 MOMENTS = 201
@@ -41,11 +49,6 @@ QUICK = [name for name in INTEGRATORS if name not in COSTLY]
 MANY_LOOKS = ("scipy-rk45", "scipy-lsoda")
 """Those of many short steps, at each of which switches are looked for in the way of the quicker ones."""
 CASES = [(scene, name) for scene in SMOOTH for name in QUICK]
-LONG = {(scene, "heyoka") for scene in ("coupled", "tilting")}
-"""Slow ones, left to `-m slow`: what heyoka compiles, in the largest systems."""
-
-
-pytestmark = pytest.mark.usefixtures("in_loops")
 
 
 def slope(xs: np.ndarray, ys: np.ndarray) -> float:
@@ -73,9 +76,7 @@ def by_tolerance(scene, name: str) -> tuple[float, int]:
     return slope(TOLERANCES[known], errors[known]), runs[-1].events
 
 
-@pytest.mark.parametrize(
-    ("scene", "name"), [pytest.param(*one, marks=[pytest.mark.slow] * (one in LONG)) for one in CASES]
-)
+@pytest.mark.parametrize(("scene", "name"), CASES)
 def test_errors_are_proportional_to_the_tolerance(scene, name):
     found, _ = by_tolerance(SMOOTH[scene], name)
     assert 0.7 < found < 1.3

@@ -53,13 +53,13 @@ def once(*arguments: str) -> Seen:
     return again(*arguments)
 
 
-EXTRAS = ("heyoka", "llvmlite")
+EXTRAS = ("llvmlite",)
 
 
 def without_extras(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As where they are not installed, on one processor; what is patched holds in this process alone.
+    """As where it is not installed, on one processor; what is patched holds in this process alone.
 
-    They compile for each number of balls, and processes start, for longer than short runs take.
+    It compiles for each number of balls, and processes start, for longer than short runs take.
     """
     found = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in EXTRAS else found(name))

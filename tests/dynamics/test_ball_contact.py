@@ -268,16 +268,3 @@ def test_one_ball_has_no_neighbours():
         integrate(assemble(one), 1e-8, t).y for one in (scene, replace(scene, effects=(BallContact(RADIUS, 0.5),)))
     )
     np.testing.assert_allclose(alone, effect, atol=1e-7)
-
-
-def test_the_compiled_integrator_agrees():
-    """Modes, bunch, impacts and sticking, by Taylor series of the same equations."""
-    pytest.importorskip("heyoka")
-    from abu_calc.dynamics.integrators import heyoka_
-
-    effects = BallContact(RADIUS, 0.5), DryRollingFriction(1e-3 * RADIUS, RADIUS)
-    equations = assemble(scene_of(3.0, bunch(3), 12.0, *effects))
-    t = np.linspace(0, 12, 25)
-    mine, compiled = integrate(equations, 1e-10, t), heyoka_.integrate(equations, 1e-10, t)
-    assert mine.events > 5
-    np.testing.assert_allclose(compiled.y, mine.y, atol=1e-4)

@@ -1,4 +1,4 @@
-"""The compiled way through scenes that switch, against SciPy: motion, events, work, memory, interrupts, failures."""
+"""The loop against SciPy: motion, events, work, memory, interrupts, failures; compiled and as plain Python."""
 
 import math
 import os
@@ -8,6 +8,7 @@ import time
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,16 +22,23 @@ from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice, scipy_
-from abu_calc.dynamics.integrators.compiled import cache, machine, waiting
+from abu_calc.dynamics.integrators.compiled import cache, machine, ready
 from abu_calc.dynamics.integrators.compiled import code as compiled_code
+from abu_calc.dynamics.integrators.compiled import run as compiled
+from abu_calc.dynamics.integrators.compiled.kernels import METHODS, Method
 from abu_calc.dynamics.integrators.compiled.order import in_order
 from abu_calc.dynamics.scene import Scene, placed
 from abu_calc.errors import InputError, NotTrustworthyError
-from tests.dynamics.scenes import ROTORS, coupled_scene, scene_on, straight_grinder, with_effects
+from tests.dynamics.scenes import (
+    ROTORS,
+    SUPPORTS,
+    coupled_scene,
+    dimensionless,
+    scene_on,
+    straight_grinder,
+    with_effects,
+)
 from tests.dynamics.test_contract import CONTACT
-
-pytest.importorskip("llvmlite")
-from abu_calc.dynamics.integrators.compiled import run as compiled
 
 FRICTION, MEETING = DryRollingFriction(0.002, 0.1), BallContact(0.1, 0.5)
 RIGID = replace(CONTACT, contact="rigid", contact_stiffness=0.0)
@@ -57,28 +65,83 @@ LONG = ("contact", "contact and gravity", "friction and contact, eccentric")
 """In every run their plain code is compared with the compiled one to the last bit; with SciPy others as they are."""
 
 
-def agree(scene: Scene, within: float, tolerance: float = 1e-8) -> tuple[int, int]:
+def agree(scene: Scene, within: float, tolerance: float = 1e-8, method: Method = "rk45") -> tuple[int, int]:
     """Compare with SciPy all along a run, in the scales of the states; events of both."""
     equations, times = assemble(scene), np.linspace(0, scene.duration, 41)
     exact = scipy_.integrate(equations, 1e-11, times)
-    found = compiled.integrate(equations, tolerance, times)
+    found = compiled.integrate(equations, tolerance, times, method=method)
     scales = np.array(equations.scales)[:, None]
     np.testing.assert_allclose(found.y / scales, exact.y / scales, rtol=0, atol=within)
-    assert found.integrator == compiled.NAME
+    assert found.integrator == f"compiled-{method}"
     return found.events, exact.events
 
 
-@pytest.mark.parametrize("name", [pytest.param(one, marks=[pytest.mark.slow] * (one in LONG)) for one in SCENES])
+@pytest.mark.parametrize("name", [pytest.param(each, marks=[pytest.mark.slow] * (each in LONG)) for each in SCENES])
 def test_the_motion_is_that_of_scipy(name: str) -> None:
-    found, exact = agree(replace(SCENES[name], duration=10.0), within=1e-5)
-    assert abs(found - exact) <= 3 + exact // 50
+    for method in METHODS:
+        found, exact = agree(replace(SCENES[name], duration=10.0), within=1e-5, method=method)
+        assert abs(found - exact) <= 3 + exact // 50
 
 
-def test_errors_fall_with_the_tolerance() -> None:
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_smooth_motion_on_every_support_is_that_of_scipy(support: str) -> None:
+    """Steady, guided and driven rotors in turn; a hundred times the tolerance, as errors of dozens of steps add up."""
+    way = list(ROTORS)[list(SUPPORTS).index(support) % len(ROTORS)]
+    agree(replace(scene_on(support, *ROTORS[way]), duration=10.0), within=1e-7, tolerance=1e-9, method="dop853")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_errors_fall_with_the_tolerance(method: Method) -> None:
     """At most a hundred times the tolerance where balls stick, slip and touch."""
     scene = replace(SCENES["friction and contact"], duration=6.0)
     for tolerance in (1e-3, 1e-5, 1e-7):
-        agree(scene, 100 * tolerance, tolerance)
+        agree(scene, 100 * tolerance, tolerance, method)
+
+
+def test_large_angles_do_not_loosen_the_tolerance() -> None:
+    """A motor's turn grows to thousands of radians, which are not the size of the state."""
+    equations = assemble(replace(scene_on("planar", *ROTORS["driven"]), duration=2000.0))
+    exact, found = (
+        compiled.integrate(equations, tolerance, [2000.0], method="dop853").y[:, -1] for tolerance in (1e-12, 1e-6)
+    )
+    assert exact[-2] > 3000
+    np.testing.assert_allclose(found / equations.scales, exact / equations.scales, rtol=0, atol=1e-4)
+
+
+@pytest.mark.slow
+def test_a_hundred_thousand_revolutions_without_drift() -> None:
+    """An undamped rotor whose balls swing about the places where they balance it keeps its integral of motion.
+
+    Seen in the rotor nothing depends on time, so T − Ω L + V of the inertial motion is constant (Jacobi's integral),
+    and balls that swing go on swinging as far.
+    """
+    scene = dimensionless(2.0, 0.05, 0.02, 0.0, 0.0, (1.8, -1.75), 1e5 * math.pi)
+    times = np.linspace(0, scene.duration, 10_001)
+    y = compiled.integrate(assemble(scene), 1e-12, times, most_evaluations=10**10, method="dop853").y
+    integral = np.array([jacobi(scene, t, column) for t, column in zip(times, y.T, strict=True)])
+    np.testing.assert_allclose(integral, integral[0], rtol=0, atol=1e-9 * abs(integral[0]))
+    first, last = y[4:6, 1:1001], y[4:6, -1000:]
+    np.testing.assert_allclose(np.ptp(last, axis=1), np.ptp(first, axis=1), rtol=0.05)
+
+
+def jacobi(scene: Scene, t: float, y: np.ndarray) -> float:
+    """Σ ½ m v² + ½ k r² − Ω Σ m (r × v), as far as it can change; the imbalance m₀e turns with the rotor."""
+    race, speed = scene.races[0], scene.speed
+    mass, stiffness = scene.support.mass[0][0], scene.support.stiffness[0][0]
+    r, v = complex(*y[:2]), complex(*y[2:4])
+    gamma, swing = y[4:6] + speed * t, y[6:] + speed
+    arms = race.pitch_radius * np.exp(1j * gamma)
+    places, speeds = r + arms, v + 1j * swing * arms
+    moment = scene.imbalance * np.exp(1j * (speed * t + scene.imbalance_angle))
+    masses = np.array(race.ball_masses)
+
+    def turning(a: Any, b: Any) -> Any:
+        return (np.conj(a) * b).imag
+
+    moved = 1j * speed * moment
+    kinetic = 0.5 * mass * abs(v) ** 2 + 0.5 * masses @ np.abs(speeds) ** 2 + (np.conj(v) * moved).real
+    angular = mass * turning(r, v) + masses @ turning(places, speeds) + turning(moment, v) + turning(r, moved)
+    return float(kinetic + 0.5 * stiffness * abs(r) ** 2 - speed * angular)
 
 
 def grinder() -> Equations:
@@ -167,9 +230,14 @@ def test_plain_code_gives_the_same_numbers(name: str) -> None:
     """To the last bit: so what is on disk decides how long a run takes, never what comes out."""
     scene = replace(SCENES[name], duration=min(SCENES[name].duration, 20.0))
     equations, times = assemble(scene), np.linspace(0, scene.duration, 17)
-    one, other = (compiled.integrate(equations, 1e-4, times, compiled=with_compiler) for with_compiler in (True, False))
-    assert np.array_equal(one.y, other.y) and one.integrator != other.integrator
-    assert (one.events, one.steps, one.evaluations) == (other.events, other.steps, other.evaluations)
+    for method in METHODS:
+        fast, plain = (
+            compiled.integrate(equations, 1e-4, times, compiled=with_compiler, method=method)
+            for with_compiler in (True, False)
+        )
+        assert np.array_equal(fast.y, plain.y)
+        assert (fast.integrator, plain.integrator) == (f"compiled-{method}", f"plain-{method}")
+        assert (fast.events, fast.steps, fast.evaluations) == (plain.events, plain.steps, plain.evaluations)
 
 
 # What the compiler may do.
@@ -180,7 +248,7 @@ def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     """As in a new process with an empty folder."""
     for name in ("_codes", "_texts"):
         monkeypatch.setattr(compiled_code, name, {})
-    monkeypatch.setattr(waiting, "_broken", [])
+    monkeypatch.setattr(ready, "_failures", [])
     monkeypatch.setenv(cache.FOLDER, str(tmp_path))
     return tmp_path
 
@@ -190,17 +258,17 @@ def test_code_is_kept_on_disk_and_rebuilt_where_it_is_damaged(fresh: Path, monke
     built: list[str] = []
     original = machine.compiled
     monkeypatch.setattr(machine, "compiled", lambda text: built.append(text) or original(text))  # type: ignore[func-returns-value]
-    assert waiting.waiting(equations) > waiting.LEAST
+    assert not ready.loaded(equations, "rk45")
     runs = [compiled.integrate(equations, 1e-6, [2.0]).y]
     assert len(built) == len(list(fresh.iterdir())) == 2
-    assert waiting.waiting(equations) == 0.0
+    assert ready.loaded(equations, "rk45") and not ready.loaded(equations, "dop853")
     for damages in ((bytes, bytes), (lambda code: code[:-100], lambda code: os.urandom(len(code)))):
         before = {one: one.read_bytes() for one in fresh.iterdir()}
         for damage, (place, content) in zip(damages, before.items(), strict=True):
             place.write_bytes(damage(content))
         compiled_code._codes.clear()
         compiled_code._texts.clear()
-        assert waiting.waiting(equations) == waiting.LEAST
+        assert not ready.loaded(equations, "rk45")
         runs.append(compiled.integrate(equations, 1e-6, [2.0]).y)
         assert {one: one.read_bytes() for one in fresh.iterdir()} == before
     assert len(built) == 2 + 0 + 2
@@ -230,7 +298,7 @@ def test_a_compiler_that_does_not_run_is_done_without(failing: str, monkeypatch:
             with pytest.raises(InputError, match="does not run here"):
                 choice.choose(equations, "compiled", 1e-6)
     assert len(told) == 1
-    assert choice.choose(equations, "auto", 1e-6).name != compiled.NAME
+    assert choice.choose(equations, "auto", 1e-6).name == "plain-dop853"
 
 
 @pytest.mark.usefixtures("fresh")
@@ -244,7 +312,7 @@ def test_code_that_gives_other_numbers_is_done_without(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(compiled_code, "program", wrong)
     with pytest.warns(RuntimeWarning, match="does not give what the equations do"):
-        assert not waiting.load(assemble(SCENES["friction"]))
+        assert not ready.load(assemble(SCENES["friction"]), "rk45")
 
 
 # Which integrator is chosen.
@@ -252,9 +320,9 @@ def test_code_that_gives_other_numbers_is_done_without(monkeypatch: pytest.Monke
 
 def test_it_is_taken_where_it_is_asked_for() -> None:
     equations = assemble(SCENES["friction"])
-    assert choice.choose(equations, "compiled", 1e-6).name == compiled.NAME
-    for name in ("compiled", compiled.NAME):
-        assert choice.integrate_with(name, equations, 1e-6, np.array([1.0]), 10**6).integrator == compiled.NAME
+    assert choice.choose(equations, "compiled", 1e-6).name == "compiled-dop853"
+    for name in ("compiled-rk45", "compiled-dop853"):
+        assert choice.integrate_with(name, equations, 1e-6, np.array([1.0]), 10**6).integrator == name
 
 
 def test_run_ups_are_met() -> None:

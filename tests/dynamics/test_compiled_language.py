@@ -6,7 +6,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-pytest.importorskip("llvmlite")
 from abu_calc.dynamics.integrators.compiled import language, machine
 from abu_calc.dynamics.integrators.compiled.writer import LanguageError
 

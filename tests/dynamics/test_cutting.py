@@ -44,7 +44,7 @@ def cutting(*effects: Effect, y: float = 0.0, races: tuple[Race, ...] = (), dura
     return placed(scene)
 
 
-PLAIN, ALL = ("plain-rk45",), ("scipy-dop853", "plain-rk45", "compiled-rk45", "heyoka")
+PLAIN, ALL = ("plain-rk45",), ("scipy-dop853", "plain-rk45", "compiled-dop853")
 
 
 def states_of(scene: Scene, times: np.ndarray, names: tuple[str, ...] = PLAIN) -> list[np.ndarray]:

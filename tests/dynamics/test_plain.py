@@ -88,15 +88,6 @@ def test_what_is_no_number_is_told_as_one():
     assert all(math.isnan(value) for value in rates(0.0, y))
 
 
-def test_equal_expressions_are_computed_once():
-    source = plain.Source()
-    x, y = source.name("x"), source.name("y")
-    assert x * y is y * x
-    lines, results = source.lines([source.sin(x * y) + source.cos(x * y), -(x / y)])
-    assert lines == [f"v{(x * y).place} = (x * y)"]
-    assert results == [f"(sin(v{(x * y).place}) + cos(v{(x * y).place}))", "(-(x / y))"]
-
-
 @pytest.mark.parametrize("support", SUPPORTS)
 @pytest.mark.parametrize("way", ROTORS)
 def test_derivatives_at_many_states_are_those_at_each(support, way):

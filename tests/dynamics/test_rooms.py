@@ -17,7 +17,8 @@ from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.right_hand_side import motion_of
-from abu_calc.dynamics.integrators import heyoka_, scipy_
+from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators.compiled import run as loop
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
@@ -168,11 +169,12 @@ class Wind(Effect):
 
 
 def test_a_new_effect_is_one_class():
-    """Integrated by both libraries beside another effect, without a change anywhere."""
+    """Integrated by SciPy and by the loop beside another effect, without a change anywhere."""
     wind = Wind(0.05, 0.02)
     scene = with_effects(dimensionless(2.0, 0.05, 0.02, 0.1, 0.1, (1.6, -1.4), 40.0), wind, Gravity(0.01))
     equations, times = assemble(scene), np.linspace(0, 40, 5)
-    one, other = (library.integrate(equations, 1e-9, times).y for library in (scipy_, heyoka_))
+    one = scipy_.integrate(equations, 1e-9, times).y
+    other = loop.integrate(equations, 1e-9, times, method="dop853").y
     np.testing.assert_allclose(one, other, atol=1e-5)
     alone, half = replace(scene, races=(), duration=400.0), scene.revolution / 2
     ends = scipy_.integrate(assemble(alone), 1e-8, [400.0 - half, 400.0]).y[0]
@@ -195,7 +197,7 @@ def test_a_new_support_is_one_class():
     found = evaluate(scene, scipy_.integrate(equations, 1e-7, times))
     assert found.axis_amplitude < 1e-3 * found.unbalanced_amplitude
     assert found.unbalanced_amplitude == pytest.approx(0.02 * 9 / abs(complex(1 - 9, 0.6)))
-    other = heyoka_.integrate(equations, 1e-9, times[-1:]).y[:, -1]
+    other = loop.integrate(equations, 1e-9, times[-1:], method="dop853").y[:, -1]
     np.testing.assert_allclose(scipy_.integrate(equations, 1e-9, times[-1:]).y[:, -1], other, atol=1e-5)
 
 

@@ -41,9 +41,8 @@ def both(monkeypatch: pytest.MonkeyPatch, scene: Scene, **how: object) -> tuple[
     return whole, simulate(scene, 0.02, **how)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("integrator", ["scipy", "compiled", "heyoka"])
+@pytest.mark.parametrize("integrator", ["scipy", "compiled"])
 def test_results_of_long_runs_are_those_of_runs_held_whole(monkeypatch: pytest.MonkeyPatch, integrator: str) -> None:
-    pytest.importorskip({"scipy": "scipy", "compiled": "llvmlite", "heyoka": "heyoka"}[integrator])
     whole, long = both(monkeypatch, SCENE, integrator=integrator, sample_times=WANTED)
     assert long.response == whole.response
     assert long.warnings == whole.warnings and "would fall off its race" in long.warnings[-1]

@@ -11,7 +11,7 @@ from abu_calc.analysis.response import evaluate, needed_times
 from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.integrators.choice import integrate_with, unfit
+from abu_calc.dynamics.integrators.choice import available, integrate_with
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Race, Scene, with_parted_balls
 from abu_calc.dynamics.support import Support
@@ -72,8 +72,8 @@ def apart(equations: Equations, one: np.ndarray, other: np.ndarray) -> float:
 
 
 def second_way(equations: Equations) -> tuple[str, float]:
-    """An integrator of another kind than DOP853, tight: heyoka where it is installed, else Radau."""
-    return ("scipy-radau", 1e-9) if unfit(equations) else ("heyoka", 1e-12)
+    """An integrator of another kind than DOP853, tight: the loop's of order 5 where compiled, else Radau."""
+    return ("compiled-rk45", 1e-11) if "compiled-rk45" in available(equations) else ("scipy-radau", 1e-9)
 
 
 def check_agreement(scene: Scene, within: float, samples: int = 41) -> Trajectory:

@@ -17,22 +17,18 @@ from tests.spec.scenes import SCENE
 
 pytestmark = pytest.mark.hard
 
-LIBRARIES = {"compiled": "llvmlite", "heyoka": "heyoka"}
-
 
 def _heed_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows knows no SIGINT for one process")
-@pytest.mark.parametrize("integrator", ["scipy", "compiled", "heyoka"])
+@pytest.mark.parametrize("integrator", ["scipy", "compiled"])
 def test_a_long_simulation_is_interrupted(integrator: str, tmp_path: Path) -> None:
     """Hours of work end within seconds of the signal: one line, no traceback, status 130, and the folder as before.
 
     However slow the machine: while it still imports, Python itself may end with the signal, which shells call 130 too.
     """
-    if integrator in LIBRARIES:
-        pytest.importorskip(LIBRARIES[integrator])
     if integrator == "compiled" and not code.installed():
         pytest.skip("compiled code was not tried on this system")
     scene = tmp_path / "scene.toml"

@@ -73,7 +73,7 @@ def test_every_argument_of_every_study_refuses_what_it_cannot_be(study: Any, nam
         (abu_calc.simulate, "without_effects", None, "a list, each of it text"),
         (abu_calc.simulate, "without_effects", ["gravitation"], "gravity"),
         (abu_calc.simulate, "integrator", None, "text"),
-        (abu_calc.simulate, "integrator", "euler", "heyoka"),
+        (abu_calc.simulate, "integrator", "euler", "compiled"),
         (abu_calc.simulate, "audit", "no", "True or False"),
         (abu_calc.simulate, "audit", 1, "True or False"),
         (abu_calc.stability, "speeds_rpm", (1,), "(a number, a number) or None"),

@@ -24,7 +24,7 @@ def patient(monkeypatch):
     monkeypatch.setattr(claims, "SECONDS", 3600)
 
 
-@pytest.mark.usefixtures("patient", "in_loops")
+@pytest.mark.usefixtures("patient")
 @pytest.mark.parametrize("seed", [*QUICK, *(pytest.param(seed, marks=pytest.mark.slow) for seed in MORE)])
 def test_claims_hold_on_a_few_scenes(seed):
     verdicts, unmeasured = study([seed], judged)
@@ -32,7 +32,7 @@ def test_claims_hold_on_a_few_scenes(seed):
     assert [one for one in verdicts if one.refused or one.broken > 1 or one.claim > one.accuracy] == []
 
 
-@pytest.mark.usefixtures("patient", "in_loops")
+@pytest.mark.usefixtures("patient")
 @pytest.mark.parametrize("seed", [*AVERAGED, *(pytest.param(seed, marks=pytest.mark.slow) for seed in MORE_AVERAGED)])
 def test_claims_of_the_envelope_hold_on_a_few_scenes(seed):
     verdicts, unmeasured = study([seed], averaged_and_judged)
