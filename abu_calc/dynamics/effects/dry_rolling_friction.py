@@ -24,7 +24,7 @@ from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
-from abu_calc.dynamics.trajectory import Samples
+from abu_calc.dynamics.trajectory import Samples, merged
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.validity import Range
 
@@ -152,11 +152,11 @@ class DryRollingFriction(Effect):
         t, y = samples.t[asked], samples.y[:, asked]
         sigma = np.sign(y[first : first + p.balls])
 
-        def outward(t: Any, y: Any, direction: Any) -> Array:
+        def outward(t: Any, y: Any, direction: Any) -> Any:
             mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
             acting = equations.in_mode((*modes[:index], mode, *modes[index + 1 :]))
-            normal: Array = equations.accelerations(np, t, y, acting)[2].normal
-            return normal / (p.radii * p.speed**2)
+            _, _, solved = equations.accelerations(np, t, y, acting)
+            return solved.normal / (p.radii * p.speed**2)
 
         direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
         return at_samples(outward, t, y, direction, at_once=p.traceable)
@@ -169,7 +169,7 @@ class DryRollingFriction(Effect):
         first = 2 * p.size + p.balls
         _, speed = equations.scene.rotor.turning(samples.t, samples.y, p.speed)
         slowest = np.abs(samples.y[first : first + p.balls] + speed).min(axis=0)
-        return np.union1d(np.argpartition(slowest, ASKED)[:ASKED], np.linspace(0, count - 1, ASKED).astype(np.intp))
+        return merged(np.argpartition(slowest, ASKED)[:ASKED], np.linspace(0, count - 1, ASKED).astype(np.intp))
 
     def holding(self, scene: Circumstances) -> Holding | None:
         """By f of their normal force; without friction by none of it."""
