@@ -3,11 +3,10 @@
 import os
 import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
-from multiprocessing import get_context
 from typing import Any, Self, TypeVar
 
 T = TypeVar("T")
@@ -55,6 +54,9 @@ class Workers:
     def _executor(self) -> Executor:
         if not self.processes:
             return ThreadPoolExecutor(self.count)
+        from concurrent.futures import ProcessPoolExecutor  # here, since their imports take as long as some work
+        from multiprocessing import get_context
+
         # Started afresh on every system: a copy of this process would have its locks, but not its threads.
         return ProcessPoolExecutor(self.count, mp_context=get_context("spawn"), initializer=_quiet)
 
