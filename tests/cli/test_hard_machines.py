@@ -17,7 +17,6 @@ def work(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Non
     for module in (machine, grinding, bouncing):
         monkeypatch.setattr(module, "WORK", request.param)
     if request.param < WORK:
-        without_extras(monkeypatch)
         monkeypatch.setattr(ensemble, "WORK", 100)
 
 
