@@ -206,6 +206,44 @@ def diffrax_solver(r: Planar, solver: str, moments: Array) -> Callable[[Array, f
     return go
 
 
+def heyoka_solver(r: Planar, tolerance: float, moments: Array) -> Callable[[Array], tuple[Array, int]]:
+    """(initial state) → states at the moments, steps times the order; compiled for this tolerance.
+
+    heyoka bounds errors relative to the largest state, or to 1: lengths and times have to be in units that suit them.
+    """
+    hy = importlib.import_module("heyoka")
+    hy.set_logger_level_error()
+    x, y, u, v = hy.make_vars("x", "y", "u", "v")
+    angles, rates = ([hy.expression(f"{name}{k}") for k in range(r.n)] for name in ("theta", "rate"))
+    turn, lever = r.speed * hy.time, 1 / (r.J * r.R)
+    sin, cos = ([f(angle + turn) for angle in angles] for f in (hy.sin, hy.cos))
+    off = -r.delta * r.speed**2
+    ex, ey = off * hy.cos(turn + r.phi), off * hy.sin(turn + r.phi)
+    # R θ'' of a ball but for what the axis adds, and the balls' forces on the axis with that.
+    own = [(ex * s - (ey + r.g) * c - r.R * r.h0 * rate) / r.J for s, c, rate in zip(sin, cos, rates, strict=True)]
+    spun = [r.R * (rate + r.speed) * (rate + r.speed) for rate in rates]
+    rows = list(zip(sin, cos, own, spun, strict=True))
+    force, phase = r.U * r.speed**2, turn + r.psi
+    pull_x, pull_y = hy.sum([w * c + a * s for s, c, a, w in rows]), hy.sum([w * s - a * c for s, c, a, w in rows])
+    fx = force * hy.cos(phase) - r.k[0] * x - r.b[0] * u + r.m * pull_x - r.n * r.m * ex
+    fy = force * hy.sin(phase) - r.k[1] * y - r.b[1] * v + r.m * pull_y - r.n * r.m * ey
+    shared, whole = r.m / r.J, r.M + r.n * r.m
+    sxx, sxy = hy.sum([shared * s * s for s in sin]), hy.sum([shared * s * c for s, c in zip(sin, cos, strict=True)])
+    mxx, myy = whole - sxx, whole - r.n * shared + sxx
+    determinant = mxx * myy - sxy * sxy
+    ax, ay = (myy * fx - sxy * fy) / determinant, (mxx * fy - sxy * fx) / determinant
+    balls = [lever * (ax * s - ay * c) + a / r.R for s, c, a, _ in rows]
+    system = [(x, u), (y, v), (u, ax), (v, ay), *zip(angles, rates, strict=True), *zip(rates, balls, strict=True)]
+    solver = hy.taylor_adaptive(system, [0.0] * (4 + 2 * r.n), tol=tolerance, compact_mode=False)
+
+    def go(start: Array) -> tuple[Array, int]:
+        solver.time, solver.state[:] = 0.0, start
+        *_, steps, _, states = solver.propagate_grid(moments)
+        return np.asarray(states).T, int(steps) * solver.order
+
+    return go
+
+
 def mujoco_model(r: Planar, integrator: str, step: float) -> Any:
     """The rotor on two slides and a hinge that turns at Ω, the balls on hinges of the rotor.
 

@@ -4,14 +4,15 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import cast
 
 import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.integrators import choice, heyoka_, scipy_
+from abu_calc.dynamics.integrators import choice
+from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Scene, only
 from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.switching.modes import watches
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
@@ -56,22 +57,16 @@ class Case:
         """One run of the library itself, `candidate` as it names its integrators."""
 
         def go() -> tuple[Array, int]:
-            if candidate == "heyoka":
-                found = heyoka_.integrate(self.equations, tolerance, self.moments)
-            else:
-                method = cast(scipy_.Method, candidate)
-                found = scipy_.integrate(self.equations, tolerance, self.moments, method=method)
-            return found.y[self.rows], found.evaluations
+            run = choice.integrate_with(candidate, self.equations, tolerance, self.moments, MOST_EVALUATIONS)
+            return run.y[self.rows], run.evaluations
 
         return Run(f"abu-calc {candidate}", tolerance, go)
 
     def reference(self) -> tuple[Array, float]:
-        """Coordinates, and how far the two integrators that vouch for them are apart."""
-        (one, loose), (other, tight) = (("scipy-dop853", 1e-12), ("scipy-rk45", 1e-11))
-        if choice.unfit(self.equations) is None:
-            other, tight = "heyoka", 1e-13
-        first, second = self.run(one, loose).go()[0], self.run(other, tight).go()[0]
-        return second, float((np.abs(first - second) / self.scales[:, None]).max())
+        """Coordinates by the loop, and how far SciPy, which vouches for them by a method of its own, is from these."""
+        name, tight = ("scipy-rk45", 1e-11) if watches(self.equations) else ("scipy-lsoda", 1e-12)
+        loop, other = self.run("compiled-dop853", 1e-13).go()[0], self.run(name, tight).go()[0]
+        return loop, float((np.abs(loop - other) / self.scales[:, None]).max())
 
 
 def case(name: str, scene: Scene) -> Case:

@@ -29,7 +29,7 @@ LEAST_TIME = 0.01
 """Seconds of work between two looks at the clock; what is quicker is run several times in a row."""
 LONGEST = 20.0
 """Seconds of one run above which it is measured once only."""
-LIBRARIES = ("abu-calc", "numpy", "scipy", "heyoka", "diffrax", "jax", "jaxlib", "mujoco")
+LIBRARIES = ("abu-calc", "numpy", "scipy", "llvmlite", "heyoka", "diffrax", "jax", "jaxlib", "mujoco")
 
 
 @dataclass(frozen=True)

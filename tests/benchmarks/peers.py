@@ -1,4 +1,5 @@
-"""The library against peers on the same planar equations: scripts written by hand for SciPy, diffrax, MuJoCo.
+"""The library against peers on the same planar equations: scripts written by hand for SciPy, diffrax,
+heyoka, MuJoCo.
 
     python -m tests.benchmarks.peers [PRESET …]
 
@@ -23,10 +24,10 @@ from typing import Any, cast  # noqa: E402
 import numpy as np  # noqa: E402
 from scipy import integrate  # noqa: E402
 
-from abu_calc.dynamics.integrators import choice  # noqa: E402
 from tests.benchmarks.by_hand import (  # noqa: E402
     Planar,
     diffrax_solver,
+    heyoka_solver,
     in_units,
     mujoco_runner,
     planar,
@@ -43,6 +44,8 @@ PICTURE = Path(__file__).parent / "work-precision.png"
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
 """From 1e-3 to 1e-13."""
+HEYOKA = TOLERANCES[2:-1:2]
+"""Each is compiled anew, for a second or two."""
 STEPS = (25, 50, 100, 200, 400, 800)
 """Of MuJoCo per revolution."""
 
@@ -53,6 +56,7 @@ KINDS = {
     "arrays": ("#808080", "x", 1.0),
     "diffrax": ("#e08e0b", "D", 1.0),
     "MuJoCo": ("#7b5ea7", "v", 1.0),
+    "heyoka": ("#111111", "P", 1.0),
 }
 """Color, marker and width in the picture, by what a candidate's name starts with."""
 STYLES = ("-", "--", ":", "-.", (0, (5, 1)), (0, (1, 3)))
@@ -66,13 +70,11 @@ def installed(name: str) -> bool:
 
 
 def own_runs(case: Case) -> list[Run]:
-    """The library, by its explicit methods of SciPy and by heyoka."""
+    """The library, by its loop and by explicit methods of SciPy."""
     found = [case.run("scipy-dop853", tolerance) for tolerance in TOLERANCES[:-2]]
     found += [case.run(name, tolerance) for name in ("scipy-rk45", "scipy-lsoda") for tolerance in TOLERANCES[:7]]
-    if choice.unfit(case.equations):
-        return found
-    # The reference is heyoka's at 1e-13: to hold that against itself would tell nothing.
-    return found + [case.run("heyoka", tolerance) for tolerance in TOLERANCES[:-1]]
+    # The reference is the loop's at 1e-13: to hold that against itself would tell nothing.
+    return found + [case.run(f"compiled-{name}", tol) for name in ("dop853", "rk45") for tol in TOLERANCES[:-1]]
 
 
 def _rows(case: Case, states: Array) -> Array:
@@ -147,6 +149,24 @@ def diffrax_runs(case: Case, r: Planar) -> list[Run]:
     return found
 
 
+def heyoka_runs(case: Case, r: Planar) -> list[Run]:
+    """Taylor series of high order, compiled for each tolerance."""
+    length, radian = float(case.scales[0]), 1 / case.scene.speed
+    units, found = np.ones(4 + 2 * r.n), []
+    units[:2], units[2:4], units[4 + r.n :] = length, length / radian, 1 / radian
+    start = np.array(case.equations.initial) / units
+
+    for tolerance in HEYOKA:
+        solve = heyoka_solver(in_units(r, length, radian), tolerance, case.moments / radian)
+
+        def go(solve: Any = solve) -> tuple[Array, int]:
+            states, evaluations = solve(start)
+            return _rows(case, states * units[:, None]), evaluations
+
+        found.append(Run("heyoka", tolerance, go))
+    return found
+
+
 def mujoco_runs(case: Case, r: Planar) -> list[Run]:
     """Two integrators of MuJoCo at constant steps; `setting` is steps per revolution."""
     turns = case.scene.duration / case.scene.revolution / (len(case.moments) - 1)
@@ -166,6 +186,7 @@ def study(case: Case) -> dict[str, Any] | None:
         return None
     runs = own_runs(case) + script_runs(case, r, implicit=case.name == PICTURED)
     runs += diffrax_runs(case, r) if installed("diffrax") else []
+    runs += heyoka_runs(case, r) if installed("heyoka") else []
     runs += mujoco_runs(case, r) if installed("mujoco") else []
     reference, apart = case.reference()
     points = measure(runs, reference, case.scales, SEED)
@@ -185,7 +206,7 @@ def verdict(points: Sequence[Point], target: float) -> dict[str, Any]:
     def quickest(*starts: str) -> tuple[float, str] | None:
         return best(points, [name for name in everybody if name.startswith(starts)], target)
 
-    heyoka, ours = quickest("abu-calc heyoka"), quickest("abu-calc scipy")
+    loop, ours = quickest("abu-calc compiled"), quickest("abu-calc scipy")
     scripts, arrays = quickest("solve_ivp", "odeint", "ode "), quickest("arrays")
 
     def over(one: tuple[float, str] | None, other: tuple[float, str] | None) -> float | None:
@@ -195,12 +216,13 @@ def verdict(points: Sequence[Point], target: float) -> dict[str, Any]:
         "error": target,
         "seconds": {name: measuring.time_at(points, name, target) for name in everybody},
         "best_script": scripts and scripts[1],
-        "heyoka is quicker than": {
-            "the best script": over(scripts, heyoka),
-            "the best script by arrays": over(arrays, heyoka),
-            "abu-calc with SciPy": over(ours, heyoka),
-            "diffrax": over(quickest("diffrax"), heyoka),
-            "MuJoCo": over(quickest("MuJoCo"), heyoka),
+        "the loop is quicker than": {
+            "the best script": over(scripts, loop),
+            "the best script by arrays": over(arrays, loop),
+            "abu-calc with SciPy": over(ours, loop),
+            "diffrax": over(quickest("diffrax"), loop),
+            "MuJoCo": over(quickest("MuJoCo"), loop),
+            "heyoka": over(quickest("heyoka"), loop),
         },
         "abu-calc with SciPy is slower than": {
             "the best script": over(ours, scripts),

@@ -1,9 +1,10 @@
-"""What each digit costs in a scene that switches, how much of it evaluations explain, and what compiling costs.
+"""What each digit costs in a scene that switches, with and without its events, and what compiling costs.
 
     python -m tests.benchmarks.price
 
-The first part is CPU time of the integration alone, in compiled code, the best of 25; evaluations explain their number
-times what one costs by itself. The second runs whole processes with an empty folder for compiled code, then again.
+The first two parts are CPU time of the integration alone, in compiled code, the best of 25, with all effects and with
+the smooth ones; evaluations explain their number times what one costs by itself. The third runs whole processes with an
+empty folder for compiled code, then again.
 """
 
 import json
@@ -17,9 +18,13 @@ from typing import Any
 import numpy as np
 
 from abu_calc.analysis.response import needed_times
+from abu_calc.dynamics.equations.assemble import Equations
+from abu_calc.dynamics.integrators.choice import loop_method
+from abu_calc.dynamics.integrators.compiled.kernels import METHODS
 from abu_calc.dynamics.integrators.compiled.order import in_order
-from abu_calc.dynamics.integrators.compiled.run import STAGES, _Run
+from abu_calc.dynamics.integrators.compiled.run import _Run
 from tests.benchmarks.bare import evaluation_times
+from tests.benchmarks.cases import smooth
 from tests.benchmarks.measuring import keep, machine
 from tests.benchmarks.switching_run import MOST, equations_of
 
@@ -38,15 +43,14 @@ from abu_calc.dynamics.integrators.compiled.order import in_order
 from abu_calc.dynamics.integrators.compiled.run import prepared
 equations, _ = in_order(assemble(scene(4)))
 ready = time.perf_counter()
-prepared(equations)
+prepared(equations, "rk45")
 print(json.dumps([imported - begun, time.perf_counter() - ready]))
 """
 """Seconds that the library's import takes, then those until code for four balls with friction and contact is ready."""
 
 
-def prices() -> list[dict[str, Any]]:
+def prices(equations: Equations) -> list[dict[str, Any]]:
     """A line for each tolerance."""
-    equations = equations_of(PRESET, SCENE)
     moments, (ordered, places) = needed_times(equations.scene), in_order(equations)
     rates, watched = evaluation_times(equations)
     rows = []
@@ -54,14 +58,15 @@ def prices() -> list[dict[str, Any]]:
         spent = []
         for _ in range(REPEATS):
             begun = time.process_time()
-            run = _Run(ordered, tolerance, moments, MOST, given=np.argsort(places), compiled=True)
+            method = loop_method(equations, tolerance)
+            run = _Run(ordered, tolerance, moments, MOST, given=np.argsort(places), compiled=True, method=method)
             found = run.trajectory()
             spent.append(time.process_time() - begun)
-        own = (STAGES - 1) * found.steps
+        own = (METHODS[method].STAGES - 1) * found.steps
         explained = own * rates + (found.evaluations - own) * watched
         rows.append({
             "tolerance": tolerance, "cpu_s": min(spent), "evaluations": found.evaluations, "steps": found.steps,
-            "events": found.events, "explained": explained / min(spent),
+            "events": found.events, "integrator": found.integrator, "explained": explained / min(spent),
         })  # fmt: skip
         print(f"{tolerance:7g} {1e3 * min(spent):7.2f} ms  {found.evaluations} evaluations, {found.events} events; "
               f"evaluations alone {100 * explained / min(spent):.0f} %", flush=True)  # fmt: skip
@@ -87,8 +92,12 @@ def compiling() -> list[dict[str, float]]:
 
 def main() -> None:
     """Print both, and keep the record."""
-    cases = {f"{PRESET} {SCENE}": prices(), "compiling for four balls with friction and contact": compiling()}
-    what = "what each digit costs in a scene that switches, and what compiling costs"
+    equations = equations_of(PRESET, SCENE)
+    cases = {
+        f"{PRESET} {SCENE}": prices(equations), f"{PRESET} {SCENE}, smooth": prices(smooth(PRESET).equations),
+        "compiling for four balls with friction and contact": compiling(),
+    }  # fmt: skip
+    what = "what each digit costs in a scene that switches and in a smooth one, and what compiling costs"
     print(keep("price", what, "python -m tests.benchmarks.price", machine("not bound"), 0, cases))
 
 

@@ -65,7 +65,7 @@ def main() -> None:
     }
     if asked.cluster:
         ways["Dask, two workers, fewer"] = lambda folder: _dask(asked.others, folder)
-    found: dict[str, Any] = {"machine": _machine(), "versions": versions("llvmlite", "heyoka", "distributed")}
+    found: dict[str, Any] = {"machine": _machine(), "versions": versions("llvmlite", "distributed")}
     for name, way in ways.items():
         with tempfile.TemporaryDirectory() as folder:
             load = os.getloadavg()[0]

@@ -3,7 +3,7 @@
     python -m tests.benchmarks.switching [PYTHON OF AN ENVIRONMENT WITH THE OLDER VERSION]
 
 Both versions run in turn, each in processes of its own, with all effects. Times are CPU times of the integration alone,
-the best of a few; errors are `difference` from heyoka (where there is none, compiled code) at its tightest.
+the best of a few; errors are `difference` from compiled code of order 8 at its tightest.
 """
 
 import json
@@ -30,6 +30,8 @@ CASES = (
     ("msh-230", "idle"),
     ("avtovaz-707-370", "idle"),
 )
+OLD_WAYS = ("compiled-rk45", "plain-rk45")
+WAYS = (*OLD_WAYS, "compiled-dop853", "scipy-dop853")
 TOLERANCES = ("1e-3", "5e-4", "2e-4", "1e-4", "1e-5", "1e-6", "1e-8")
 OLDER = ("1e-2", "1e-3", "1e-4")
 ERROR = 1e-3
@@ -42,19 +44,18 @@ def main() -> None:
     for preset, which in CASES:
         equations = equations_of(preset, which)
         scene, moments = equations.scene, needed_times(equations.scene)
-        ways = [name for name in choice.available(equations) if name in (choice.COMPILED, choice.PLAIN, "heyoka")]
-        run = choice.integrate_with(ways[-1], equations, 1e-12 if ways[-1] == "heyoka" else 1e-11, moments, MOST)
+        run = choice.integrate_with("compiled-dop853", equations, 1e-11, moments, MOST)
         true, rows = evaluate(scene, run), {}
-        for python, way in [*((one, way) for one in older for way in ("heyoka", "scipy-dop853")),
-                            *((sys.executable, way) for way in (*ways, "scipy-dop853"))]:  # fmt: skip
+        for python, way in [*((python, way) for python in older for way in OLD_WAYS),
+                            *((sys.executable, way) for way in WAYS)]:  # fmt: skip
             name = way if python == sys.executable else f"older {way}"
-            few = TOLERANCES if way in (choice.COMPILED, choice.PLAIN) else OLDER
+            few = TOLERANCES if way in choice.LOOP else OLDER
             rows[name] = measured(python, preset, which, way, few, scene, moments, true)
             report(preset, which, name, rows[name])
         cases[f"{preset} {which}"] = {"runs": rows, "at_error": ERROR, "times_faster": compared(rows)}
         print(f"  times faster at {ERROR:g}: {cases[f'{preset} {which}']['times_faster']}", flush=True)
     command = "python -m tests.benchmarks.switching" + (" PYTHON" if older else "")
-    what = "CPU time of the integration alone, best of a few, with all effects; the older version is commit b440fd9"
+    what = "CPU time of the integration alone, best of a few, with all effects; the older version is commit efa2aaf"
     print(keep("switching", what, command, machine("not bound"), 0, cases))
 
 
@@ -80,13 +81,12 @@ def at_error(rows: list[dict[str, Any]]) -> float | None:
 
 
 def compared(rows: dict[str, list[dict[str, Any]]]) -> dict[str, float]:
-    """How many times faster than the older version: with the extra than with it, without than without."""
-    pairs = ((choice.COMPILED, "older heyoka"), (choice.PLAIN, "older scipy-dop853"))
+    """How many times faster than the older version, each way than itself."""
     found = {}
-    for new, old in pairs:
-        ours, theirs = (at_error(rows.get(name, [])) for name in (new, old))
+    for way in OLD_WAYS:
+        ours, theirs = (at_error(rows.get(name, [])) for name in (way, f"older {way}"))
         if ours and theirs:
-            found[f"{new} / {old}"] = round(theirs / ours, 1)
+            found[way] = round(theirs / ours, 2)
     return found
 
 

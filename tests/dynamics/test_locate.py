@@ -42,6 +42,7 @@ def both(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> tuple[Trajectory, Tra
     """As it is and with all numbers looked at: the same to the last bit."""
     found = through(scene)
     monkeypatch.setattr(locate, "moving", lambda lay, before, after: lay[WATCHED])
+    monkeypatch.setattr(run, "_written", {})  # loops of the functions as they were
     every = through(scene)
     assert np.array_equal(found.y, every.y)
     assert (found.events, found.steps) == (every.events, every.steps)

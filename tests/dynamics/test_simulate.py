@@ -184,7 +184,7 @@ def test_straight_grinder_settles_as_known():
     assert response.axis_amplitude < 1e-3 * response.unbalanced_amplitude
     # m₀e/M without the balls, for a speed far above the suspension: 256 g·mm/6.333 kg.
     assert response.unbalanced_amplitude == pytest.approx(256e-6 / 6.333088, rel=1e-3)
-    assert cost.evaluations < 12_000
+    assert cost.evaluations < 14_000
     assert simulation.error_estimate <= 0.01
     assert simulation.warnings == ()
 
