@@ -17,7 +17,7 @@ from abu_calc.cli.signals import INTERRUPTED
 from abu_calc.report.explain import explanation_blocks
 from abu_calc.report.numbers import number
 from abu_calc.sizing import size as size_design
-from tests.cli.runner import abu, again, once, without_extras
+from tests.cli.runner import abu, again, once
 from tests.remembered import recalled
 from tests.sizing.machines import BASE
 from tests.sizing.test_properties import machines
@@ -337,7 +337,6 @@ def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(machine, "WORK", 1_000)  # what takes more is a check not done, an answer too
         patch.setattr(ensemble, "WORK", 100)
-        without_extras(patch)
         seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
     document = seen.document
     assert seen.status in (0, 1, 2, 3) and "bug" not in seen.err
