@@ -200,10 +200,10 @@ def integrate_with(name: str, equations: Equations, tolerance: float, sample_tim
 
 
 def verifiers(equations: Equations, accuracy: float) -> tuple[tuple[str, float], tuple[str, float]]:
-    """Two integrators of different kinds, each with a tolerance tight for that accuracy, to hold against each other."""
+    """Two integrators of different kinds, each with a tolerance tight for that accuracy; the second is the better one."""
     tight = min(max(1e-5 * accuracy, 1e-11), 1e-7)
     own = [name for name in available(equations) if name in LOOP]
     if watches(equations):
         # LSODA interpolates too loosely for events; its steps are cheap where there are none.
         return (own[1] if own else "scipy-rk45", tight), ("scipy-dop853", tight / 10)
-    return (own[0] if own else "scipy-dop853", tight / 10), ("scipy-lsoda", tight)
+    return ("scipy-lsoda", tight), (own[0] if own else "scipy-dop853", tight / 10)
