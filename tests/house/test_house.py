@@ -57,8 +57,8 @@ def test_light_commands_load_no_numerics() -> None:
 
 def test_size_loads_only_what_it_needs() -> None:
     (modules,) = _loaded_modules(("size", "msh-230", "--json"))
-    assert {"scipy", "numpy"} <= modules
-    assert not modules & {"matplotlib", "jsonschema", "tomlkit", "pandas"}
+    assert "numpy" in modules
+    assert not modules & {"scipy", "matplotlib", "jsonschema", "tomlkit", "pandas", "multiprocessing"}
 
 
 def _public(body: list[ast.stmt]) -> list[ast.FunctionDef | ast.ClassDef]:
