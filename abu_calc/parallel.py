@@ -1,6 +1,7 @@
 """The same work on many things, side by side on all processors; the outcome does not depend on how many there are."""
 
 import os
+import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
@@ -9,6 +10,9 @@ from importlib import import_module
 from typing import Any, Self, TypeVar
 
 T = TypeVar("T")
+
+LONG = 0.05
+"""Processor time [s] of a task that is worth threads: most of a shorter one holds the interpreter."""
 
 
 @dataclass(eq=False)
@@ -76,15 +80,19 @@ def side_by_side(
     """What the work gives for each task, in their order, as it is asked for; `told` how many are done.
 
     Without workers one after the other. Who asks for no more ends what has not begun. Threads begin when the first task
-    is done, so that what all need is made once.
+    is done, so that what all need is made once, and a task has taken `LONG`: short ones only wait for each other.
     """
-    helpers = several(workers, len(tasks))
-    alone = len(tasks) if helpers is None else 0 if helpers.processes else 1
-    for done, task in enumerate(tasks[:alone], 1):
-        found = work(*task)
-        told(done)
+    helpers, alone = several(workers, len(tasks)), 0
+    while alone < len(tasks) and (helpers is None or not helpers.processes):
+        begun = time.thread_time()
+        found = work(*tasks[alone])
+        long = time.thread_time() - begun >= LONG
+        alone += 1
+        told(alone)
         yield found
-    if helpers is None:
+        if helpers is not None and long:
+            break
+    if helpers is None or alone == len(tasks):
         return
     with helpers.running() as executor:
         futures = [executor.submit(work, *task) for task in tasks[alone:]]

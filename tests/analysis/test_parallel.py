@@ -11,6 +11,11 @@ from abu_calc.parallel import Workers, several, side_by_side
 TASKS = [(k,) for k in range(12)]
 
 
+@pytest.fixture(autouse=True)
+def _every_task_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("abu_calc.parallel.LONG", 0.0)
+
+
 def _nothing(done: int) -> None:
     pass
 
@@ -69,3 +74,10 @@ def test_few_tasks_wait_for_nobody_to_begin() -> None:
         list(side_by_side(lambda k: k, TASKS, workers, _nothing))
         assert several(workers, 1) is workers
     assert several(workers, 2) is None
+
+
+def test_short_tasks_are_done_one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the thread that asks for them."""
+    monkeypatch.setattr("abu_calc.parallel.LONG", 60.0)
+    found = side_by_side(lambda _: threading.get_ident(), TASKS, Workers(3), _nothing)
+    assert set(found) == {threading.get_ident()}
