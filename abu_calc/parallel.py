@@ -4,14 +4,15 @@ Compiled code lets go of the interpreter, so its runs go side by side. Plain Pyt
 """
 
 import os
+import time
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import Any, TypeVar
 
 T = TypeVar("T")
 
-LEAST_TASKS = 3
-"""So many tasks are worth the start of threads."""
+LONG = 0.05
+"""Processor time [s] of a task that is worth threads: most of a shorter one holds the interpreter."""
 
 
 def processors() -> int:
@@ -25,12 +26,15 @@ def side_by_side(
     """What the work gives for each task, in their order, as it is asked for; `told` how many are done.
 
     By one worker one after the other. Who asks for no more ends what has not begun. Threads begin when the first task
-    is done, so that what all need is made once.
+    is done, so that what all need is made once, and when a task has taken `LONG`: short ones only wait for each other.
     """
-    alone = len(tasks) if workers == 1 or len(tasks) < LEAST_TASKS else 1
-    for done, task in enumerate(tasks[:alone], 1):
-        outcome = work(*task)
-        told(done)
+    alone, long = 0, False
+    while alone < len(tasks) and not (workers > 1 and long):
+        begun = time.thread_time()
+        outcome = work(*tasks[alone])
+        long = time.thread_time() - begun >= LONG
+        alone += 1
+        told(alone)
         yield outcome
     if alone == len(tasks):
         return

@@ -7,7 +7,7 @@ from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.errors import NotTrustworthyError
-from abu_calc.parallel import LEAST_TASKS, side_by_side
+from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
@@ -42,7 +42,7 @@ def simulated(
 ) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:  # fmt: skip
     """All of them, or those of some names, each within the work that `abu size` may take."""
     names = scenes_of(design) if names is None else names
-    alone = workers == 1 or len(names) < LEAST_TASKS
+    alone = workers == 1 or len(names) == 1
     watched = progress if alone else silent  # of those side by side, each on its own
     tasks = [(design, name, accuracy, watched) for name in names]
 

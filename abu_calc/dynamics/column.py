@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
+
+NUMBER = (float, int, complex)
 
 
 class Column:
@@ -43,10 +45,10 @@ def _operations(operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
     def right(self: Column, other: Any) -> Any:
         if isinstance(other, Column):
             return Column(operation(self.values, other.values))
-        return Column(operation(self.values, other)) if isinstance(other, float | int) else NotImplemented
+        return Column(operation(self.values, other)) if isinstance(other, NUMBER) else NotImplemented
 
     def left(self: Column, other: Any) -> Any:
-        return Column(operation(other, self.values)) if isinstance(other, float | int) else NotImplemented
+        return Column(operation(other, self.values)) if isinstance(other, NUMBER) else NotImplemented
 
     return right, left
 
@@ -68,10 +70,10 @@ def at_samples(function: Callable[..., Any], *numbers: Array, at_once: bool = Tr
     count = numbers[0].shape[-1]
     if not at_once:
         single = [function(*(each[..., k] for each in numbers)) for k in range(count)]
-        return np.stack([np.asarray(one, dtype=float) for one in single], axis=-1)
+        return np.stack([np.asarray(one) for one in single], axis=-1)
     made = function(*map(_column, numbers))
     rows = [one.values if isinstance(one, Column) else one for one in np.atleast_1d(np.asarray(made, dtype=object))]
-    found = np.array([np.broadcast_to(row, count) for row in rows], dtype=float)
+    found = np.array([np.broadcast_to(row, count) for row in rows])
     return found[0] if np.ndim(made) == 0 else found
 
 

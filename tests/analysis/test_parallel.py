@@ -6,9 +6,14 @@ from itertools import islice
 
 import pytest
 
-from abu_calc.parallel import LEAST_TASKS, side_by_side
+from abu_calc.parallel import side_by_side
 
 TASKS = [(k,) for k in range(12)]
+
+
+@pytest.fixture(autouse=True)
+def _every_task_is_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("abu_calc.parallel.LONG", 0.0)
 
 
 def _nothing(done: int) -> None:
@@ -60,12 +65,8 @@ def test_errors_come_where_the_answer_would() -> None:
         next(answers)
 
 
-def test_few_tasks_are_not_worth_threads() -> None:
-    """They run where they are asked for."""
-
-    def work(k: int) -> int:
-        return threading.get_ident()
-
-    here = threading.get_ident()
-    assert set(side_by_side(work, TASKS[: LEAST_TASKS - 1], 2, _nothing)) == {here}
-    assert len(set(side_by_side(work, TASKS, 2, _nothing)) - {here}) > 0
+def test_short_tasks_are_done_one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the thread that asks for them."""
+    monkeypatch.setattr("abu_calc.parallel.LONG", 60.0)
+    threads = side_by_side(lambda _: threading.get_ident(), TASKS, 3, _nothing)
+    assert set(threads) == {threading.get_ident()}

@@ -25,8 +25,9 @@ from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.suspension import dynamic_stiffness
+from abu_calc.scenes.durations import lasting
 from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, idle_scene, scene_of_design
-from abu_calc.scenes.from_scene import lasting, scene_from
+from abu_calc.scenes.from_scene import scene_from
 from abu_calc.sizing import Design, size
 from abu_calc.spec import presets
 from abu_calc.spec.read import Machine

@@ -58,7 +58,7 @@ def test_light_commands_load_no_numerics() -> None:
 def test_size_loads_only_what_it_needs() -> None:
     (modules,) = _loaded_modules(("size", "msh-230", "--json"))
     assert {"llvmlite", "numpy"} <= modules
-    assert not modules & {"scipy", "matplotlib", "jsonschema", "tomlkit", "pandas"}
+    assert not modules & {"scipy", "matplotlib", "jsonschema", "tomlkit", "pandas", "multiprocessing"}
 
 
 def _public(body: list[ast.stmt]) -> list[ast.FunctionDef | ast.ClassDef]:

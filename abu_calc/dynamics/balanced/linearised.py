@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.balanced import floquet
 from abu_calc.dynamics.balanced.blocks import diagonal, span_of
 from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.equations.jacobian import jacobians
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.tracing.lanes import jacobians
 from abu_calc.errors import NotTrustworthyError
 
 Array = NDArray[np.float64]
@@ -281,7 +281,7 @@ class BalancedMotion:
             B[:, :size, :size] = B[:, size : 2 * size, size : 2 * size] = turn
             B[:, size : 2 * size, :size] = spin @ turn
             spun[:size, :size] = spun[size : 2 * size, size : 2 * size] = spin
-            matrices = np.linalg.solve(B, matrices @ B - spun @ B)
+            matrices = np.asarray(np.linalg.solve(B, matrices @ B - spun @ B), dtype=float)
         scaled = matrices * self.scales / self.scales[:, None] / speed
         counted = diagonal(np.eye(2 * size), self.basis @ self.held, self.basis)
         return np.asarray(counted.T @ scaled @ counted, dtype=float)

@@ -5,23 +5,33 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.dynamics.column import at_samples
 from abu_calc.dynamics.equations.assemble import Equations
+
+Array = NDArray[np.float64]
 
 STEP = 1e-100
 """An imaginary step cancels nothing, so it may be so small that its square is nothing."""
 
 
-def jacobian(
-    equations: Equations, t: float, y: NDArray[np.float64], modes: tuple[Any, ...] | None = None
-) -> NDArray[np.float64]:
-    """∂(rhs)/∂y at (t, y) by the complex step, exact to rounding (Squire & Trapp 1998, SIAM Review 40(1)).
+def jacobian(equations: Equations, t: float, y: Array, modes: tuple[Any, ...] | None = None) -> Array:
+    """∂(rhs)/∂y at (t, y), in the first modes unless others are given; see `jacobians`."""
+    found: Array = jacobians(equations, np.array([t]), np.array([y]), modes)[0]
+    return found
 
-    J[i, j] = Im rhs_i(y + i·h·e_j)/h.
+
+def jacobians(equations: Equations, times: Array, states: Array, modes: tuple[Any, ...] | None = None) -> Array:
+    """∂(rhs)/∂y, [time, row, column], at these times and the state of each, exact to rounding.
+
+    By the complex step J[i, j] = Im rhs_i(y + i·h·e_j)/h (Squire & Trapp 1998, SIAM Review 40(1)), all times and all
+    directions at once.
     """
-    acting = equations.acting if modes is None else equations.in_mode(modes)
-    columns = np.empty((len(y), len(y)))
-    for j in range(len(y)):
-        moved = np.array(y, dtype=complex)
-        moved[j] += 1j * STEP
-        columns[:, j] = equations.rhs(np, t, moved, acting).imag / STEP
-    return columns
+    acting, size = equations.acting if modes is None else equations.in_mode(modes), states.shape[1]
+    moved = states.T[:, :, None] + 1j * STEP * np.eye(size)[:, None, :]
+
+    def rates(t: Any, y: Any) -> Any:
+        return equations.rhs(np, t, y, acting)
+
+    every = np.repeat(times, size), moved.reshape(size, -1)
+    found = at_samples(rates, *every, at_once=equations.parameters.traceable)
+    return np.asarray(np.imag(found).reshape(moved.shape).transpose(1, 0, 2) / STEP, dtype=float)

@@ -1,5 +1,7 @@
 """The steady motion of the support without balls, and what amplitudes are compared with."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,16 +28,24 @@ def unbalanced_amplitude(scene: Circumstances, imbalance: float | None = None) -
     Re{(X, Y) e^{iΩt}} is an ellipse whose larger semi-axis is (|X + iY| + |X − iY|)/2. Raises InputError at a resonance
     that nothing damps.
     """
-    motion = scene.support.small_motion(scene.speed)
-    if motion.left_of_stiffness(scene.speed) < RESONANCE:
-        raise undamped_resonance(scene.speed)
+    h = _damped(scene.support, scene.speed)
     imbalances = [scene.imbalance * np.exp(1j * scene.imbalance_angle), scene.couple * np.exp(1j * scene.couple_angle)]
     if imbalance is not None:
         imbalances = [complex(imbalance), 0j]
-    h = motion.receptance(scene.speed)
     forces = np.concatenate([each * np.array((1, -1j)) for each in imbalances])[: len(h)]
     X, Y, *_ = (h @ forces * scene.speed**2).tolist()
     return float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2
+
+
+@lru_cache(maxsize=64)
+def _damped(support: Support, speed: float) -> NDArray[np.complex128]:
+    """`receptance`, not even near such a resonance; many scenes of a machine have the same."""
+    motion = support.small_motion(speed)
+    if motion.left_of_stiffness(speed) < RESONANCE:
+        raise undamped_resonance(speed)
+    h = motion.receptance(speed)
+    h.flags.writeable = False
+    return h
 
 
 def reference_imbalance(scene: Circumstances) -> float:
