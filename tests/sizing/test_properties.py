@@ -85,7 +85,7 @@ def _numbers(value: Any) -> list[float]:
 
 
 @given(machines())
-@settings(RANDOM, max_examples=6)
+@settings(RANDOM, max_examples=3)
 def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
     _check_sized(changes)
 
