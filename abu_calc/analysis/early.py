@@ -12,7 +12,7 @@ from abu_calc.analysis.course import SAMPLES_PER_REVOLUTION, Course, settling_ti
 from abu_calc.analysis.response import Response, amplitude_window, axis_velocity, evaluate, needed_times
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance
-from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Until
+from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Until, merged
 
 LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
 """Shares of the time at full speed after which a run may end."""
@@ -49,17 +49,22 @@ class Early:
     def sampling(self) -> Sampling:
         """With what must be known of a run that ends early."""
         windows = [amplitude_window(replace(self.scene, duration=one)).times for one in self.looks]
-        times = np.unique(np.concatenate([needed_times(self.scene), *windows]))
-        return Sampling(times, until=Until(self.looks, self.enough))
+        return Sampling(merged(needed_times(self.scene), *windows), until=Until(self.looks, self.enough))
 
     def response(self, samples: Samples, creep: float = 0.0) -> Response:
         """Of a run that ended where it might, settled where what is left may yet go down by `creep` [kg m]."""
         end = float(samples.t[-1])
         if end == self.scene.duration:
             return evaluate(self.scene, samples, creep=creep)
-        course = Course(self.scene)
-        course(samples)
-        return evaluate(replace(self.scene, duration=end), samples, course.until(end), creep)
+        if end not in self._courses:
+            self._courses[end] = Course(self.scene)
+            self._courses[end](samples)
+        return evaluate(replace(self.scene, duration=end), samples, self._courses[end].until(end), creep)
+
+    @cached_property
+    def _courses(self) -> dict[float, Course]:
+        """What was read of a run that might end at each of these times."""
+        return {}
 
     def enough(self, samples: Samples) -> bool:
         """Whether nothing will change what is judged."""

@@ -19,7 +19,7 @@ from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
-from abu_calc.parallel import Workers, side_by_side
+from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
 from abu_calc.scenes.members import DRAGS, Member, full_speed_at, members, scene_of_member
 from abu_calc.sizing.design import Design
@@ -51,7 +51,7 @@ class StartRun(NamedTuple):
 
 
 def simulate_members(
-    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None,
+    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1,
     shares: tuple[float, ...] = DRAGS, doubtful: float | None = None,
 ) -> Ensemble:  # fmt: skip
     """Every start once, at these shares of the drag given.
@@ -116,7 +116,7 @@ def _decided(
 
 
 def _found(
-    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: Workers | None
+    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int
 ) -> list[Outcome | Lost]:
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(one, True) for one in starts if one.drag == design.case.drag]
@@ -130,7 +130,7 @@ def _found(
 
 def _all(
     design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
-    workers: Workers | None,
+    workers: int,
 ) -> Generator[Outcome | Lost, None, None]:  # fmt: skip
     """Each start once, and whether it may end early."""
     tasks = [(design, one, accuracy, tolerance, WORK, early_end) for one, early_end in starts]

@@ -7,7 +7,7 @@ from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.errors import NotTrustworthyError
-from abu_calc.parallel import Workers, several, side_by_side
+from abu_calc.parallel import LEAST_TASKS, side_by_side
 from abu_calc.progress import Progress, Stage, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
@@ -38,19 +38,19 @@ def scenes_of(design: Design) -> tuple[str, ...]:
 
 def simulated(
     design: Design, accuracy: float, progress: Progress = silent, names: Sequence[str] | None = None,
-    workers: Workers | None = None,
+    workers: int = 1,
 ) -> tuple[tuple[Run, ...], tuple[Failure, ...]]:  # fmt: skip
     """All of them, or those of some names, each within the work that `abu size` may take."""
     names = scenes_of(design) if names is None else names
-    helpers = several(workers, len(names)) if len(names) > 1 else None
-    watched = progress if helpers is None else silent  # of those side by side, each on its own
+    alone = workers == 1 or len(names) < LEAST_TASKS
+    watched = progress if alone else silent  # of those side by side, each on its own
     tasks = [(design, name, accuracy, watched) for name in names]
 
     def told(done: int) -> None:
         if watched is silent:
             progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
 
-    found = list(side_by_side(_simulated, tasks, helpers, told))
+    found = list(side_by_side(_simulated, tasks, workers, told))
     return tuple(one for one in found if isinstance(one, Run)), tuple(one for one in found if isinstance(one, Failure))
 
 

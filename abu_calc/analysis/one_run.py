@@ -17,6 +17,8 @@ HELD: Final = frozenset({"idle", "run-up", "grinding"})
 """Scenes of a machine that is held where its handles are; on a swing arm it is not."""
 LIMITED: Final = frozenset({"idle", "run-up"})
 """Scenes that the limits of a file are for; under load a level is information."""
+Level = Callable[[float], float]
+"""Of a velocity of the axis, rms [m/s], the level [dB]."""
 LAST: Final = 0.95
 """Share of a run by which balls must have settled to count as settled."""
 TRIES: Final = "abu size tries what helps."
@@ -36,35 +38,43 @@ def levels_at_places(design: Design, response: Response) -> tuple[PlaceLevel, ..
     What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
     background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
     """
-    if response.scene not in HELD:
-        return ()
+    held = _held(design) if response.scene in HELD else []
+    return tuple(PlaceLevel(name, level(response.velocity_rms)) for name, level in held)
+
+
+def _held(design: Design) -> list[tuple[str, Level]]:
+    """The level at each place where the machine is held, of a velocity."""
     case = design.case
     places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    return tuple(PlaceLevel(name, level_at(design, response, place)) for name, place in places)
+    return [(name, _level_of(design, place)) for name, place in places]
 
 
-def loudest(design: Design, response: Response) -> Callable[[float], float]:
-    """Of a velocity of the axis, rms [m/s], the level [dB] at the loudest place where the machine is held.
+def loudest(design: Design, response: Response) -> Level:
+    """The level at the loudest place where the machine is held, of a velocity.
 
     On a swing arm, where it is not, that on the axis.
     """
-
-    def level(velocity: float) -> float:
-        places = levels_at_places(design, replace(response, velocity_rms=velocity))
-        return max((one.level for one in places), default=level_from_velocity(velocity))
-
-    return level
+    levels = [level for _, level in _held(design)] if response.scene in HELD else [level_from_velocity]
+    return lambda velocity: max(level(velocity) for level in levels)
 
 
 def level_at(design: Design, response: Response, place: float) -> float:
     """The level [dB] at a place [m] from the centre of mass, as `levels_at_places`."""
+    return _level_of(design, place)(response.velocity_rms)
+
+
+def _level_of(design: Design, place: float) -> Level:
     case, added = design.case, design.autobalancer.mass
     body, race = case.body, case.race_place
-    swing = math.sqrt(2) * response.velocity_rms / case.speed / body.inertance(race, race, added)
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
-    at_race, at_wheel = body.inertance(place, race, added), body.inertance(place, body.wheel, added)
-    displacement = math.hypot(swing * at_race, imbalance * at_wheel - balls * at_race)
-    return displacement_level(displacement, case.speed, case.background_level)
+    held, at_race = body.inertance(race, race, added), body.inertance(place, race, added)
+    beside = imbalance * body.inertance(place, body.wheel, added) - balls * at_race
+
+    def level(velocity: float) -> float:
+        swing = math.sqrt(2) * velocity / case.speed / held
+        return displacement_level(math.hypot(swing * at_race, beside), case.speed, case.background_level)
+
+    return level
 
 
 def one_run_checks(

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from abu_calc.analysis.ensemble import simulate_members
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.remedies import passes, remedy
-from abu_calc.parallel import Workers
 from abu_calc.progress import Progress, silent, within
 from abu_calc.sizing import instead
 from abu_calc.sizing.balls import Candidate, sound
@@ -26,9 +25,7 @@ class Proven:
     warnings: tuple[str, ...] = ()
 
 
-def proven(
-    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: Workers | None = None
-) -> Proven:
+def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1) -> Proven:
     """The best candidate if it passes from every start at the drag given, else the next one that does.
 
     If none does, the best one, with the first change that would make it pass.

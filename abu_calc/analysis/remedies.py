@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from abu_calc.analysis.ensemble import simulate_members
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.formulas.suspension import Springs
-from abu_calc.parallel import Workers
 from abu_calc.progress import Progress, within
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp
@@ -37,9 +36,7 @@ class Change:
     designs: tuple[Design, ...]
 
 
-def remedy(
-    design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: Workers | None
-) -> str | None:
+def remedy(design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: int) -> str | None:
     """The first change with which every start at the drag given passes; else all that were tried without success.
 
     `first`: the starts of the design as it is; `most`: evaluations that all trials may take, None where it is none.

@@ -4,12 +4,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import Polynomial
 
 from abu_calc.analysis.course import Course, axis_place, settling_times, total_imbalance
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
-from abu_calc.dynamics.trajectory import Array, Samples, Sampling
+from abu_calc.dynamics.trajectory import Array, Samples, Sampling, merged
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.units import level_from_velocity
 
@@ -21,6 +20,11 @@ BLOCK = 2**16
 
 HELD = 2**22
 """Numbers in a trajectory that holds every sample."""
+
+QUARTIC = np.array(
+    ((1, -4, 6, -4, 1), (-2, 4, 0, -4, 2), (-1, 16, -30, 16, -1), (2, -16, 0, 16, -2), (0, 0, 24, 0, 0))
+) / 24  # fmt: skip
+"""Coefficients, the highest first, of the quartic through five values at −2 … 2."""
 
 BEGINNING = 20_000
 """Samples of the beginning of a longer run that stay."""
@@ -91,7 +95,7 @@ def amplitude_window(scene: Scene) -> Window:
 
 def needed_times(scene: Scene) -> Array:
     """All times [s] a trajectory must be sampled at to be evaluated."""
-    return np.union1d(settling_times(scene), amplitude_window(scene).times)
+    return merged(settling_times(scene), amplitude_window(scene).times)
 
 
 def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
@@ -99,10 +103,9 @@ def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
     beginning, what is wanted and the amplitude window stay, and results have to be read as they go on, by a course.
     """
     wanted = np.empty(0) if wanted is None else wanted
-    times = np.union1d(needed_times(scene), wanted)
+    times = merged(needed_times(scene), wanted)
     whole = len(times) * scene.state_count <= HELD
-    held = np.union1d(amplitude_window(scene).times, np.union1d(wanted, beginning(scene)))
-    return Sampling(times, None if whole else held)
+    return Sampling(times, None if whole else merged(amplitude_window(scene).times, wanted, beginning(scene)))
 
 
 def beginning(scene: Scene) -> Array:
@@ -227,7 +230,7 @@ def _largest_radius(place: Array, middle: Array) -> float:
     largest = max(squares)
     top = tops[squares.index(largest)]
     if 2 < top < count - 2 and largest > 0:
-        near = Polynomial.fit(np.arange(-2, 3), _squares(place, middle, top - 2, 5) / largest, 4)
-        crests = [root.real for root in near.deriv().roots().tolist() if root.imag == 0 and abs(root.real) <= 1]
-        largest *= max([1.0, *near(np.array(crests)).tolist()])
+        near = QUARTIC @ (_squares(place, middle, top - 2, 5) / largest)
+        crests = [root.real for root in np.roots(np.polyder(near)).tolist() if root.imag == 0 and abs(root.real) <= 1]
+        largest *= max([1.0, *np.polyval(near, crests).tolist()])
     return math.sqrt(largest)

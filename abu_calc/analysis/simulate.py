@@ -22,7 +22,7 @@ from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas import motion
 from abu_calc.progress import Progress, share_of, silent
-from abu_calc.scenes.from_scene import lasting
+from abu_calc.scenes.durations import lasting
 
 ACCURACY = motion.ACCURACY
 

@@ -100,6 +100,11 @@ class Parameters:
     effects: tuple[Any, ...]
     """Those of the scene, whose own numbers are read too."""
 
+    @property
+    def traceable(self) -> bool:
+        """Whether the equations are plain arithmetic, which other things than numbers can go through."""
+        return all(effect.traceable for effect in self.effects)
+
 
 @dataclass(frozen=True, slots=True)
 class Acting:

@@ -6,7 +6,7 @@ Nobody else asks which kind it is: what a kind needs stands behind one of these 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Final, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.parameters import Frame, Geometry
 from abu_calc.dynamics.race import Balls, Race
 from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.formulas.swing_arm import Arm
+
+if TYPE_CHECKING:
+    from abu_calc.formulas.swing_arm import Arm
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]
@@ -168,7 +170,7 @@ class Support(ABC):
         """The same without a constant force of its own, which only moves the place where it stands."""
         return self
 
-    def standing_arm(self, balls: Balls) -> Arm | None:
+    def standing_arm(self, balls: Balls) -> "Arm | None":
         """A swing arm with balls that stand in the race, no contact of its own told apart; None: it is none."""
         return None
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,18 @@ class Trajectory(Samples):
     steps: int
     events: int = 0
     """Switches of modes."""
+
+
+def merged(*numbers: NDArray[Any]) -> NDArray[Any]:
+    """All of these, each once, in ascending order: `np.unique` without the import of masked arrays.
+
+    >>> merged(np.array((3, 1)), np.array((2, 3))).tolist()
+    [1, 2, 3]
+    """
+    found = np.sort(np.concatenate(numbers))
+    first = np.ones(len(found), dtype=bool)
+    first[1:] = found[1:] != found[:-1]
+    return found[first]
 
 
 Reader = Callable[[Samples], None]

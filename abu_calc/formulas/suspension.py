@@ -6,6 +6,7 @@ from typing import Protocol
 from abu_calc.errors import InputError, Place
 from abu_calc.formula import formula
 from abu_calc.formulas.hands import handle_reaction
+from abu_calc.roots import root
 from abu_calc.standards.hands import Hand
 
 
@@ -92,7 +93,6 @@ def resonance_factor(suspension: Suspension, speed: float, mass: float) -> float
 def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:
     if isinstance(suspension, Springs):
         return float((suspension.stiffness[axis] / mass) ** 0.5)
-    from scipy.optimize import brentq  # here, so that only hands pay for it
 
     def real(speed: float) -> float:
         return dynamic_stiffness(suspension, axis, speed, mass).real
@@ -100,4 +100,4 @@ def natural_frequency(suspension: Suspension, axis: int, mass: float) -> float:
     speed = FASTEST
     while real(speed) < 0:
         speed /= 1.01
-    return float(brentq(real, speed, 1.01 * speed)) if speed < FASTEST else speed
+    return root(real, speed, 1.01 * speed) if speed < FASTEST else speed

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from abu_calc.formula import formula
+from abu_calc.roots import root
 from abu_calc.validity import Range
 
 FRICTION = Range("cutting coefficient f", 0.0, 0.8, key="swing_arm.cutting_coefficient")
@@ -57,12 +58,11 @@ def worst_contact_angle(friction: float, ratio: float) -> float:
     (1.75012, 1.87707)
     """
     f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
-    from scipy.optimize import brentq  # here, so that only files with a swing arm pay for it
 
     def slope(angle: float) -> float:
         return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
 
-    return float(brentq(slope, math.pi / 2, 3 * math.pi / 4, xtol=1e-12))
+    return root(slope, math.pi / 2, 3 * math.pi / 4, xtol=1e-12)
 
 
 @formula(
@@ -80,12 +80,11 @@ def lifting_angle(friction: float, ratio: float) -> float:
     (0.144, -0.022)
     """
     f, r = FRICTION.check(friction), RADIUS_RATIO.check(ratio)
-    from scipy.optimize import brentq  # here, so that only files with a swing arm pay for it
 
     def slope(angle: float) -> float:
         return math.sin(2 * angle) + f * r * math.cos(angle) - f * math.cos(2 * angle)
 
-    return float(brentq(slope, 0.0, math.pi / 2, xtol=1e-12)) if f > 0 and r < 1 else 0.0
+    return root(slope, 0.0, math.pi / 2, xtol=1e-12) if f > 0 and r < 1 else 0.0
 
 
 @formula(
@@ -115,10 +114,9 @@ def lifted_angles(arm: Arm) -> tuple[float, float] | None:
 
     if stiffness(lowest) > 0:
         return None
-    from scipy.optimize import brentq
 
-    first = float(brentq(stiffness, 0.0, lowest)) if stiffness(0.0) > 0 else 0.0
-    return first, float(brentq(stiffness, lowest, math.pi / 2)) if stiffness(math.pi / 2) > 0 else math.pi / 2
+    first = root(stiffness, 0.0, lowest) if stiffness(0.0) > 0 else 0.0
+    return first, root(stiffness, lowest, math.pi / 2) if stiffness(math.pi / 2) > 0 else math.pi / 2
 
 
 @formula(
@@ -136,10 +134,8 @@ def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
     def excess(angle: float) -> float:
         return arm.joint_stiffness + arm.contact_stiffness * contact_gain(angle, arm.friction, ratio) - wanted
 
-    from scipy.optimize import brentq
-
     crossed = (pair for pair in itertools.pairwise(places) if excess(pair[0]) * excess(pair[1]) < 0)
-    return tuple(float(brentq(excess, *pair, xtol=1e-12)) for pair in crossed)
+    return tuple(root(excess, *pair, xtol=1e-12) for pair in crossed)
 
 
 @formula(

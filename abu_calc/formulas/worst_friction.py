@@ -87,7 +87,7 @@ def _end(split: _Split) -> float | None:
     u, reach = split.imbalance, abs(split.pull)
     narrow = [abs(abs(split.far - split.near) + sign * u) / reach for sign in (-1, 1)]
     most = 1.01 * max((u + split.near + split.far) / reach, 1.0)
-    grid = np.unique([*np.geomspace(1.0, most, GRID), *(one for one in narrow if 1 < one < most)])
+    grid = np.array(sorted({*np.geomspace(1.0, most, GRID).tolist(), *(one for one in narrow if 1 < one < most)}))
     first = 0
     if split.near == split.far == 1:
         first = int(max(np.flatnonzero(_possible(split, grid)), default=0))
@@ -199,7 +199,7 @@ def _at_corners(balls: int, half: "Reals") -> "Reals":
     """
     import numpy as np
 
-    counts = np.unique(np.linspace(0, balls, min(balls, MOST_CORNERS) + 1).round())
+    counts = np.array(sorted({*np.linspace(0, balls, min(balls, MOST_CORNERS) + 1).round().tolist()}))
     upper = np.arange(balls) < counts[:, None]
     return np.asarray(np.where(upper, 1.0, -1.0)[:, None, :] * half[:, None])
 

@@ -1,20 +1,24 @@
-"""How long a scene of a machine lasts: until what dies out last is gone, within bounds of work."""
+"""How long a scene lasts: of a machine until what dies out last is gone, of any within bounds of work."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from abu_calc.dynamics.race import Race, balls_of
+from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.support import Support
-from abu_calc.dynamics.supports.swing_arm import SwingArm
-from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
+from abu_calc.errors import InputError, Place
 from abu_calc.sizing.design import Design
+from abu_calc.validity import Range
 
 DECAY_TIMES = 7.0
 LONGEST_REVOLUTIONS = 400.0
 LEAST_REVOLUTIONS = 40.0
 MOST_CYCLES = 4000.0
 """Of the speed or of the support, whichever is faster: a few seconds of work."""
+MOST_VALUES = 4e6
+"""Revolutions times states: what fits into memory, and some minutes of work."""
 
 
 def settling_duration(design: Design, support: Support, race: Race, ball_rate: float) -> float:
@@ -37,13 +41,18 @@ def free_rates(support: Support, race: Race, speed: float) -> tuple[float, float
     return -float(values.real.max()), float(np.abs(values).max())
 
 
-def ball_rate_on_arm(design: Design, arm: SwingArm) -> float:
-    """Slowest decay rate of the balls' slow motion [1/s] on an arm.
+def lasting(scene: Scene, duration: float | None, key: str) -> Scene:
+    """The scene with another duration [s], if one is given, and not longer than can be integrated.
 
-    There the rotor moves along one axis alone, so that half the stiffness of the slow motion is left.
+    At least one revolution, and a run-up or run-down to its end; at most 4e6 revolutions times states. Raises
+    RangeError with `key` as its place.
     """
-    case, one = design.case, design.autobalancer
-    mass = arm.felt_mass + one.ball_count * one.ball_mass
-    natural = math.sqrt(max(arm.stiffness, 0.0) / mass)
-    kappa = ball_stiffness(one.ball_mass, mass, case.speed, (natural, natural)) / 2
-    return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, case.drag, case.inertia_factor)
+    wanted = scene.duration if duration is None else duration
+    longest = MOST_VALUES / scene.state_count * scene.revolution
+    least = max((scene.revolution, *(effect.least_duration for effect in scene.effects)))
+    remedy = "one revolution and the run-up at least; at most what this version can integrate"
+    try:
+        Range("duration", least, longest, "s", remedy=remedy).check(wanted)
+    except InputError as error:
+        raise error.at(Place(key=key)) from None
+    return replace(scene, duration=wanted)

@@ -1,37 +1,37 @@
-"""From a design to its scenes."""
+"""From a design to its scenes.
+
+What few files ask for (swing arm, motor, balls across their race) is imported when they do.
+"""
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
-from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene, placed
 from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.hands import in_hands
 from abu_calc.dynamics.supports.planar import planar
-from abu_calc.dynamics.supports.swing_arm import SwingArm, cutting_arm, idle_arm
-from abu_calc.errors import InputError, NotTrustworthyError, Place
+from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import half_angle
 from abu_calc.formulas.suspension import Hands, Springs
-from abu_calc.formulas.swing_arm import pressed_angle
-from abu_calc.scenes.durations import ball_rate_on_arm, settling_duration
-from abu_calc.scenes.from_tables import motor_numbers
+from abu_calc.scenes.durations import settling_duration
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.swing_arm import read_arm
-from abu_calc.spec.machine import SwingArm as SwingArmTable
+from abu_calc.spec.duty import Motor as MotorTable
 from abu_calc.units import to_si
 from abu_calc.validity import Range
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.effects.motor import Motor
 
 AHEAD = math.radians(20)
 """The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
@@ -82,7 +82,9 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
     support: Support = _held(design)
     if table.swing_arm and which.startswith("swing-arm"):
-        support = arm = _arm(design, table.swing_arm, cutting=which.endswith("cutting"))
+        from abu_calc.scenes.on_arm import arm_of_design, ball_rate_on_arm
+
+        support = arm = arm_of_design(design, table.swing_arm, cutting=which.endswith("cutting"))
         felt, ball_rate = 1.0, ball_rate_on_arm(design, arm)
     race = _race(design, start, turning=which != "run-up")
     settling = settling_duration(design, support, race, ball_rate)
@@ -159,25 +161,6 @@ def _support(case: Case, mass: float) -> Support:
     raise InputError("no support is known for this suspension", place=Place(key="suspension.model"))
 
 
-def _arm(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArm:
-    """The swing arm with the machine and the autobalancer, without balls."""
-    case, one = design.case, design.autobalancer
-    arm = read_arm(case, table, one.mass - one.ball_count * one.ball_mass)
-    joint = arm.length, arm.inertia, arm.joint_stiffness, arm.joint_damping
-    if not cutting:
-        return idle_arm(*joint)
-    angle = pressed_angle(arm)
-    if angle is None or angle < arm.touch_angle:
-        why = "does not stand" if angle is None else "does not reach the work"
-        raise NotTrustworthyError(
-            f"the swing arm {why} while cutting\n  turn the contact angle nearer to 90°, or press with a larger moment"
-        )
-    return cutting_arm(
-        *joint, arm.contact_stiffness, arm.friction, arm.contact_angle, arm.touch_angle, arm.pressing_moment,
-        arm.disk_radius,
-    )  # fmt: skip
-
-
 def _pulled(design: Design, which: str) -> tuple[float, float]:
     """The constant force [N] on a machine that grinds, which its support holds."""
     contact = _contact(design) if which == "grinding" else None
@@ -222,7 +205,7 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
     if which == "run-up" and table.run_up:
         yield guided(design, table.run_up.time_s)
         if table.motor:
-            yield Motor(**motor_numbers(table.motor))
+            yield _motor(table.motor)
     yield RaceEccentricity(case.race_eccentricity, WORST)
     yield from _across(design) if which == "grinding" else ()
     if table.machine.spindle_axis == "horizontal":
@@ -234,11 +217,13 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
     yield DryRollingFriction(case.friction_arm, radius)
 
 
-def _across(design: Design) -> Iterator[TransverseMotion]:
+def _across(design: Design) -> Iterator[Effect]:
     """Balls across their race, which a face wheel at work drives by its axial runout; rollers do not go there."""
     case, groove = design.case, design.track.groove_radius
     runout = to_si(case.table.wheel.axial_runout_mm, "mm")
     if runout and groove and case.contact is not None and case.contact.kind == "face":
+        from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
+
         yield TransverseMotion(groove, design.autobalancer.ball_diameter / 2, runout)
 
 
@@ -276,5 +261,12 @@ def running_up(design: Design) -> float:
     given = table.run_up.time_s if table.run_up else 0.0
     if table.motor is None:
         return guided(design, given).at_speed
-    motor = Motor(**motor_numbers(table.motor))
+    motor = _motor(table.motor)
     return max(given, TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque)
+
+
+def _motor(table: MotorTable) -> "Motor":
+    from abu_calc.dynamics.effects.motor import Motor
+    from abu_calc.scenes.from_tables import motor_numbers
+
+    return Motor(**motor_numbers(table))

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Final, TypeVar
 
 from abu_calc.dynamics.race import Race
@@ -18,7 +17,6 @@ from abu_calc.formulas.ball_ring import INERTIA_FACTORS, half_angle
 from abu_calc.scenes.from_tables import effects_from
 from abu_calc.spec.scene import SceneRace, SceneSwingArm, SceneTable
 from abu_calc.units import from_si, to_si
-from abu_calc.validity import Range
 
 Table = TypeVar("Table")
 
@@ -27,9 +25,6 @@ POINT_MASS = 1.0
 
 TOUCHING = 1e-12
 """Rounding of an angle [rad]."""
-
-MOST_VALUES = 4e6
-"""Revolutions times states: what fits into memory, and some minutes of work."""
 
 
 def scene_from(table: SceneTable) -> Scene:
@@ -188,20 +183,3 @@ def _angles(table: SceneTable, race: SceneRace) -> tuple[float, ...]:
     """Start angles [rad]; balls that touch, but for the digits of the file, touch indeed."""
     angles, contact = tuple(to_si(angle, "deg") for angle in race.start_angles_deg), table.effects.ball_contact
     return parted_angles(angles, 2 * half_angle(contact.ball_radius_mm, race.pitch_radius_mm)) if contact else angles
-
-
-def lasting(scene: Scene, duration: float | None, key: str) -> Scene:
-    """The scene with another duration [s], if one is given, and not longer than can be integrated.
-
-    At least one revolution, and a run-up or run-down to its end; at most 4e6 revolutions times states. Raises
-    RangeError with `key` as its place.
-    """
-    wanted = scene.duration if duration is None else duration
-    longest = MOST_VALUES / scene.state_count * scene.revolution
-    least = max((scene.revolution, *(effect.least_duration for effect in scene.effects)))
-    remedy = "one revolution and the run-up at least; at most what this version can integrate"
-    try:
-        Range("duration", least, longest, "s", remedy=remedy).check(wanted)
-    except InputError as error:
-        raise error.at(Place(key=key)) from None
-    return replace(scene, duration=wanted)

@@ -2,12 +2,16 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.worst_friction import worst_friction
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, judged_speeds
 from abu_calc.sizing.case import Case
+
+_friction = lru_cache(maxsize=64)(worst_friction)
+"""Of races that differ in their eccentricity alone it is the same."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +36,7 @@ def _worst(case: Case, imbalance: float, one: Candidate, speed: float) -> WorstR
     mass, carried = case.body.effective_mass(one.mass, case.race_place), imbalance * abs(need.plane_ratio)
     flexible = [speed**2 / dynamic_stiffness(case.suspension, axis, speed, mass) for axis in (0, 1)]
     band = case.friction_arm * balls.pitch_radius / balls.radius
-    held = worst_friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
+    held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
     friction = max(held.displacement, usual.rolling_friction)
     parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.plane_offset
     return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.shortfall)

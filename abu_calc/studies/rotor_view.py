@@ -12,7 +12,7 @@ from abu_calc.analysis.course import axis_place, settling_times, total_imbalance
 from abu_calc.analysis.response import axis_velocity, beginning
 from abu_calc.dynamics.race import balls_of
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Trajectory, merged
 from abu_calc.units import from_si, level_from_velocity
 
 Array = NDArray[np.float64]
@@ -61,7 +61,7 @@ class RotorView:
         squares = _over_a_turn(axis_velocity(scene, states) ** 2, times, turn)[:, inner]
         times, turn, states = times[inner], turn[inner], states[:, inner]
         # Denser at the start, where all moves.
-        index = np.unique(((len(times) - 1) * np.linspace(0, 1, most) ** 2).round().astype(np.intp))
+        index = merged(((len(times) - 1) * np.linspace(0, 1, most) ** 2).round().astype(np.intp))
         seen = (from_si(1.0, "um") * (swinging[0] + 1j * swinging[1]) * np.exp(-1j * turn))[index]
         angles = _angles(scene, states[:, index])
         changes = bool(scene.rotor.states) or scene.start_speed != scene.speed

@@ -13,9 +13,8 @@ from abu_calc.analysis.proven import Proven, proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check
-from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.errors import NotTrustworthyError
-from abu_calc.parallel import Workers, threads
+from abu_calc.parallel import processors
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.compared import compared_design, level_where_measured
@@ -93,20 +92,18 @@ def size(
 ) -> SizeResult:
     """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
 
-    `workers`: how many starts run side by side, in processes where no compiled code lets threads do; the result does
-    not depend on it. None: threads alone, which scripts of any kind can start.
+    `workers`: how many starts run side by side, in threads; the result does not depend on it. None: one for each
+    processor.
     Raises InputError with file, line, key and remedy for what is wrong in the file.
     """
     ACCURACY.check(accuracy)
     WORKERS.check(1 if workers is None else workers)
     tables = machine.whole("size")
     with machine.located():
-        with _side_by_side(workers) as side_by_side:
-            side_by_side.begin(proven.__module__)
-            sized = size_design(tables)
-            tried = proven(sized, accuracy=accuracy, progress=progress, workers=side_by_side)
-            design = tried.design
-            runs, failures = simulated(design, accuracy, progress, workers=side_by_side)
+        threads = processors() if workers is None else workers
+        tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads)
+        design = tried.design
+        runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         region = true_region(design)
     arm, moved = _arm(design, failures, accuracy, progress)
@@ -228,10 +225,6 @@ def _arm(
     except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
         return judged, None
     return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
-
-
-def _side_by_side(count: int | None) -> Workers:
-    return threads() if count is None else Workers(count, processes=not installed())
 
 
 def _other_drags(design: Design, run: Run) -> tuple[SettlingEstimate, ...] | None:

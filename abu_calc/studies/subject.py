@@ -11,8 +11,9 @@ from pathlib import Path
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
+from abu_calc.scenes.durations import lasting
 from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scene_of_design
-from abu_calc.scenes.from_scene import lasting, scene_from
+from abu_calc.scenes.from_scene import scene_from
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from abu_calc.spec.document import Reading

@@ -13,7 +13,8 @@ def refuse_unusable(source: Reading) -> None:
     """
     with source.located():
         if isinstance(source, SceneDescription):
-            from abu_calc.scenes.from_scene import lasting, scene_from
+            from abu_calc.scenes.durations import lasting
+            from abu_calc.scenes.from_scene import scene_from
 
             lasting(scene_from(source.scene), None, "scene.duration_s")
         if isinstance(source, Machine):

@@ -22,7 +22,6 @@ from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import with_parted_balls
-from abu_calc.parallel import Workers
 from abu_calc.scenes.from_design import guided
 from abu_calc.scenes.members import Member, members, scene_of_member
 from abu_calc.sizing import size
@@ -93,18 +92,17 @@ def test_hands_are_not_chaotic() -> None:
     assert found == {"ABU401": "warn", "ABU701": "pass", "ABU702": "pass", "ABU704": "pass"}
 
 
-@pytest.mark.parametrize("workers", [Workers(3), pytest.param(Workers(2, processes=True), marks=pytest.mark.slow)])
-def test_workers_change_nothing(workers: Workers) -> None:
-    """One after the other, by threads, by processes: the same numbers."""
+def test_workers_change_nothing() -> None:
+    """One after the other and by threads: the same numbers."""
     found = design("msh-230")
-    assert simulate_members(found, workers=workers) == simulate_members(found)
+    assert simulate_members(found, workers=3) == simulate_members(found)
 
 
 def test_workers_change_no_scene() -> None:
     """The scenes of an arm, told as they are done."""
     found, told = design("swing-arm-grinder"), list[str]()
     runs, _ = simulated(found, 0.01)
-    others, _ = simulated(found, 0.01, told.append, workers=Workers(2))
+    others, _ = simulated(found, 0.01, told.append, workers=2)
     assert [one.simulation.response for one in others] == [one.simulation.response for one in runs]
     assert told == ["1 of 3 scenes", "2 of 3 scenes", "3 of 3 scenes"]
 

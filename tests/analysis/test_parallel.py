@@ -6,7 +6,7 @@ from itertools import islice
 
 import pytest
 
-from abu_calc.parallel import Workers, several, side_by_side
+from abu_calc.parallel import LEAST_TASKS, side_by_side
 
 TASKS = [(k,) for k in range(12)]
 
@@ -15,14 +15,14 @@ def _nothing(done: int) -> None:
     pass
 
 
-@pytest.mark.parametrize("workers", [None, Workers(1), Workers(3)])
-def test_answers_come_in_the_order_of_the_tasks(workers: Workers | None) -> None:
+@pytest.mark.parametrize("workers", [1, 3])
+def test_answers_come_in_the_order_of_the_tasks(workers: int) -> None:
     """Whoever is done first; and how many are done never falls and ends at all of them."""
     told: list[int] = []
     gates = [threading.Event() for _ in TASKS]
 
     def work(k: int) -> int:
-        if workers is not None and workers.count > 1 and 0 < k < 3:
+        if workers > 1 and 0 < k < 3:
             gates[k + 1].wait(10)  # those behind it are done first
         gates[k].set()
         return k * k
@@ -31,8 +31,8 @@ def test_answers_come_in_the_order_of_the_tasks(workers: Workers | None) -> None
     assert told == sorted(told) and told[-1] == len(TASKS)
 
 
-@pytest.mark.parametrize("workers", [None, Workers(2)])
-def test_what_nobody_asks_for_is_not_begun(workers: Workers | None) -> None:
+@pytest.mark.parametrize("workers", [1, 2])
+def test_what_nobody_asks_for_is_not_begun(workers: int) -> None:
     """Of a dozen tasks, of which two are asked for, the last ones never run."""
     begun, enough = [], threading.Event()
 
@@ -54,18 +54,18 @@ def test_errors_come_where_the_answer_would() -> None:
     def work(k: int) -> float:
         return 1 / (k - 2)
 
-    answers = side_by_side(work, TASKS, Workers(2), _nothing)
+    answers = side_by_side(work, TASKS, 2, _nothing)
     assert [next(answers), next(answers)] == [-0.5, -1.0]
     with pytest.raises(ZeroDivisionError):
         next(answers)
 
 
-def test_few_tasks_wait_for_nobody_to_begin() -> None:
-    """Two are not worth the start of workers, but one is where these have begun, and stay."""
-    workers = Workers(2)
-    assert several(workers, 2) is None and several(workers, 3) is workers and several(None, 9) is None
-    with workers:
-        assert several(workers, 2) is None
-        list(side_by_side(lambda k: k, TASKS, workers, _nothing))
-        assert several(workers, 1) is workers
-    assert several(workers, 2) is None
+def test_few_tasks_are_not_worth_threads() -> None:
+    """They run where they are asked for."""
+
+    def work(k: int) -> int:
+        return threading.get_ident()
+
+    here = threading.get_ident()
+    assert set(side_by_side(work, TASKS[: LEAST_TASKS - 1], 2, _nothing)) == {here}
+    assert len(set(side_by_side(work, TASKS, 2, _nothing)) - {here}) > 0

@@ -1,16 +1,21 @@
-"""What commands cost as whole processes, against the bare start of the libraries they stand on.
+"""Cost of commands as whole processes, against the bare import of the libraries they stand on.
 
     python -m tests.benchmarks.startup
 
-Both are started in turn, so that a change of the machine's speed meets both; the median of the ratios is told.
+A command and its bare import are started in turn, so that a change of the machine's speed meets both; processor time of
+a process includes that of its children. The medians and the median ratios are printed. Run it where Python may write
+byte code: without that every start compiles the package anew.
 """
 
+import resource
 import statistics
 import subprocess
 import sys
 import time
+from typing import NamedTuple
 
-SIZE = (sys.executable, "-m", "abu_calc", "size", "avtovaz-707-222")
+PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
+"""Machines among the presets."""
 CHECK = (sys.executable, "-m", "abu_calc", "check-fit", "mmg-3200k-knife-shaft")
 HELP = (sys.executable, "-m", "abu_calc", "--help")
 
@@ -53,27 +58,45 @@ app()
 ROUNDS = 15
 
 
-def seconds(command: tuple[str, ...]) -> float:
-    """Wall time of one process from start to end, its output read through a pipe."""
-    started = time.perf_counter()
+class Spent(NamedTuple):
+    """Time [s] of one process from start to end."""
+
+    processor: float
+    wall: float
+
+
+def spent(command: tuple[str, ...]) -> Spent:
+    """Time of a process, its output read through a pipe."""
+    before, started = _children(), time.perf_counter()
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, check=False)
-    taken = time.perf_counter() - started
+    taken = Spent(_children() - before, time.perf_counter() - started)
     if done.returncode > 1:  # 1: checks of the result that fail
         raise SystemExit(f"{' '.join(command)}: {done.stderr.decode()}")
     return taken
 
 
+def _children() -> float:
+    """Processor time of all processes that were waited for [s]."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def compare(name: str, command: tuple[str, ...], against: str, bare: tuple[str, ...]) -> None:
-    """Print the medians of both and of their ratio."""
-    seconds(command), seconds(bare)  # warm the disk
-    pairs = [(seconds(command), seconds(bare)) for _ in range(ROUNDS)]
-    ratio = statistics.median(a / b for a, b in pairs)
-    mine, other = (1000 * statistics.median(column) for column in zip(*pairs, strict=True))
-    print(f"{name:10} {mine:5.0f} ms   {against:32} {other:5.0f} ms   ratio {ratio:.2f}")
+    """Print the medians of both and of their ratios."""
+    spent(command), spent(bare)  # warm the disk and what the command keeps there
+    pairs = [(spent(command), spent(bare)) for _ in range(ROUNDS)]
+    print(f"{name:24} against the {against}")
+    for which in Spent._fields:
+        both = [(getattr(mine, which), getattr(other, which)) for mine, other in pairs]
+        ratio = statistics.median(mine / other for mine, other in both)
+        mine, other = (1000 * statistics.median(column) for column in zip(*both, strict=True))
+        print(f"  {which:22} {mine:6.0f} ms   {other:6.0f} ms   ratio {ratio:.2f}", flush=True)
 
 
 if __name__ == "__main__":
-    compare("size", SIZE, "import of the numerics", NUMERICS)
+    for preset in PRESETS:
+        command = (sys.executable, "-m", "abu_calc", "size", preset)
+        compare(f"size {preset}", command, "import of the numerics", NUMERICS)
     compare("check-fit", CHECK, "least program with the three", LEAST)
     compare("check-fit", CHECK, "import of the parts it asks for", PARTS)
     compare("check-fit", CHECK, "import of the three names", LAZY)

@@ -17,6 +17,7 @@ GROUND = (
     "formula",
     "progress",
     "parallel",
+    "roots",
     "escapes",
 )
 ROOMS = (

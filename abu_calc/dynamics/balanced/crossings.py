@@ -1,5 +1,6 @@
 """Eigenvalues that cross the edge of stability with the speed."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -19,6 +20,12 @@ MOST_STATES: Final = 16
 
 REAL: Final = 1e-4
 """A solution for the speed whose imaginary part is a smaller share than this may be one of a close pair."""
+
+SHIFT: Final = -math.sqrt(0.5)
+"""s, in units of the speed at which the machine is looked at: no speed that is asked for, nor likely a solution."""
+
+REGULAR: Final = 1e12
+"""Condition of a polynomial's matrix at s, below which it can be inverted."""
 
 NARROW: Final = 1e-9
 """Relative; speeds as near as this are one."""
@@ -100,11 +107,22 @@ def _bialternate(A: Array) -> Array:
 
 
 def _singular(parts: Array) -> list[float]:
-    """Positive x at which P₀ + P₁x + P₂x² is singular, or all but."""
-    from scipy.linalg import eigvals
+    """Positive x at which P₀ + P₁x + P₂x² is singular, or all but.
 
-    zero, unit = np.zeros_like(parts[0]), np.eye(len(parts[0]))
-    values = eigvals(np.block([[zero, unit], [-parts[0], -parts[1]]]), np.block([[unit, zero], [zero, parts[2]]]))
+    With x = s + 1/z they are eigenvalues z of a single matrix, 0 for an infinite x. A pair of matrices, as SciPy takes
+    it, is for polynomials that are singular everywhere.
+    """
+    first, second, third = parts
+    zero, unit = np.zeros_like(first), np.eye(len(first))
+    there = first + second * SHIFT + third * SHIFT**2
+    if np.linalg.cond(there) < REGULAR:
+        lower = -np.linalg.solve(there, np.hstack([third, second + 2 * SHIFT * third]))
+        inverse = np.linalg.eigvals(np.vstack([np.hstack([zero, unit]), lower]))
+        values = SHIFT + 1 / inverse[inverse != 0]
+    else:
+        from scipy.linalg import eigvals  # here, since its import takes longer than most answers
+
+        values = eigvals(np.block([[zero, unit], [-first, -second]]), np.block([[unit, zero], [zero, third]]))
     finite = values[np.isfinite(values)]
     return [float(x.real) for x in finite if x.real > 0 and abs(x.imag) <= REAL * x.real]
 

@@ -17,6 +17,12 @@ FIRST_STEPS, MOST_STEPS = 32, 16384
 SERIES: Final = tuple(tuple(1 / math.factorial(4 * k + order) for order in range(4)) for k in range(4))
 """Of e^A to the degree 15, in powers of A⁴: 2^−16/16! is less than rounding."""
 
+ALIKE: Final = 0.95
+"""Of the norms of a row and a column: another unit that leaves more of them is not worth it."""
+
+LARGEST_UNIT: Final = 2.0**900
+"""Beyond, numbers may leave the range of a computer's."""
+
 SETTLED: Final = 1e-8
 """A growth or a map that changes by less, in logarithms and in shares of its size, when the steps are halved is found;
 what is left of its error is a fifteenth of that."""
@@ -94,8 +100,35 @@ def _growth(found: Array) -> float:
 
 def _distance(one: Array, other: Array) -> float:
     """Largest difference of two maps relative to their size, in units that balance rows and columns."""
-    from scipy.linalg import matrix_balance
-
-    balanced, (units, _) = matrix_balance(other, permute=False, separate=True)
-    size = float(np.abs(balanced).max(initial=0.0))
+    units = balancing_units(other)
+    size = float(np.abs(other * units / units[:, None]).max(initial=0.0))
     return float(np.abs((one - other) * units / units[:, None]).max()) / size if size else 0.0
+
+
+def balancing_units(matrix: Array) -> Array:
+    """Powers of two u with which rows and columns of a_ij u_j/u_i have norms that are alike.
+
+    Those of `scipy.linalg.matrix_balance` without permutation, which takes longer to import than most answers.
+    Source: James, Langou & Lowery 2014, arXiv:1401.5766, algorithm 3.
+
+    >>> balancing_units(np.array(((1.0, 1024.0), (1.0, 1.0)))).tolist()
+    [32.0, 1.0]
+    """
+    balanced, units = np.array(matrix, dtype=float), np.ones(len(matrix))
+    changed = True
+    while changed:
+        changed = False
+        for k in range(len(units)):
+            column, row = float(np.linalg.norm(balanced[:, k])), float(np.linalg.norm(balanced[k]))
+            if column == 0 or row == 0:
+                continue
+            factor, together = 1.0, column + row
+            while column < row / 2 and factor < LARGEST_UNIT:
+                factor, column, row = 2 * factor, 2 * column, row / 2
+            while column / 2 >= row and factor > 1 / LARGEST_UNIT:
+                factor, column, row = factor / 2, column / 2, 2 * row
+            if column + row < ALIKE * together and 1 / LARGEST_UNIT < units[k] * factor < LARGEST_UNIT:
+                units[k], changed = units[k] * factor, True
+                balanced[k] /= factor
+                balanced[:, k] *= factor
+    return units

@@ -11,6 +11,7 @@ from abu_calc.dynamics.balanced.resting import needed_gap
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.support import SmallMotion
+from abu_calc.dynamics.trajectory import merged
 from abu_calc.formulas.hanging import damped_drag, gravity_drag, resonance_drag, side_by_side
 
 Array = NDArray[np.float64]
@@ -121,7 +122,7 @@ def _at_a_resonance(
     top = natural[-1]
     peaks = (near.imag[:, None] + near.real[:, None] * np.linspace(-4, 4, ZOOM)).ravel()
     grid = np.concatenate([np.geomspace(natural[0] / 4, top, GRID), peaks, natural])
-    grid, best, place = np.unique(grid[(grid > 0) & (grid <= top)]), 0.0, 0.0
+    grid, best, place = merged(grid[(grid > 0) & (grid <= top)]), 0.0, 0.0
     for _ in range(TIMES):
         values = resonance_drag(_lost(driven, support, grid), grid, speed)
         k = int(values.argmax())

@@ -13,6 +13,7 @@ from abu_calc.dynamics.balanced.stationary import NotKnownError, needed_resultan
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.roots import root
 
 TOUCHING = 1e-9
 """Balls that overlap by less than this [rad] touch."""
@@ -168,9 +169,7 @@ def _polygon(sides: list[float]) -> list[float] | None:
 
 def _root(function: Callable[[float], float], high: float) -> float:
     """The root of a function of one sign change in (0, high]; 0 where it has the same sign throughout."""
-    from scipy.optimize import brentq
-
     low = 1e-8 * high
     if function(low) * function(high) > 0:
         return 0.0
-    return float(brentq(function, low, high, xtol=1e-300, rtol=1e-15))
+    return root(function, low, high, xtol=1e-300, rtol=1e-15)

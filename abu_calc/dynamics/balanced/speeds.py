@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.scene import Scene
+from abu_calc.roots import root
 from abu_calc.validity import Range
 
 GRID, COARSE = 64, 16
@@ -89,10 +90,8 @@ def _extremes(function: Callable[[float], float], points: Points) -> Points:
 
 def changes(function: Callable[[float], float], points: Points, near: float = FINE) -> list[tuple[float, bool]]:
     """Zeros of the function between points of opposite sign, to `near` (relative), and whether it is negative after."""
-    from scipy.optimize import brentq
-
     return [
-        (float(brentq(function, low, high, xtol=near * high, rtol=near)), after < 0)
+        (root(function, low, high, xtol=near * high, rtol=near), after < 0)
         for (low, before), (high, after) in pairwise(points)
         if (before < 0) != (after < 0)
     ]

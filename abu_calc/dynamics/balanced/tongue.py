@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.balanced import floquet
+from abu_calc.roots import root
 
 Array = NDArray[np.float64]
 
@@ -43,9 +44,7 @@ def floquet_edge(kappa: float, ratio: float) -> float:
     >>> round(floquet_edge(0.1, 0.5), 5)
     0.49461
     """
-    from scipy.optimize import brentq
-
     small = 1e-3  # undamped, outside the tongue, |μ| = 1: rounding would decide there
     if arm_growth(kappa, ratio, small) <= 0:
         return 0.0
-    return float(brentq(lambda sigma: arm_growth(kappa, ratio, sigma), small, MOST, xtol=1e-6))
+    return root(lambda sigma: arm_growth(kappa, ratio, sigma), small, MOST, xtol=1e-6)

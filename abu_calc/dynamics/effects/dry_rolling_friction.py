@@ -18,12 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.circumstances import Circumstances, Holding
+from abu_calc.dynamics.column import at_samples
 from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, Rule, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
-from abu_calc.dynamics.trajectory import Samples
+from abu_calc.dynamics.trajectory import Samples, merged
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.validity import Range
 
@@ -125,34 +126,40 @@ class DryRollingFriction(Effect):
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """The first sample at which a ball is off the outer side of its race, counting all balls as rolling.
 
-        Of many samples some are asked, each of which takes as long as ten steps: every so many, and where balls turn
-        slowest, which is where they leave the race first.
+        Of many samples some are asked: every so many, and where balls turn slowest, which is where they leave the race
+        first.
         """
         p = equations.parameters
         if equations.first_modes[p.effects.index(self)] is None:
             return ()
         asked = self._asked(equations, samples)
-        found = next((k for k in asked if self._outward(equations, samples, k).min() < -LEAVES), None)
-        if found is None:
+        leaving = self._outward(equations, samples, asked).min(axis=0) < -LEAVES
+        if not leaving.any():
             return ()
-        first = next(k for k in range(found + 1) if self._outward(equations, samples, k).min() < -LEAVES)
-        ball = 1 + int(self._outward(equations, samples, first).argmin())
+        before = np.arange(asked[leaving.argmax()] + 1)
+        outward = self._outward(equations, samples, before)
+        first = int((outward.min(axis=0) < -LEAVES).argmax())
+        ball = 1 + int(outward[:, first].argmin())
         return (
             f"dry rolling friction: ball {ball} is pulled off the outer side of its race at t = {samples.t[first]:.4g} "
             "s and rubs on the inner one; a higher speed or a damped support presses it outward",
         )
 
-    def _outward(self, equations: Laws, samples: Samples, k: int) -> Array:
-        """Normal force on each ball at a sample, of m R_p Ω²."""
+    def _outward(self, equations: Laws, samples: Samples, asked: NDArray[np.intp]) -> Array:
+        """Normal force on each ball at some samples [ball, sample], of m R_p Ω²."""
         p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
         index, modes = p.effects.index(self), equations.first_modes
-        sigma = np.sign(samples.y[first : first + p.balls, k])
+        t, y = samples.t[asked], samples.y[:, asked]
+        sigma = np.sign(y[first : first + p.balls])
+
+        def outward(t: Any, y: Any, direction: Any) -> Any:
+            mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
+            acting = equations.in_mode((*modes[:index], mode, *modes[index + 1 :]))
+            _, _, solved = equations.accelerations(np, t, y, acting)
+            return solved.normal / (p.radii * p.speed**2)
+
         direction = np.abs(sigma) if ACROSS_RATE in equations.scene.ball_states else sigma
-        mode = Rolling(direction, np.ones(p.balls), np.ones(p.balls))
-        acting = equations.in_mode((*modes[:index], mode, *modes[index + 1 :]))
-        _, _, solved = equations.accelerations(np, samples.t[k], samples.y[:, k], acting)
-        outward: Array = solved.normal / (p.radii * p.speed**2)
-        return outward
+        return at_samples(outward, t, y, direction, at_once=p.traceable)
 
     def _asked(self, equations: Laws, samples: Samples) -> NDArray[np.intp]:
         """Which samples are asked at first, in their order."""
@@ -162,7 +169,7 @@ class DryRollingFriction(Effect):
         first = 2 * p.size + p.balls
         _, speed = equations.scene.rotor.turning(samples.t, samples.y, p.speed)
         slowest = np.abs(samples.y[first : first + p.balls] + speed).min(axis=0)
-        return np.union1d(np.argpartition(slowest, ASKED)[:ASKED], np.linspace(0, count - 1, ASKED).astype(np.intp))
+        return merged(np.argpartition(slowest, ASKED)[:ASKED], np.linspace(0, count - 1, ASKED).astype(np.intp))
 
     def holding(self, scene: Circumstances) -> Holding | None:
         """By f of their normal force; without friction by none of it."""

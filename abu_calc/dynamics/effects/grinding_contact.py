@@ -28,6 +28,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from abu_calc.dynamics.circumstances import Circumstances
+from abu_calc.dynamics.column import at_samples
 from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
@@ -251,10 +252,13 @@ class GrindingContact(Effect):
         With dry friction all balls count as sticking, which makes a difference of less than a per cent.
         """
         p, acting = equations.parameters, equations.in_mode(equations.first_modes)
-        found = [equations.accelerations(np, t, y, acting) for t, y in zip(samples.t, samples.y.T, strict=True)]
-        if self.contact == "rigid":
-            return np.array([solved.reaction for _, _, solved in found], dtype=float)
-        return np.array([max(self.pressed(m, TOUCHING, p), 0.0) for m, _, _ in found], dtype=float)
+
+        def normal(t: Any, y: Any) -> Any:
+            m, _, solved = equations.accelerations(np, t, y, acting)
+            return solved.reaction if self.contact == "rigid" else self.pressed(m, TOUCHING, p)
+
+        force = at_samples(normal, samples.t, samples.y, at_once=p.traceable)
+        return force if self.contact == "rigid" else np.maximum(force, 0.0)
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """How long a rigid contact pulls; whether a compliant one parts in the last twentieth of the run; a stop."""

@@ -113,7 +113,7 @@ def loop(equations: Equations, tolerance: float, compiled: bool) -> Choice:
         raise InputError(f"{name} cannot trace the effect {effect}", remedy="use scipy, or leave the effect out")
     if compiled and not ready.load(equations, loop_method(equations, tolerance)):
         raise InputError(f"there is no compiled code: {ready.missing()}", remedy="use plain or scipy")
-    return _loop_of(compiled, loop_method(equations, tolerance), "asked for")
+    return _loop_of(equations, compiled, loop_method(equations, tolerance), "; asked for")
 
 
 def loop_method(equations: Equations, tolerance: float) -> "Method":
@@ -126,24 +126,24 @@ def _loop(equations: Equations, tolerance: float, progress: Progress) -> Choice:
     from abu_calc.dynamics.integrators.compiled import ready
 
     method = loop_method(equations, tolerance)
-    why = "a scene that switches" if watches(equations) else "a smooth scene"
     if ready.loaded(equations, method):
-        return _loop_of(True, method, why)
+        return _loop_of(equations, True, method)
     about = counts(equations, tolerance)
     if (about.loop + EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
-        return _loop_of(False, method, f"{why}, over before compiled code would be loaded")
+        return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded")
     progress(f"{equations.scene.name}: loading compiled code")
     if ready.load(equations, method):
-        return _loop_of(True, method, why)
-    return _loop_of(False, method, f"{why}; compiled code would be faster, but {ready.missing()}")
+        return _loop_of(equations, True, method)
+    return _loop_of(equations, False, method, f"; compiled code would be faster, but {ready.missing()}")
 
 
-def _loop_of(compiled: bool, method: "Method", why: str) -> Choice:
-    return Choice(_name(compiled, method), why, partial(_through, compiled=compiled), LOOP_WORK)
-
-
-def _name(compiled: bool, method: "Method") -> str:
-    return f"{'compiled' if compiled else 'plain'}-{method}"
+def _loop_of(equations: Equations, compiled: bool, method: "Method", more: str = "") -> Choice:
+    """The loop, why it has this method, and whatever more there is to say."""
+    name = f"{'compiled' if compiled else 'plain'}-{method}"
+    scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
+    order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
+    why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
+    return Choice(name, why, partial(_through, compiled=compiled), LOOP_WORK)
 
 
 def _through(
@@ -200,10 +200,10 @@ def integrate_with(name: str, equations: Equations, tolerance: float, sample_tim
 
 
 def verifiers(equations: Equations, accuracy: float) -> tuple[tuple[str, float], tuple[str, float]]:
-    """Two integrators of different kinds, each with a tolerance tight for that accuracy, to hold against each other."""
+    """Two integrators of different kinds, at tolerances tight for that accuracy; the second is the better one."""
     tight = min(max(1e-5 * accuracy, 1e-11), 1e-7)
     own = [name for name in available(equations) if name in LOOP]
     if watches(equations):
         # LSODA interpolates too loosely for events; its steps are cheap where there are none.
         return (own[1] if own else "scipy-rk45", tight), ("scipy-dop853", tight / 10)
-    return (own[0] if own else "scipy-dop853", tight / 10), ("scipy-lsoda", tight)
+    return ("scipy-lsoda", tight), (own[0] if own else "scipy-dop853", tight / 10)
