@@ -12,8 +12,8 @@ from abu_calc.scenes.from_design import contact_half_angle, idle_scene
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from abu_calc.spec.read import read_machine
+from abu_calc.studies.design_records import Frequency
 from abu_calc.units import from_si
-from tests.cli.runner import abu
 
 RANGE = """\
 [machine]
@@ -53,14 +53,16 @@ def design_of(file: str, *changes: str) -> Design:
 
 def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
     """The even fan is stable from 1739 rpm on, the worst arrangement from a little more; at 1700 it shakes."""
-    seen = abu("size", written(tmp_path), "--json")
-    checks = {check["code"]: check for check in seen.document["checks"]}
-    assert seen.status == 1 and seen.document["status"] == "fail"
-    assert checks["ABU101"]["status"] == "pass" and checks["ABU103"]["status"] == "fail"
-    assert "1660 rpm" in checks["ABU103"]["message"] and checks["ABU103"]["value"] > 0
-    (one,) = seen.document["result"]["frequency"]["stability_boundaries_rpm"]
-    assert one["stable_above"] and 1739 < one["speed_rpm"] < 1750
-    assert f"{one['speed_rpm']:.6g} rpm" in checks["ABU103"]["remedy"]
+    design = design_of(written(tmp_path))
+    region = true_region(design)
+    check, simple = region.check, design.frequency.check
+    assert (simple.code, simple.status, check.code, check.status) == ("ABU101", "pass", "ABU103", "fail")
+    assert "1660 rpm" in check.message and check.value is not None and check.value > 0
+    boundaries = Frequency.of(design, region).stability_boundaries_rpm
+    assert boundaries is not None
+    (one,) = boundaries
+    assert one.stable_above and 1739 < one.speed_rpm < 1750
+    assert f"{one.speed_rpm:.6g} rpm" in (check.remedy or "")
     assert true_region(design_of(written(tmp_path), "machine.speed_range_rpm=[1760, 9000]")).check.status == "pass"
 
 

@@ -35,7 +35,7 @@ from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import machine
 
-ALL = 200
+ALL = 100
 """How many random machines."""
 
 
@@ -142,8 +142,8 @@ def replace_runs(design: Design) -> Any:
 
 
 USUAL = {0: "balanced", 1: "balanced", 16: "restless", 11: "short", 40: "gathered", 147: "balanced"}
-"""Of the two hundred: compliant, rigid of the sense that feeds balls, and others that are not so simple. 147 is within
-a fifth of the contact's resonance, where its balls go round when they come from idle.
+"""Machines as they are drawn: compliant, rigid of the sense that feeds balls, and others that are not so simple. 147 is
+within a fifth of the contact's resonance, where its balls go round when they come from idle.
 """
 
 
@@ -153,10 +153,10 @@ def test_closed_form_and_simulation_agree(seed: int) -> None:
 
 
 @pytest.mark.slow
-def test_closed_form_and_simulation_agree_on_two_hundred_machines() -> None:
+def test_closed_form_and_simulation_agree_on_a_hundred_machines() -> None:
     """As they are drawn, none left out: where balls balance, where they go otherwise, and where they never rest."""
     said = Counter(check(seed) for seed in range(ALL))
-    assert said["balanced"] > 150 and len(said) == 5, said
+    assert said["balanced"] > 75 and len(said) == 5, said
 
 
 def test_what_leads_elsewhere_from_idle_is_told() -> None:

@@ -184,9 +184,7 @@ def test_a_value_beyond_its_limit_is_not_shown_as_the_limit() -> None:
     assert "(109.0 dB, at most 109.0)" in told(109.0)
 
 
-@pytest.mark.parametrize(
-    ("bad", "warned"), [(0, 0), (0, 60), (1, 7), (5, 1), (5, 7), (14, 0), (14, 60), (60, 1), (60, 60)]
-)
+@pytest.mark.parametrize(("bad", "warned"), [(0, 0), (0, 60), (5, 7), (14, 0), (60, 60)])
 def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFitResult, bad: int, warned: int) -> None:
     checks = tuple(graded(GRADES[1 + number % 3], number) for number in range(bad))
     warnings = tuple(f"Warning {number} " + "of some words " * (number % 12) for number in range(warned))

@@ -47,16 +47,11 @@ LIGHT = [
 ]
 
 
-def test_light_commands_load_no_numerics() -> None:
-    """One after the other in one process: what any of them loads stays."""
+def test_commands_load_only_what_they_need() -> None:
+    """One after the other in one process, sizing last: modules stay loaded."""
     heavy = {"scipy", "numpy", "matplotlib", "jsonschema", "tomlkit", "llvmlite"}
-    assert [
-        (one, found & heavy) for one, found in zip(LIGHT, _loaded_modules(*LIGHT), strict=True) if found & heavy
-    ] == []
-
-
-def test_size_loads_only_what_it_needs() -> None:
-    (modules,) = _loaded_modules(("size", "msh-230", "--json"))
+    *light, modules = _loaded_modules(*LIGHT, ("size", "msh-230", "--json"))
+    assert [(command, loaded & heavy) for command, loaded in zip(LIGHT, light, strict=True) if loaded & heavy] == []
     assert {"llvmlite", "numpy"} <= modules
     assert not modules & {"scipy", "matplotlib", "jsonschema", "tomlkit", "pandas", "multiprocessing"}
 

@@ -85,14 +85,14 @@ def _numbers(value: Any) -> list[float]:
 
 
 @given(machines())
-@settings(RANDOM, max_examples=6)
+@settings(RANDOM, max_examples=3)
 def test_any_machine_is_sized_or_refused(changes: dict[str, Any]) -> None:
     _check_sized(changes)
 
 
 @pytest.mark.slow
 @given(machines())
-@settings(RANDOM, max_examples=40)
+@settings(RANDOM, max_examples=15)
 def test_any_of_many_machines_is_sized_or_refused(changes: dict[str, Any]) -> None:
     _check_sized(changes)
 
