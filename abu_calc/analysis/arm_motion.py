@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.balanced.tongue import floquet_edge
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators.choice import loop
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.arm_motion import ORDERS, averaged_edge, forced_harmonics, free_rates
@@ -147,5 +147,6 @@ def _simulated(scene: Scene, held: Arm, expected: Harmonics) -> Simulated | None
 
 def _run(equations: Equations, start: Array, times: "list[float] | Array") -> Array:
     begun = replace(equations, initial=(float(start[0]), float(start[1])))
-    run = scipy_.integrate(begun, TOLERANCE, times, MOST_EVALUATIONS)
+    # Of a revolution without balls plain code is done before compiled code is made.
+    run = loop(begun, TOLERANCE, compiled=False).integrate(begun, TOLERANCE, times, MOST_EVALUATIONS)
     return np.asarray(run.y, dtype=float)

@@ -7,12 +7,10 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.equations.assemble import Equations, assemble
-from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.parameters import Modes
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.switching.modes import settled, watched, watches
 from abu_calc.dynamics.tracing import plain
-from abu_calc.dynamics.tracing.lanes import jacobians
 from abu_calc.dynamics.tracing.traced import Numbers
 from abu_calc.errors import NotTrustworthyError
 from tests.dynamics.examples import EXAMPLES
@@ -86,15 +84,3 @@ def test_what_is_no_number_is_told_as_one():
     y = np.array(equations.initial)
     y[4] = math.inf
     assert all(math.isnan(value) for value in rates(0.0, y))
-
-
-@pytest.mark.parametrize("support", SUPPORTS)
-@pytest.mark.parametrize("way", ROTORS)
-def test_derivatives_at_many_states_are_those_at_each(support, way):
-    equations, rng = assemble(replace(scene_on(support, *ROTORS[way]), effects=())), np.random.default_rng(3)
-    times = rng.uniform(0, equations.scene.revolution, 3)
-    states = np.array(equations.initial) + 0.1 * rng.normal(size=(3, len(equations.states))) * equations.scales
-    found = jacobians(equations, times, states)
-    for t, y, one in zip(times, states, found, strict=True):
-        expected = jacobian(equations, t, y)
-        np.testing.assert_allclose(one, expected, 1e-9, ROUNDING * np.ptp(expected))

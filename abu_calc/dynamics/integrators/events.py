@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.integrators.run import Array
 from abu_calc.dynamics.tracing.plain import Function
+from abu_calc.roots import root
 
 CHECKS = (0.25, 0.5, 0.75)
 """Places in a step at which events are looked for, beside its end."""
@@ -77,7 +78,5 @@ class Watcher:
         return self._crossing(index, dense, self.since, t)
 
     def _crossing(self, index: int, dense: Any, above: float, below: float) -> float:
-        from scipy.optimize import brentq
-
         xtol = 1e-15 * max(abs(below), 1e-300)
-        return float(brentq(lambda s: self._values(s, dense(s))[index], above, below, xtol=xtol, rtol=1e-14))
+        return root(lambda s: self._values(s, dense(s))[index], above, below, xtol=xtol, rtol=1e-14)

@@ -3,5 +3,4 @@
 graph.py     all expressions, each once, and the symbols that stand for states and parameters while they are made
 traced.py    the trace, and the numbers that its code runs with
 plain.py     plain Python on numbers, for SciPy's methods
-lanes.py     the same on arrays: derivatives at many states at once
 """

@@ -7,6 +7,7 @@ A symbol is a sum Σ cₖ eₖ: each c an expression of parameters alone, each e
 as two single terms, so that coefficients of a state meet and become one parameter of the code.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -112,9 +113,15 @@ class Graph:
         lines, results = self._lines(list(self._slots), slots=False)
         return self._parameters, lines, results
 
-    def operations(self, results: Sequence[int]) -> int:
-        """The number of expressions that make the results, equal ones counted once."""
-        return len(self._needed(results, slots=True))
+    def operations(self, results: Sequence[int], most: float = math.inf) -> int:
+        """The number of expressions that make the results, equal ones counted once; no more are counted than `most`."""
+        counted, left = set[int](), list(results)
+        while left and len(counted) <= most:
+            place = left.pop()
+            if place not in counted:
+                counted.add(place)
+                left += () if self._in_slot(place) else self.entries[place][1]
+        return len(counted)
 
     def _lines(self, results: Sequence[int], slots: bool) -> tuple[list[str], list[str]]:
         """The code that makes the results; where `slots`, it takes expressions of parameters from their slots."""

@@ -50,7 +50,9 @@ def _write(equations: Equations, acting: Acting) -> Maker:
         name: graph.lines([symbol.expression() for symbol in symbols])
         for name, symbols in (("rates", traced.rates), ("watched", traced.watched))
     }
-    text = made_of_parameters(graph)
+    numbers, lines, slots = graph.setup()
+    text = ["def make(numbers):", f" [{', '.join(numbers)}] = numbers", *(f" {line}" for line in lines)]
+    text += [f" {graph.slot.format(k)} = {slot}" for k, slot in enumerate(slots)]
     for name, (lines, results) in bodies.items():
         text += [f" def {name}(t, y):", "  try:", "   t = float(t)", f"   [{', '.join(names)}] = y.tolist()"]
         text += [f"   {line}" for line in lines] + [f"   return [{', '.join(results)}]"]
@@ -59,10 +61,3 @@ def _write(equations: Equations, acting: Acting) -> Maker:
     scope: dict[str, Any] = {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt, "nan": math.nan, "inf": math.inf}
     exec(compile("\n".join([*text, " return rates, watched"]), "<equations>", "exec"), scope)
     return cast(Maker, scope["make"])
-
-
-def made_of_parameters(graph: Graph) -> list[str]:
-    """The first lines of `make(numbers)`, whose slots p0, p1, … the functions within it use: once these are written."""
-    names, lines, results = graph.setup()
-    text = ["def make(numbers):", f" [{', '.join(names)}] = numbers", *(f" {line}" for line in lines)]
-    return [*text, *(f" {graph.slot.format(k)} = {result}" for k, result in enumerate(results))]

@@ -4,6 +4,7 @@ import contextlib
 import hashlib
 import importlib.util
 import math
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -91,6 +92,7 @@ def installed() -> bool:
     return importlib.util.find_spec("llvmlite") is not None
 
 
+@cache
 def _text(module: ModuleType) -> str:
     return Path(str(module.__file__)).read_text(encoding="utf-8")
 

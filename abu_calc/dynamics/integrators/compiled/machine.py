@@ -53,6 +53,7 @@ def _target() -> Any:
     )
 
 
+@cache
 def described() -> str:
     """What machine code depends on beside its text. Raises CompilerError."""
     with guarded("llvmlite"):

@@ -87,8 +87,8 @@ def program(equations: Equations, acting: Acting) -> Program:
     dy, seen, chosen = (
         [(zero + value).expression() for row in rows for value in row] for rows in ([rates], watched, criteria)
     )
-    whole = graph.operations(seen)
-    cheap = {k: place for k, place in enumerate(seen) if graph.operations([place]) < CHEAP * whole}
+    most = CHEAP * graph.operations(seen)
+    cheap = {k: place for k, place in enumerate(seen) if graph.operations([place], most) < most}
     given, rows = "t: float, y: Reals, par: Reals", {"dy": dict(enumerate(dy))}
     lines = [
         *_function("rates", f"{given}, dy: Reals", graph, rows),

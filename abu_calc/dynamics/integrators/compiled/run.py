@@ -173,6 +173,8 @@ class _Run(Run):
             if t == bound:
                 if self.recorder.enough(t):
                     return
+                if not undecided and t not in equations.breaks:
+                    continue  # nothing has happened: it was looked whether this is enough
                 modes = at_break(equations, t, modes)
             if t < end:
                 state, modes = settled(equations, t, state, modes)
