@@ -1,8 +1,6 @@
 """How the tests are shared out among processes; what makes them quicker."""
 
 import gc
-import os
-import sys
 from typing import Any
 
 import pytest
@@ -12,9 +10,6 @@ from tests import remembered
 
 settings.register_profile("any machine", deadline=None)  # timings decide no test
 settings.load_profile("any machine")
-# Each process would compile all the tests, and each `abu` that tests start the package, for seconds.
-sys.dont_write_bytecode = False
-os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 gc.disable()  # until all tests are collected: of what that makes nearly nothing is garbage
 
 

@@ -178,7 +178,7 @@ def test_wrong_entries_are_refused(change: str) -> None:
 
 
 def test_python_returns_what_the_command_prints() -> None:
-    result, document = worked("avtovaz-707-370"), abu("grinding", "avtovaz-707-370", "--json").document
+    result, document = worked("avtovaz-707-370"), once("grinding", "avtovaz-707-370", "--json").document
     assert result.to_dict() == document["result"]
     assert result.model.to_dict() == document["model"]
     assert result.status == "pass"
