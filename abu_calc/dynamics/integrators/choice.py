@@ -92,7 +92,7 @@ def choose(equations: Equations, wanted: str, tolerance: float, progress: Progre
         return _scipy("scipy-dop853", "asked for")
     if effect := untraceable(equations):
         return _scipy("scipy-dop853", f"the loop cannot trace the effect {effect}")
-    return _loop(equations, tolerance, progress)
+    return quickest_loop(equations, tolerance, progress)
 
 
 def refuse_removed(wanted: str) -> None:
@@ -121,8 +121,8 @@ def loop_method(equations: Equations, tolerance: float) -> "Method":
     return "rk45" if watches(equations) and tolerance > TIGHT else "dop853"
 
 
-def _loop(equations: Equations, tolerance: float, progress: Progress) -> Choice:
-    """The loop, compiled where that is done sooner."""
+def quickest_loop(equations: Equations, tolerance: float, progress: Progress = silent) -> Choice:
+    """The loop, compiled where that is done sooner; stiff or not."""
     from abu_calc.dynamics.integrators.compiled import ready
 
     method = loop_method(equations, tolerance)
