@@ -1,12 +1,14 @@
 """The same work on many things, side by side on all processors; the outcome does not depend on how many there are."""
 
 import os
+import signal
+import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import import_module
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import Any, Self, TypeVar
 
 T = TypeVar("T")
@@ -29,16 +31,19 @@ class Workers:
         self._kept = self._executor()
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None = None, *_: object) -> None:
         if self._kept is not None:
+            if kind is not None:
+                end_processes(self._kept)
             self._kept.shutdown(wait=True, cancel_futures=True)
         self._kept, self.begun = None, False
 
     def begin(self, module: str) -> None:
         """Processes start and import a module while this one does something else."""
         if self._kept is not None and self.processes:
-            for _ in range(self.count):
-                self._kept.submit(import_module, module)
+            with interrupts_left_to_parent():
+                for _ in range(self.count):
+                    self._kept.submit(import_module, module)
 
     @contextmanager
     def running(self) -> Iterator[Executor]:
@@ -54,8 +59,44 @@ class Workers:
     def _executor(self) -> Executor:
         if not self.processes:
             return ThreadPoolExecutor(self.count)
-        # Started afresh on every system: a copy of this process would have its locks, but not its threads.
-        return ProcessPoolExecutor(self.count, mp_context=get_context("spawn"))
+        return process_pool(self.count)
+
+
+def process_pool(count: int) -> ProcessPoolExecutor:
+    """Processes started afresh on every system: a copy of this one would have its locks, but not its threads."""
+    return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
+
+
+@contextmanager
+def interrupts_left_to_parent() -> Iterator[None]:
+    """Processes started within never see Ctrl-C, not even while they start; this one sees it afterwards."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows, where they ignore it once they have started
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def end_processes(executor: Executor) -> None:
+    """End the processes of a pool at once: nobody wants what they compute."""
+    for process in list((getattr(executor, "_processes", None) or {}).values()):
+        process.terminate()
+
+
+def _begin() -> None:
+    """A worker leaves Ctrl-C to the one who started it, and ends when that one does, however."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(1)
 
 
 def threads() -> Workers:
@@ -85,7 +126,8 @@ def side_by_side(
     if helpers is None:
         return
     with helpers.running() as executor:
-        futures = [executor.submit(work, *task) for task in tasks[alone:]]
+        with interrupts_left_to_parent():
+            futures = [executor.submit(work, *task) for task in tasks[alone:]]
         waiting = set(futures)
         try:
             for one in futures:

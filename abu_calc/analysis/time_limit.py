@@ -3,14 +3,19 @@
 import ctypes
 import faulthandler
 import os
+import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
+from abu_calc.interruption import importing
+
 GRACE: Final = 5.0
 """Seconds after which a process whose work does not give up is ended, where it may be."""
+IMPORTS_S: Final = 0.05
+"""Seconds between two looks at a thread that imports: a module whose import is broken off is broken for good."""
 
 
 class Overtime(BaseException):
@@ -19,7 +24,7 @@ class Overtime(BaseException):
 
 @contextmanager
 def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
-    """Raises Overtime inside once the time is over, as soon as Python code runs there.
+    """Raises Overtime inside once the time is over, as soon as Python code runs there that is no import.
 
     `may_end_process`: what never returns to Python takes the process with it; only for processes that were made to
     compute, whose owner notices.
@@ -27,13 +32,21 @@ def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
     thread, lock, inside = threading.get_ident(), threading.Lock(), True
 
     def stop() -> None:
-        with lock:
-            if inside:
-                _raise_in(thread, Overtime)
+        while True:
+            with lock:
+                if not inside:
+                    return
+                if not importing(sys._current_frames().get(thread)):
+                    _raise_in(thread, Overtime)
+                    return
+            time.sleep(IMPORTS_S)
 
     timer = threading.Timer(seconds, stop)
     timer.daemon = True
-    timer.start()
+    try:
+        timer.start()
+    except RuntimeError as error:  # no room for another thread
+        raise OSError(str(error)) from None
     if may_end_process:
         _end_at(thread, time.monotonic() + seconds + GRACE)
     try:

@@ -9,10 +9,10 @@ from typing import Final
 import typer
 
 from abu_calc.cli.deliver import fail
-from abu_calc.cli.signals import INTERRUPTED, EndedBySignal, status_of
 from abu_calc.cli.streams import make_safe
-from abu_calc.errors import AbuError, InputError, OutputError
+from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError
 from abu_calc.escapes import escaped, shortened
+from abu_calc.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.version import __version__
 
 FIRST_STEPS: Final = """\
@@ -104,6 +104,7 @@ def main(arguments: list[str] | None = None) -> None:
             file=sys.stderr,
         )
         status = OutputError.exit_status
+    leave_signals()
     sys.exit(status)
 
 
@@ -120,14 +121,20 @@ def run(arguments: list[str]) -> int:
     command = next((word for word in arguments if not word.startswith("-")), "")
     as_json = "--json" in arguments
     try:
-        names = (command,) if command in COMMANDS else COMMANDS
-        status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
+        try:
+            names = (command,) if command in COMMANDS else COMMANDS
+            status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
+        except Exception:
+            raise_pending()
+            raise
     except AbuError as error:
         return fail(command, error, as_json)
     except (KeyboardInterrupt, EndedBySignal) as ended:
         status = status_of(ended)
     except typer.Abort:
         status = INTERRUPTED
+    except (ImportError, MemoryError) as error:
+        return fail(command, _starved(error), as_json)
     except OSError as error:
         return fail(command, OutputError(f"refused by the system: {error.strerror or error}"), as_json)
     except Exception as error:
@@ -141,3 +148,11 @@ def run(arguments: list[str]) -> int:
     if isinstance(status, int) and status >= INTERRUPTED - 2:
         print("Interrupted; nothing was written.", file=sys.stderr)
     return status if isinstance(status, int) else 0
+
+
+def _starved(error: BaseException) -> NotTrustworthyError:
+    """The error of a process without memory, or with half a library."""
+    if isinstance(error, ImportError):
+        text = f"a library cannot be loaded: {shortened(escaped(str(error)))}"
+        return NotTrustworthyError(f"{text}\n  Install abu-calc anew, or give the process more memory.")
+    return NotTrustworthyError("the memory is exhausted\n  Give the process more memory, or ask for less at once.")

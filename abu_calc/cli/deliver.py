@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from abu_calc.cli.signals import EndedBySignal, status_of
 from abu_calc.errors import AbuError
 from abu_calc.escapes import escaped, escaped_lines, shortened
+from abu_calc.interruption import EndedBySignal, status_of
 from abu_calc.report.outcome import Outcome, document, error_document, to_json
 
 BUG = 3

@@ -4,7 +4,7 @@ import gc
 import os
 import sys
 
-from abu_calc.cli.signals import EndedBySignal, heed_signals, status_of
+from abu_calc.interruption import EndedBySignal, heed_signals, leave_signals, status_of
 
 
 def main() -> None:
@@ -24,4 +24,5 @@ def main() -> None:
         print("Interrupted.", file=sys.stderr)
         sys.exit(status_of(ended))
     finally:
+        leave_signals()
         gc.freeze()

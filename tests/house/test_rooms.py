@@ -18,6 +18,7 @@ GROUND = (
     "progress",
     "parallel",
     "escapes",
+    "interruption",
 )
 ROOMS = (
     *("standards", "spec", "formulas", "fits", "sizing", "dynamics", "scenes", "analysis", "studies", "report", "cli"),
