@@ -8,6 +8,8 @@ import _thread
 import signal
 import sys
 import time
+from collections.abc import Callable
+from functools import partial
 from types import FrameType
 from typing import Any
 
@@ -46,7 +48,7 @@ def heed_signals() -> None:
     Ctrl-C, too: a KeyboardInterrupt within code made from text, as dataclasses are made, Python remembers to the end,
     where it kills the process by the signal, whatever its exit status was to be.
     """
-    _Pending.thread, sys.unraisablehook = _thread.get_ident(), _silence
+    _Pending.thread, sys.unraisablehook = _thread.get_ident(), partial(_silence, sys.unraisablehook)
     for name in ENDING:
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
@@ -120,7 +122,7 @@ def _remind() -> None:
             _thread.interrupt_main(signal.Signals(number))
 
 
-def _silence(unraisable: Any) -> None:
+def _silence(otherwise: Callable[[Any], Any], unraisable: Any) -> None:
     """A signal that is raised where nothing can be is raised again: the user need not know."""
     if not isinstance(unraisable.exc_value, EndedBySignal):
-        sys.__unraisablehook__(unraisable)
+        otherwise(unraisable)

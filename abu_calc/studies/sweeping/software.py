@@ -9,7 +9,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Final
 
-import abu_calc
 from abu_calc.version import __version__
 
 LIBRARIES: Final = ("numpy", "scipy", "llvmlite", "heyoka")
@@ -52,7 +51,7 @@ def _version(name: str) -> str:
 
 def _source() -> str:
     """Digest of the package's files, whatever a system ends their lines with; presets are input."""
-    package, digest = Path(abu_calc.__file__).parent, sha256()
+    package, digest = Path(__file__).parents[2], sha256()
     for path in sorted(each for each in package.rglob("*") if each.suffix in SOURCES):
         parts = path.relative_to(package).parts
         if parts[0] != "presets":

@@ -94,7 +94,7 @@ class Store:
                     _refuse_another(path, there, identity)
                     _verify(path, database, columns, schema, runs)
                 store = cls(path, database, names, runs, time_limit)
-                store._mark = next(database.execute("SELECT value FROM study WHERE key = ?", (OWN,)))[0]
+                (store._mark,) = database.execute("SELECT value FROM study WHERE key = ?", (OWN,)).fetchone()
             except BaseException:
                 database.close()
                 raise
