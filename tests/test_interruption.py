@@ -118,13 +118,13 @@ def test_an_error_after_a_signal_is_told_as_the_signal(monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize("error", [ImportError("libscipy.so: failed to map segment"), MemoryError()])
-def test_a_process_without_memory_says_so_in_two_lines(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_process_without_memory_says_so_in_one_line(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
     def build(_: object) -> None:
         raise error
 
     monkeypatch.setattr(app, "build", build)
     seen = abu("presets")
-    assert seen.status == 3 and "bug" not in seen.err and "memory" in seen.err and seen.err.count("\n") == 2
+    assert seen.status == 3 and "bug" not in seen.err and "memory" in seen.err and seen.err.count("\n") == 1
 
 
 def test_a_time_limit_waits_for_the_end_of_an_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -135,3 +135,13 @@ def test_a_time_limit_waits_for_the_end_of_an_import(tmp_path: Path, monkeypatch
         importlib.import_module("slowly")
         waiting()
     assert sys.modules["slowly"].whole
+
+
+def test_a_limit_on_memory_is_seen_before_libraries_meet_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some of them wait for ever; what needs no numbers needs little."""
+    resource = pytest.importorskip("resource")
+    for limit in (400, 500, 600):
+        monkeypatch.setattr(resource, "getrlimit", lambda _, limit=limit: (limit << 20, -1))
+        seen = abu("size", "msh-230", "--quiet")
+        assert seen.status == 3 and f"{limit} MB" in seen.err and seen.err.count("\n") == 1
+        assert abu("presets").status == 0 and abu("size", "--help").status == 0

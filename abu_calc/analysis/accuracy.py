@@ -4,7 +4,8 @@ import math
 import statistics
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Final
 
@@ -12,6 +13,7 @@ from abu_calc.analysis.differences import QUANTITIES, Measures
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
+from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice, estimates
 from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
@@ -37,6 +39,8 @@ ASKED: Final = estimates.EVENT
 """Time of an event by the second of the verifying integrators [s]."""
 
 REPEATS: Final = 3
+SHORTEST: Final = 0.05
+"""Seconds that a method has at the least once it has begun."""
 LONG, LOADING = 0.5, 3.0
 """Seconds above which one repeat has to do, and that are more than loading and compiling take."""
 
@@ -103,15 +107,21 @@ class Method:
 def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: float, progress: Progress) -> Study:
     """Measure within `budget` seconds; what no longer fits is skipped, and named.
 
-    Raises NotTrustworthyError when two methods do not agree on the reference better than the accuracy, and InputError
-    for a quantity nobody knows.
+    The time begins when the integrators of the reference are loaded and compiled; what runs when it is over is broken
+    off. Raises NotTrustworthyError when the reference takes longer, or two methods do not agree on it better than the
+    accuracy, and InputError for a quantity nobody knows.
     """
     if quantity not in QUANTITIES:
         raise InputError("not one of the known quantities", found=quantity, allowed=", ".join(QUANTITIES))
-    end = time.perf_counter() + budget
     full, _ = with_parted_balls(full)
     progress("reference")
-    reference = _reference(full, quantity, accuracy, budget)
+    _load(full, accuracy)
+    end = time.perf_counter() + budget
+    try:
+        with limited(budget):
+            reference = _reference(full, quantity, accuracy, budget)
+    except Overtime:
+        raise _unaffordable(full, f"more than {budget:g} s", 4 * budget) from None
     points: list[Point] = []
     skipped: list[str] = []
     waiting = groups(full, with_parted_balls(ledger.scene)[0])
@@ -146,8 +156,9 @@ def _measured(
             return points, [each.name for each in group[place:]]
         told(method)
         try:
-            points.append(_point(full, method, reference, quantity, end))
-        except TooMuchWorkError:
+            with limited(max(end - time.perf_counter(), SHORTEST)):
+                points.append(_point(full, method, reference, quantity, end))
+        except (TooMuchWorkError, Overtime):
             return points, [each.name for each in group[place:]]
     return points, []
 
@@ -248,6 +259,23 @@ def _trial(name: str, equations: Equations, times: Any) -> tuple[Trajectory, flo
     return run, spent
 
 
+def _load(full: Scene, accuracy: float) -> None:
+    """Load and compile the integrators of the reference, by one revolution of the scene."""
+    short = replace(full, duration=full.revolution)
+    equations, times = assemble(short), needed_times(short)
+    for name, _ in choice.verifiers(assemble(full), max(accuracy, FINEST)):
+        with suppress(AbuError, Overtime), limited(LOADING):
+            choice.integrate_with(name, equations, TRIAL, times, MOST_IN_PYTHON)
+
+
+def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError:
+    return NotTrustworthyError(
+        f"{full.name}: the reference alone takes {takes}\n"
+        f"  give more time (--budget {enough:.1f}, Python: budget_s=), "
+        "or shorten the run (--duration, Python: duration_s=)"
+    )
+
+
 def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     """Two methods at tight tolerances; they must agree better than half the accuracy.
 
@@ -260,11 +288,7 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
     # Events are as many and as long at every tolerance; whoever is second asks Python for each.
     expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
-        raise NotTrustworthyError(
-            f"{full.name}: the reference alone takes about {expected:.1f} s, {trial.events} events among it\n"
-            f"  give more time (--budget {2 * expected:.1f}, Python: budget_s=), "
-            "or shorten the run (--duration, Python: duration_s=)"
-        )
+        raise _unaffordable(full, f"about {expected:.1f} s, {trial.events} events among it", 2 * expected)
     first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))
     second = evaluate(full, choice.integrate_with(other, equations, tight, times, MOST_EVALUATIONS))
     apart = QUANTITIES[quantity](full, first, second)

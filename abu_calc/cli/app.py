@@ -10,7 +10,7 @@ import typer
 
 from abu_calc.cli.deliver import fail
 from abu_calc.cli.streams import make_safe
-from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError
+from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
 from abu_calc.escapes import escaped, shortened
 from abu_calc.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.version import __version__
@@ -60,6 +60,11 @@ COMMANDS = (
     "explain",
 )
 """In the order of the help; each has its module."""
+
+NUMERIC: Final = frozenset(COMMANDS) - {"check-fit", "validate", "init", "presets", "schema", "explain"}
+"""Commands that load libraries of numbers."""
+NEEDED_MB: Final = 760
+"""Address space that these libraries reserve, most of which they never use: 700 MB on two processors."""
 
 
 def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
@@ -120,6 +125,8 @@ def run(arguments: list[str]) -> int:
         return 0
     command = next((word for word in arguments if not word.startswith("-")), "")
     as_json = "--json" in arguments
+    if command in NUMERIC and not {"--help", "-h"} & set(arguments) and (short := _memory()) is not None:
+        return fail(command, short, as_json)
     try:
         try:
             names = (command,) if command in COMMANDS else COMMANDS
@@ -136,7 +143,8 @@ def run(arguments: list[str]) -> int:
     except (ImportError, MemoryError) as error:
         return fail(command, _starved(error), as_json)
     except OSError as error:
-        return fail(command, OutputError(f"refused by the system: {error.strerror or error}"), as_json)
+        place = Place(str(error.filename)) if error.filename else Place()
+        return fail(command, OutputError(f"refused by the system: {error.strerror or error}", place=place), as_json)
     except Exception as error:
         # Errors of the parser of command lines, whichever Typer brings along, word themselves so.
         if worded := getattr(error, "format_message", None):
@@ -154,5 +162,19 @@ def _starved(error: BaseException) -> NotTrustworthyError:
     """The error of a process without memory, or with half a library."""
     if isinstance(error, ImportError):
         text = f"a library cannot be loaded: {shortened(escaped(str(error)))}"
-        return NotTrustworthyError(f"{text}\n  Install abu-calc anew, or give the process more memory.")
-    return NotTrustworthyError("the memory is exhausted\n  Give the process more memory, or ask for less at once.")
+        return NotTrustworthyError(f"{text}; install abu-calc anew, or give the process more memory")
+    return NotTrustworthyError("the memory is exhausted; give the process more, or ask for less at once")
+
+
+def _memory() -> NotTrustworthyError | None:
+    """The error of a process that may have too little memory: libraries of C then end it, or wait for ever."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return None
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if most == resource.RLIM_INFINITY or most >= NEEDED_MB << 20:
+        return None
+    return NotTrustworthyError(
+        f"the process may have {most >> 20} MB of address space and needs {NEEDED_MB} MB: raise `ulimit -v`"
+    )

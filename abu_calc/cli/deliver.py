@@ -34,7 +34,7 @@ class Delivery(NamedTuple):
             from abu_calc.report.files import FORMATS, check_extra
             from abu_calc.report.write import check_target
 
-            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn))
+            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
             check_extra(self.output.suffix.lower())
 
 

@@ -45,9 +45,8 @@ class Table(BaseModel):
     @model_validator(mode="after")
     def _magnitudes(self) -> Self:
         for key in type(self).model_fields:
-            value = getattr(self, key)
-            for number in value if isinstance(value, tuple) else (value,):
-                if isinstance(number, float) and 0 < abs(number) < LEAST:
+            for number in _numbers(getattr(self, key)):
+                if 0 < abs(number) < LEAST:
                     raise problem(
                         "too small to compute with",
                         key,
@@ -107,6 +106,15 @@ class Table(BaseModel):
                 for index, item in enumerate(value):
                     if isinstance(item, Table):
                         yield from item.tables((*path, key, index))
+
+
+def _numbers(value: object) -> Iterator[float]:
+    """The number that a key has, or those of its lists."""
+    if isinstance(value, float):
+        yield value
+    elif isinstance(value, tuple):
+        for inner in value:
+            yield from _numbers(inner)
 
 
 def subtable(model: type[Table], key: str) -> type[Table] | None:
