@@ -248,13 +248,17 @@ def _study(path: Path, database: sqlite3.Connection) -> dict[str, Any] | None:
     if not tables:
         return None
     refuse_foreign(path, tables)
-    study = {key: json.loads(value) for key, value in database.execute("SELECT key, value FROM study") if key != OWN}
+    pairs = dict(database.execute("SELECT key, value FROM study"))
+    own = pairs.pop(OWN, "null")
+    study = {key: json.loads(value) for key, value in pairs.items()}
     if study.get("format") != FORMAT:
         raise fault(
             path,
             f"its form is {study.get('format')}, this version of abu-calc writes {FORMAT}",
             "Go on with the version it was begun with, or name another store.",
         )
+    if json.loads(own)[1] != _sum_of(list(pairs.items())):
+        raise damaged(path, "its study is not what was stored")
     return study
 
 
@@ -320,7 +324,12 @@ def _create(
     database.executemany("INSERT INTO columns VALUES (?, ?, ?)", _described(columns))
     stored = {"format": FORMAT, **identity}
     pairs = [(key, json.dumps(value, sort_keys=True)) for key, value in stored.items()]
-    database.executemany("INSERT INTO study VALUES (?, ?)", [*pairs, (OWN, json.dumps(uuid4().hex))])
+    database.executemany("INSERT INTO study VALUES (?, ?)", [*pairs, (OWN, json.dumps([uuid4().hex, _sum_of(pairs)]))])
+
+
+def _sum_of(pairs: Sequence[tuple[str, str]]) -> int:
+    """Of a study as it is stored: from an edited one other members would follow."""
+    return zlib.crc32(repr(sorted(pairs)).encode())
 
 
 def _described(columns: Sequence[Column]) -> list[tuple[str, str, str]]:
