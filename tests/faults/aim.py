@@ -1,7 +1,8 @@
 """Signals aimed at imports: a hook in the import system of a process sends itself one while a module loads.
 
 `aimed(folder, module, name)` writes a `sitecustomize.py`; with the folder first on PYTHONPATH, Python runs it before
-anything else. The signal comes from inside the module's own code, as extension modules meet it.
+anything else. The signal comes from inside the module's own code, as extension modules meet it. A file `sent` in the
+working folder tells that it was sent.
 """
 
 from pathlib import Path
@@ -33,6 +34,7 @@ class Sending:
 
 def send():
     sys.meta_path[:] = [each for each in sys.meta_path if not isinstance(each, Finder)]
+    open("sent", "w").close()
     try:
         os.kill(os.getpid(), signal.{signal})
         sum(range(1000))  # the handler runs here
