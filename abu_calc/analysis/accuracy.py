@@ -6,19 +6,17 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any, Final
 
 from abu_calc.analysis.differences import QUANTITIES, Measures
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.analysis.rungs import Estimate, averaged, closed_form
-from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice, estimates
 from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Sampling, Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
 from abu_calc.progress import Progress, Stage
 
@@ -39,8 +37,6 @@ ASKED: Final = estimates.EVENT
 """Time of an event by the second of the verifying integrators [s]."""
 
 REPEATS: Final = 3
-SHORTEST: Final = 0.05
-"""Seconds that a method has at the least once it has begun."""
 LONG, LOADING = 0.5, 3.0
 """Seconds above which one repeat has to do, and that are more than loading and compiling take."""
 
@@ -94,7 +90,8 @@ class Method:
     rung: str
     integrator: str | None
     tolerance: float | None
-    run: Callable[[], Any]
+    run: Callable[[float], Any]
+    """Takes the seconds after which it is broken off."""
     read: Callable[[Any], tuple[Measures, int, int]]
 
     @property
@@ -117,11 +114,7 @@ def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: f
     progress("reference")
     _load(full, accuracy)
     end = time.perf_counter() + budget
-    try:
-        with limited(budget):
-            reference = _reference(full, quantity, accuracy, budget)
-    except Overtime:
-        raise _unaffordable(full, f"more than {budget:g} s", 4 * budget) from None
+    reference = _reference(full, quantity, accuracy, budget)
     points: list[Point] = []
     skipped: list[str] = []
     waiting = groups(full, with_parted_balls(ledger.scene)[0])
@@ -156,9 +149,8 @@ def _measured(
             return points, [each.name for each in group[place:]]
         told(method)
         try:
-            with limited(max(end - time.perf_counter(), SHORTEST)):
-                points.append(_point(full, method, reference, quantity, end))
-        except (TooMuchWorkError, Overtime):
+            points.append(_point(full, method, reference, quantity, end))
+        except TooMuchWorkError:
             return points, [each.name for each in group[place:]]
     return points, []
 
@@ -178,9 +170,9 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
     Cheap ones first; closed forms and envelope leave out what they cannot average.
     """
     smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
-    found = [[Method("closed-form", None, None, lambda: closed_form(smooth), _estimated)]]
+    found = [[Method("closed-form", None, None, lambda _: closed_form(smooth), _estimated)]]
     found.append([
-        Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _estimated)
+        Method("envelope", "scipy-lsoda", tolerance, lambda _, each=tolerance: averaged(smooth, each), _estimated)
         for tolerance in ENVELOPE_TOLERANCES
     ])  # fmt: skip
     here = list(choice.available(assemble(scene)))
@@ -207,9 +199,9 @@ def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method
         """What is compared of a run, and its work."""
         return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
 
-    def run() -> Trajectory:
+    def run(seconds: float) -> Trajectory:
         """The integration alone."""
-        return choice.integrate_with(name, equations, tolerance, times, most)
+        return choice.integrate_with(name, equations, tolerance, _until(times, seconds), most)
 
     return Method(rung, name, tolerance, run, read)
 
@@ -218,7 +210,7 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     """One method, run once cold and then warm as long as there is time."""
     started = time.perf_counter()
     try:
-        run = method.run()
+        run = method.run(end - started)
     except TooMuchWorkError:
         raise
     except AbuError as failure:
@@ -230,7 +222,7 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
         if time.perf_counter() + cold > end:
             break
         started = time.perf_counter()
-        method.run()
+        method.run(math.inf)
         warm.append(time.perf_counter() - started)
     measures, evaluations, steps = method.read(run)
     error = QUANTITIES[quantity](full, measures, reference.response)
@@ -248,11 +240,22 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     )
 
 
-def _trial(name: str, equations: Equations, times: Any) -> tuple[Trajectory, float]:
+def _until(times: Any, seconds: float) -> Sampling:
+    """The same times, for a run that raises TooMuchWorkError after so many seconds."""
+    end = time.perf_counter() + seconds
+
+    def check(_: float) -> None:
+        if time.perf_counter() > end:
+            raise TooMuchWorkError(f"more than {seconds:.2g} s")
+
+    return Sampling.of(times).telling(check)
+
+
+def _trial(name: str, equations: Equations, times: Any, seconds: float) -> tuple[Trajectory, float]:
     """A loose run, and its time [s]; a short one once more, since the first also loads and compiles."""
     for _ in range(2):
         started = time.perf_counter()
-        run = choice.integrate_with(name, equations, TRIAL, times, MOST_EVALUATIONS)
+        run = choice.integrate_with(name, equations, TRIAL, _until(times, seconds), MOST_EVALUATIONS)
         spent = time.perf_counter() - started
         if spent > LOADING:
             break
@@ -264,8 +267,8 @@ def _load(full: Scene, accuracy: float) -> None:
     short = replace(full, duration=full.revolution)
     equations, times = assemble(short), needed_times(short)
     for name, _ in choice.verifiers(assemble(full), max(accuracy, FINEST)):
-        with suppress(AbuError, Overtime), limited(LOADING):
-            choice.integrate_with(name, equations, TRIAL, times, MOST_IN_PYTHON)
+        with suppress(AbuError):
+            choice.integrate_with(name, equations, TRIAL, _until(times, LOADING), MOST_IN_PYTHON)
 
 
 def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError:
@@ -279,18 +282,26 @@ def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError
 def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     """Two methods at tight tolerances; they must agree better than half the accuracy.
 
-    A loose run first shows how long they will take.
+    A loose run first shows how long they will take; what is not done in the time is broken off.
     """
+    try:
+        return _verified(full, quantity, accuracy, budget)
+    except TooMuchWorkError as error:
+        raise _unaffordable(full, str(error).splitlines()[0], 4 * budget) from None
+
+
+def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
-    trial, spent = _trial(one, equations, times)
+    trial, spent = _trial(one, equations, times, budget)
     steps = 1 - EVENT * trial.events / work(trial)
     # Events are as many and as long at every tolerance; whoever is second asks Python for each.
     expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
         raise _unaffordable(full, f"about {expected:.1f} s, {trial.events} events among it", 2 * expected)
-    first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))
-    second = evaluate(full, choice.integrate_with(other, equations, tight, times, MOST_EVALUATIONS))
+    first = evaluate(full, choice.integrate_with(one, equations, loose, _until(times, budget), MOST_EVALUATIONS))
+    left = max(started + budget - time.perf_counter(), 0.0)
+    second = evaluate(full, choice.integrate_with(other, equations, tight, _until(times, left), MOST_EVALUATIONS))
     apart = QUANTITIES[quantity](full, first, second)
     if not apart <= accuracy / 2:
         raise NotTrustworthyError(

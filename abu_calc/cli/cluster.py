@@ -5,7 +5,7 @@ import logging
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from typing import Final
+from typing import Any, Final
 
 from abu_calc.errors import InputError, Place
 
@@ -27,8 +27,19 @@ def executor(address: str, patience: float) -> Iterator[Executor]:
             place=Place(key="--cluster"),
             remedy='pip install "abu-calc[cluster]", here and on the workers.',
         ) from None
-    # Dask reports each lost connection with a traceback; the command ends with one line of its own.
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    # Dask reports each lost connection with a traceback; the command ends with a line of its own.
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with _connected(distributed, address, patience) as client:
+            yield client.get_executor(pure=False)
+    finally:
+        logging.disable(before)
+
+
+@contextmanager
+def _connected(distributed: Any, address: str, patience: float) -> Iterator[Any]:
+    """A client of the cluster, once it has a worker."""
     try:
         client = distributed.Client(address, timeout=min(CONNECT_S, patience))
     except (OSError, TimeoutError, ValueError) as error:
@@ -49,6 +60,6 @@ def executor(address: str, patience: float) -> Iterator[Executor]:
                 found=address,
                 remedy="Start some: dask worker ADDRESS. Or wait longer: --cluster-wait S.",
             ) from None
-        yield client.get_executor(pure=False)
+        yield client
     finally:
         client.close(timeout=CONNECT_S)

@@ -32,9 +32,8 @@ class Cluster:
         """One thread; `path`: where it finds abu_calc before anywhere else."""
         more = ("--nanny" if nanny else "--no-nanny", "--nthreads", "1", "--no-dashboard", "--death-timeout", "60")
         folder = ("--local-directory", str(self.folder))
-        return self._started(
-            "worker", self.address, *more, *folder, environment={"PYTHONPATH": str(path or Path(__file__).parents[2])}
-        )
+        first = {"PYTHONPATH": str(path or Path(__file__).parents[2])}
+        return self._started("worker", self.address, *more, *folder, environment=first)
 
     def close(self) -> None:
         """Kill all that is left."""

@@ -133,8 +133,13 @@ class Faults:
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (first or ROOT, ROOT)))}
         return subprocess.Popen(
             (sys.executable, "-m", "abu_calc", *words), env=environment, cwd=folder, stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, text=True,
+            stderr=subprocess.PIPE, text=True, preexec_fn=_heed_interrupts,
         )  # fmt: skip
+
+
+def _heed_interrupts() -> None:
+    """Whoever runs the trials in the background may have turned the signal off."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _damaged(change: Callable[[Path, random.Random], str]) -> Callable[..., None]:
