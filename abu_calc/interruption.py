@@ -28,6 +28,9 @@ IMPORTER = "<frozen importlib"
 class EndedBySignal(BaseException):
     """A signal asked the command to end."""
 
+    comes_again = True
+    """Where nothing can be raised Python drops it, with a line on standard error that nobody needs."""
+
     def __init__(self, number: int) -> None:
         super().__init__(number)
         self.exit_status = 128 + number
@@ -124,5 +127,5 @@ def _remind() -> None:
 
 def _silence(otherwise: Callable[[Any], Any], unraisable: Any) -> None:
     """A signal that is raised where nothing can be is raised again: the user need not know."""
-    if not isinstance(unraisable.exc_value, EndedBySignal):
+    if not getattr(unraisable.exc_value, "comes_again", False):
         otherwise(unraisable)

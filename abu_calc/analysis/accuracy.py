@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Final
 
 from abu_calc.analysis.differences import QUANTITIES, Measures
@@ -37,8 +38,14 @@ ASKED: Final = estimates.EVENT
 """Time of an event by the second of the verifying integrators [s]."""
 
 REPEATS: Final = 3
+LATEST: Final = 2.0
+"""Budgets after which a reference that was expected sooner is broken off."""
 LONG, LOADING = 0.5, 3.0
 """Seconds above which one repeat has to do, and that are more than loading and compiling take."""
+
+
+class OverBudgetError(TooMuchWorkError):
+    """A run was broken off, since its time is over."""
 
 
 @dataclass(frozen=True)
@@ -170,9 +177,9 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
     Cheap ones first; closed forms and envelope leave out what they cannot average.
     """
     smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
-    found = [[Method("closed-form", None, None, lambda _: closed_form(smooth), _estimated)]]
+    found = [[Method("closed-form", None, None, _after(partial(closed_form, smooth)), _estimated)]]
     found.append([
-        Method("envelope", "scipy-lsoda", tolerance, lambda _, each=tolerance: averaged(smooth, each), _estimated)
+        Method("envelope", "scipy-lsoda", tolerance, _after(partial(averaged, smooth, tolerance)), _estimated)
         for tolerance in ENVELOPE_TOLERANCES
     ])  # fmt: skip
     here = list(choice.available(assemble(scene)))
@@ -185,6 +192,11 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
         found += [[_integration("everything", full, name, each) for each in TOLERANCES[1:5:2]] for name in usable]
     others = [name for name in here if name not in QUICK]
     return found + [[_integration("equations", scene, name, each) for each in TOLERANCES] for name in others]
+
+
+def _after(estimate: Callable[[], Estimate]) -> Callable[[float], Estimate]:
+    """One that is done too soon to be broken off."""
+    return lambda _: estimate()
 
 
 def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
@@ -240,13 +252,13 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     )
 
 
-def _until(times: Any, seconds: float) -> Sampling:
-    """The same times, for a run that raises TooMuchWorkError after so many seconds."""
-    end = time.perf_counter() + seconds
+def _until(times: Any, seconds: float) -> Any:
+    """The same times, for a run that raises OverBudgetError after so many seconds of the processor."""
+    end = time.thread_time() + seconds
 
     def check(_: float) -> None:
-        if time.perf_counter() > end:
-            raise TooMuchWorkError(f"more than {seconds:.2g} s")
+        if time.thread_time() > end:
+            raise OverBudgetError(f"more than {seconds:.2g} s of the processor")
 
     return Sampling.of(times).telling(check)
 
@@ -282,26 +294,27 @@ def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError
 def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     """Two methods at tight tolerances; they must agree better than half the accuracy.
 
-    A loose run first shows how long they will take; what is not done in the time is broken off.
+    A loose run first shows how long they will take; what is not done in twice the time is broken off.
     """
     try:
         return _verified(full, quantity, accuracy, budget)
-    except TooMuchWorkError as error:
-        raise _unaffordable(full, str(error).splitlines()[0], 4 * budget) from None
+    except OverBudgetError:
+        raise _unaffordable(full, f"more than {LATEST * budget:g} s", 2 * LATEST * budget) from None
 
 
 def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
-    trial, spent = _trial(one, equations, times, budget)
+    end = time.thread_time() + LATEST * budget
+    trial, spent = _trial(one, equations, times, LATEST * budget)
     steps = 1 - EVENT * trial.events / work(trial)
     # Events are as many and as long at every tolerance; whoever is second asks Python for each.
     expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
         raise _unaffordable(full, f"about {expected:.1f} s, {trial.events} events among it", 2 * expected)
-    first = evaluate(full, choice.integrate_with(one, equations, loose, _until(times, budget), MOST_EVALUATIONS))
-    left = max(started + budget - time.perf_counter(), 0.0)
-    second = evaluate(full, choice.integrate_with(other, equations, tight, _until(times, left), MOST_EVALUATIONS))
+    until = _until(times, end - time.thread_time())
+    first = evaluate(full, choice.integrate_with(one, equations, loose, until, MOST_EVALUATIONS))
+    second = evaluate(full, choice.integrate_with(other, equations, tight, until, MOST_EVALUATIONS))
     apart = QUANTITIES[quantity](full, first, second)
     if not apart <= accuracy / 2:
         raise NotTrustworthyError(

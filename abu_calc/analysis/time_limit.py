@@ -14,12 +14,16 @@ from abu_calc.interruption import importing
 
 GRACE: Final = 5.0
 """Seconds after which a process whose work does not give up is ended, where it may be."""
+AGAIN_S: Final = 0.5
+"""Seconds after which it is raised again: what runs for the garbage collector swallows whatever is raised in it."""
 IMPORTS_S: Final = 0.05
 """Seconds between two looks at a thread that imports: a module whose import is broken off is broken for good."""
 
 
 class Overtime(BaseException):
     """The time is over."""
+
+    comes_again = True
 
 
 @contextmanager
@@ -36,10 +40,10 @@ def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
             with lock:
                 if not inside:
                     return
-                if not importing(sys._current_frames().get(thread)):
+                raised = not importing(sys._current_frames().get(thread))
+                if raised:
                     _raise_in(thread, Overtime)
-                    return
-            time.sleep(IMPORTS_S)
+            time.sleep(AGAIN_S if raised else IMPORTS_S)
 
     timer = threading.Timer(seconds, stop)
     timer.daemon = True

@@ -26,7 +26,7 @@ def endless(name: str, equations: Any, tolerance: float, times: Any, most: int) 
 def test_a_reference_without_end_is_broken_off(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(accuracy, "_load", lambda *_: None)
     monkeypatch.setattr(choice, "integrate_with", endless)
-    with pytest.raises(abu_calc.NotTrustworthyError, match=r"takes more than 0\.2 s\n  give more time"):
+    with pytest.raises(abu_calc.NotTrustworthyError, match=r"takes more than 0\.4 s\n  give more time"):
         abu_calc.accuracy(abu_calc.read("msh-230"), budget_s=0.2)
 
 
