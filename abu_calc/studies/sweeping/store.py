@@ -14,6 +14,7 @@ from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Final, Self
+from urllib.parse import quote
 from uuid import uuid4
 
 import numpy as np
@@ -227,7 +228,9 @@ def checksum(row: Sequence[object]) -> int:
 
 def connected(path: Path, *, create: bool = False) -> sqlite3.Connection:
     """A connection to a store; without `create` to one that is there."""
-    address = f"{path.absolute().as_uri()}?mode={'rwc' if create else 'rw'}"
+    name = path.absolute().as_posix()
+    authority = "//" if name.startswith("//") else ""  # SQLite takes that of a Windows share for another host
+    address = f"file:{authority}{quote(name)}?mode={'rwc' if create else 'rw'}"
     return sqlite3.connect(address, isolation_level=None, timeout=PATIENCE_S, uri=True)
 
 

@@ -176,6 +176,14 @@ def test_loops_folders_and_pipes_are_no_stores(resume: bool, sweeps: Sweeps) -> 
         assert str(path) in str(refused.value)
 
 
+@pytest.mark.parametrize("name", ["a b", "a?b", "a#b", "a%20b", "µ", "file:x", "'", "a&mode=memory"])
+def test_whatever_files_are_called_stores_are_called(name: str, tmp_path: Path) -> None:
+    opened(tmp_path / name).close()
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    opened(Path(f"/{tmp_path}") / name).close()
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
 def test_a_full_disk_keeps_what_was_stored(tmp_path: Path) -> None:
     """SQLite's own limit on pages stands for the disk's end."""
     path = tmp_path / "members.sqlite"
