@@ -29,7 +29,7 @@ class EndedBySignal(BaseException):
     """A signal asked the command to end."""
 
     comes_again = True
-    """Where nothing can be raised Python drops it, with a line on standard error that nobody needs."""
+    """Mark of an error that is raised again if Python drops it where nothing can be raised."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -46,7 +46,7 @@ class _Pending:
 
 
 def heed_signals() -> None:
-    """From now on they raise EndedBySignal; those that are ignored, as under nohup, stay so.
+    """Make signals raise EndedBySignal from now on; those that are ignored, as under nohup, stay so.
 
     Ctrl-C, too: a KeyboardInterrupt within code made from text, as dataclasses are made, Python remembers to the end,
     where it kills the process by the signal, whatever its exit status was to be.
@@ -80,7 +80,7 @@ def status_of(ended: BaseException) -> int:
 
 
 def importing(frame: FrameType | None) -> bool:
-    """Whether this frame or one that called it is an import."""
+    """Tell whether this frame or a frame that called it is an import."""
     while frame is not None:
         if frame.f_code.co_filename.startswith(IMPORTER):
             return True
@@ -102,7 +102,7 @@ def _end(number: int, frame: FrameType | None) -> None:
 
 
 def _cleaning_up() -> bool:
-    """Whether an EndedBySignal is on its way: `finally` and `except` run for it."""
+    """Tell whether an EndedBySignal is on its way: `finally` and `except` run for it."""
     error = sys.exc_info()[1]
     while error is not None:
         if isinstance(error, EndedBySignal):

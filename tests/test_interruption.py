@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture
 def heeding() -> Iterator[None]:
-    """As a command: signals are heeded until the test is over."""
+    """Heed signals until the test is over, as a command does."""
     before, hook = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}, sys.unraisablehook
     for number in before:
         signal.signal(number, signal.SIG_DFL)

@@ -86,7 +86,7 @@ class RenewableExecutor:
         self.close()
 
     def look(self) -> bool:
-        """Whether anybody computes. Raises NotTrustworthyError if nobody has for too long."""
+        """Tell whether anybody computes. Raises NotTrustworthyError if nobody has for too long."""
         if self.alive is None or self.alive():
             self._seen = math.inf
             return True
@@ -182,7 +182,7 @@ def _submit(study: Study, batch: tuple[int, ...], workers: RenewableExecutor) ->
 
 
 def _error(future: Future[Any]) -> BaseException | None:
-    """What a batch ended with. Raises what no member is the reason of: whoever computes cannot compute any."""
+    """The error of a batch. Raises an error that has no member as its reason: whoever computes cannot compute any."""
     error = future.exception()
     if isinstance(error, AbuError):
         raise error

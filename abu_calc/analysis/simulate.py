@@ -60,7 +60,7 @@ class Cost:
     wall_s: float
     why: str
     work: int = 0
-    """In SciPy's evaluations, as `most_evaluations` counts."""
+    """Work in SciPy's evaluations, as `most_evaluations` counts."""
 
 
 @dataclass(frozen=True)

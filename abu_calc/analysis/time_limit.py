@@ -28,7 +28,7 @@ class Overtime(BaseException):
 
 @contextmanager
 def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
-    """Raises Overtime inside once the time is over, as soon as Python code runs there that is no import.
+    """Raise Overtime inside once the time is over, as soon as Python code runs there that is no import.
 
     `may_end_process`: what never returns to Python takes the process with it; only for processes that were made to
     compute, whose owner notices.

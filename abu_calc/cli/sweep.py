@@ -143,7 +143,7 @@ def _wording(store: Path | None) -> Iterator[None]:
 
 
 def _going_on(store: Path, kept: str) -> str:
-    """Where the members are, and the command that computes the others."""
+    """Text that names the place of the members, and the command that computes the others."""
     resume = "" if "--resume" in sys.argv else " --resume"
     return f"{kept} are in {store}. Go on with:\n  {_command()}{resume}"
 

@@ -13,7 +13,7 @@ from abu_calc.errors import InputError, Place
 MotionQuantity = Literal["acceleration", "velocity", "displacement"]
 QUANTITIES: Final[tuple[MotionQuantity, ...]] = ("acceleration", "velocity", "displacement")
 LARGEST: Final = 1e9
-"""Of the samples, in SI units: squares of much larger ones, and their sums, are infinite."""
+"""Largest sample, in SI units: squares of much larger ones, and their sums, are infinite."""
 MOST_AXES: Final = 3
 
 

@@ -109,7 +109,7 @@ def sweep(
 
 
 def _path(given: str | Path, resume: bool, force: bool) -> Path:
-    """Where the store is; refused if a file is there that nobody wants to go on with."""
+    """The path of the store; refused if a file is there that nobody wants to go on with."""
     path = checked_path(given)
     if path.exists() and not (resume or force) and not _is_cold(path):
         raise fault(path, "exists already", "Go on with it by --resume, name another, or overwrite it with --force.")
@@ -117,7 +117,7 @@ def _path(given: str | Path, resume: bool, force: bool) -> Path:
 
 
 def _is_cold(path: Path) -> bool:
-    """Whether a store is there that another process has just begun, without a table in it."""
+    """Tell whether a store is there that another process has just begun, without a table in it."""
     try:
         return study_of(path) is None
     except AbuError:

@@ -18,8 +18,8 @@ def endless(name: str, equations: Any, tolerance: float, times: Any, most: int) 
     """A run longer than any budget here, which tells how far it is; a test that waits for its end fails."""
     until = time.monotonic() + ENDLESS_S
     while time.monotonic() < until:
-        if told := getattr(times, "told", None):
-            told(0.0)
+        if tell := getattr(times, "told", None):
+            tell(0.0)
     raise AssertionError("nobody broke it off")
 
 

@@ -47,7 +47,7 @@ def test_workers_are_started_afresh_where_signals_cannot_be_held_back(monkeypatc
 @pytest.mark.parametrize("encoding", ["cp1252", "cp866", "ascii"])
 def test_narrow_consoles_get_other_signs(encoding: str, monkeypatch: pytest.MonkeyPatch) -> None:
     raw = io.BytesIO()
-    consoles = [io.TextIOWrapper(io.BufferedWriter(one), encoding=encoding) for one in (raw, io.BytesIO())]  # type: ignore[type-var]
+    consoles = [io.TextIOWrapper(io.BufferedWriter(each), encoding=encoding) for each in (raw, io.BytesIO())]  # type: ignore[type-var]
     for name, console in zip(("stdout", "stderr"), consoles, strict=True):
         monkeypatch.setattr(sys, name, console)
     make_safe()

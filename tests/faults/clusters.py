@@ -63,7 +63,7 @@ def cluster(folder: Path) -> Iterator[Cluster]:
 
 
 def wait_for_port(address: str) -> None:
-    """Until somebody listens there."""
+    """Wait until somebody listens there."""
     host, port = address.removeprefix("tcp://").split(":")
     until = time.monotonic() + 60
     while time.monotonic() < until:

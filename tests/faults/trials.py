@@ -51,7 +51,7 @@ MODULES = (
     "abu_calc.dynamics.equations.assemble", "abu_calc.dynamics.integrators.choice", "abu_calc.report.sweep",
     "concurrent.futures", "abu_calc.analysis.one_machine", "abu_calc.scenes.from_scene",
 )  # fmt: skip
-"""What a sweep loads, some of it while it computes its first members."""
+"""Modules that a sweep loads, some of them while it computes its first members."""
 ENDED = {"SIGINT": {130, -signal.SIGINT}, "SIGTERM": {143, -signal.SIGTERM}}
 PATIENCE_S = 300.0
 ROOT = Path(__file__).parents[2]
@@ -60,7 +60,7 @@ ROOT = Path(__file__).parents[2]
 
 @dataclass
 class Tally:
-    """What came of trials: rows lost or wrong, what was told as a bug, signals without effect, and each failure."""
+    """Outcome of trials: rows lost or wrong, errors told as bugs, signals without effect, and each failure."""
 
     trials: dict[str, int] = field(default_factory=dict)
     statuses: dict[str, int] = field(default_factory=dict)
@@ -70,12 +70,12 @@ class Tally:
     ignored: int = 0
     failures: list[str] = field(default_factory=list)
 
-    def see(self, what: str, status: int, told: str) -> None:
+    def see(self, what: str, status: int, stderr: str) -> None:
         """One command that ended."""
         self.statuses[str(status)] = self.statuses.get(str(status), 0) + 1
-        if "this is a bug" in told or "Traceback" in told:
+        if "this is a bug" in stderr or "Traceback" in stderr:
             self.bugs += 1
-            self.failures.append(f"{what}: told as a bug: {told[-300:]}")
+            self.failures.append(f"{what}: told as a bug: {stderr[-300:]}")
 
 
 class Faults:
@@ -211,14 +211,14 @@ def _signalled(faults: Faults, folder: Path, draw: random.Random, what: str) -> 
         process = faults.process(folder, *faults.words(store))
         time.sleep(draw.uniform(0.3, 4.0))
         process.send_signal(getattr(signal, name))
-    _, told = process.communicate(timeout=PATIENCE_S)
-    faults.tally.see(what, process.returncode, told)
+    _, stderr = process.communicate(timeout=PATIENCE_S)
+    faults.tally.see(what, process.returncode, stderr)
     # One at any moment may come when all is done; one at an import never does, if the sweep loads that module.
     done = process.returncode in (0, 1) and len(members_of_existing(store)) == MEMBERS
     sent = (folder / "sent").exists()
     if process.returncode not in ENDED[name] and (sent or not done):
         faults.tally.ignored += 1
-        faults.tally.failures.append(f"{what}: status {process.returncode}: {told[-300:]}")
+        faults.tally.failures.append(f"{what}: status {process.returncode}: {stderr[-300:]}")
     faults.go_on(store, what)
 
 
@@ -244,15 +244,15 @@ def _together(faults: Faults, folder: Path, draw: random.Random, what: str) -> N
     else:
         begun[0].kill()
     for process in begun:
-        _, told = process.communicate(timeout=PATIENCE_S)
-        faults.tally.see(what, process.returncode, told)
-        if process.returncode not in (0, 1, -signal.SIGKILL) and "another process has it open" not in told:
-            faults.tally.failures.append(f"{what}: status {process.returncode}: {told[-300:]}")
+        _, stderr = process.communicate(timeout=PATIENCE_S)
+        faults.tally.see(what, process.returncode, stderr)
+        if process.returncode not in (0, 1, -signal.SIGKILL) and "another process has it open" not in stderr:
+            faults.tally.failures.append(f"{what}: status {process.returncode}: {stderr[-300:]}")
     faults.go_on(store, what)
 
 
 def _clustered(faults: Faults, folder: Path, draw: random.Random, what: str) -> None:
-    """On a cluster of which a worker or the scheduler is killed, or one worker has another version."""
+    """A cluster of which a worker or the scheduler is killed, or a worker has another version."""
     store, fault = folder / "members.sqlite", draw.choice(("worker", "scheduler", "version", "none"))
     what = f"{what} {fault}"
     with cluster(folder / "cluster") as running:
@@ -269,11 +269,11 @@ def _clustered(faults: Faults, folder: Path, draw: random.Random, what: str) -> 
             time.sleep(0.05)
         if fault in ("worker", "scheduler"):
             (workers[0] if fault == "worker" else running.scheduler).kill()
-        _, told = process.communicate(timeout=PATIENCE_S)
-    faults.tally.see(what, process.returncode, told)
+        _, stderr = process.communicate(timeout=PATIENCE_S)
+    faults.tally.see(what, process.returncode, stderr)
     allowed = {"worker": {0, 1}, "scheduler": {0, 1, 3}, "version": {0, 1, 2}, "none": {0, 1}}[fault]
     if process.returncode not in allowed:
-        faults.tally.failures.append(f"{what}: status {process.returncode}: {told[-300:]}")
+        faults.tally.failures.append(f"{what}: status {process.returncode}: {stderr[-300:]}")
     faults.go_on(store, what)
 
 

@@ -25,7 +25,7 @@ def threads_of(client: Any) -> int:
 
 
 def is_ours_to_end(executor: Executor) -> bool:
-    """Whether the members are computed by processes of a Dask cluster that are started anew when they end."""
+    """Tell whether processes of a Dask cluster compute the members, and are started anew when they end."""
     client = client_of(executor)
     if client is None:
         return False
@@ -34,7 +34,7 @@ def is_ours_to_end(executor: Executor) -> bool:
 
 
 def is_alive(client: Any) -> bool:
-    """Whether the scheduler answers and has workers."""
+    """Tell whether the scheduler answers and has workers."""
     if client.status != "running":
         return False
     try:

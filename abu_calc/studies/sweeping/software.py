@@ -17,7 +17,7 @@ SOURCES: Final = (".py", ".toml", ".csv")
 
 
 def versions(*names: str) -> dict[str, str]:
-    """Of this program and of libraries; "none" if one is not installed."""
+    """Versions of this program and of libraries; "none" if a library is not installed."""
     return {"abu-calc": __version__, **{name: _version(name) for name in names}}
 
 
@@ -33,7 +33,7 @@ def worker_name() -> str:
 
 
 def differences_of_software(here: Mapping[str, str], there: Mapping[str, str]) -> str:
-    """What differs, in words; empty if nothing does.
+    """Differences of software, in words; empty if there are none.
 
     >>> differences_of_software({"numpy": "2.3", "scipy": "1.16"}, {"numpy": "2.1", "scipy": "1.16"})
     'numpy 2.1, here 2.3'

@@ -186,13 +186,13 @@ class Store:
         self._database.execute(f"UPDATE runs SET {column} = ? WHERE run = ?", (value, self._run))
 
     def _stamped(self) -> tuple[tuple[int, int], ...]:
-        """Which files these are: of the database, and of what SQLite writes first."""
+        """Device and number of the files: the database, and the log that SQLite writes first."""
         beside = Path(f"{self.path}-wal")
         stats = [path.stat() for path in (self.path, *([beside] if beside.exists() else []))]
         return tuple((each.st_dev, each.st_ino) for each in stats)
 
     def _check_there(self) -> None:
-        """What was committed is in the file of that name, not in one that was deleted or moved since."""
+        """Raise OutputError if the file of that name is another than the one that was written to."""
         try:
             same = self._stamped() == self._stamps
         except OSError:
@@ -218,7 +218,7 @@ def quoted(name: str) -> str:
 
 
 def checksum(row: Sequence[object]) -> int:
-    """Of a row as it is read; 5 and 5.0 are alike, since SQLite keeps them alike.
+    """Checksum of a row as it is read; 5 and 5.0 are alike, since SQLite keeps them alike.
 
     >>> checksum((0, 5.0, None)) == checksum((0, 5, None)) != checksum((0, 5.5, None))
     True
@@ -235,7 +235,7 @@ def connected(path: Path, *, create: bool = False) -> sqlite3.Connection:
 
 
 def study_of(path: Path) -> dict[str, Any] | None:
-    """What a store computes; None if there is no store, or an empty one."""
+    """The study of a store; None if there is no store, or an empty one."""
     if not path.exists():
         return None
     with faults_of(path):
@@ -331,7 +331,7 @@ def _create(
 
 
 def _sum_of(pairs: Sequence[tuple[str, str]]) -> int:
-    """Of a study as it is stored: from an edited one other members would follow."""
+    """Checksum of a study as it is stored: from an edited one other members would follow."""
     return zlib.crc32(repr(sorted(pairs)).encode())
 
 
@@ -361,7 +361,7 @@ def _verify(
 
 
 def _again(time_limit: float) -> str:
-    """In SQL, whether a member is tried again: its reason lies in the computer, or it was given less time."""
+    """SQL for members that are tried again: the reason lies in the computer, or they were given less time."""
     overtime = f"members.reason LIKE '{OVERTIME}%' AND CAST(substr(members.reason, {len(OVERTIME) + 1}) AS REAL)"
     return f"COALESCE(members.reason LIKE '{OUTSIDE}%' OR ({overtime} < {time_limit!r}), 0)"
 

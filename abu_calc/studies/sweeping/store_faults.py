@@ -26,7 +26,7 @@ WORDS: Final = {
         f"Make room or lift the limit, then {GO_ON}.",
     ),
 }
-"""What SQLite reports, by its primary code."""
+"""Words for the errors of SQLite, by their primary code."""
 MEANT: Final = ("members", "runs", "study")
 """Tables that make a file a store."""
 
@@ -90,7 +90,7 @@ def checked_path(given: str | Path, taken: tuple[Path, ...] = ()) -> Path:
 
 
 def same_file(path: Path, other: Path) -> bool:
-    """Whether both lead to one file, through links, too."""
+    """Tell whether both paths lead to the same file, through links, too."""
     if os.path.realpath(path) == os.path.realpath(other):
         return True
     try:

@@ -37,7 +37,7 @@ FIRST: Final = 4
 
 @dataclass(frozen=True)
 class Hands:
-    """Who is to compute: so many processes, or somebody's executor, with how long to wait for its workers [s]."""
+    """Number of processes that compute, or somebody's executor, with the longest wait for its workers [s]."""
 
     workers: int | None
     executor: Executor | None
@@ -51,9 +51,9 @@ def described(workers: int | None, executor: Executor | None) -> str:
 
 
 def compute(study: Study, store: Store, hands: Hands, progress: Progress) -> None:
-    """Puts the missing members into the store as they come."""
-    told = _Told(store.put, store.done, store.runs, progress, "sweep: {} of {} members")
-    _computed(study, store.missing(), told, hands)
+    """Put the missing members into the store as they come."""
+    counted = _Counted(store.put, store.done, store.runs, progress, "sweep: {} of {} members")
+    _computed(study, store.missing(), counted, hands)
     if (there := store.ask("SELECT COUNT(*) FROM members")[0][0]) != store.runs:
         text = f"it has {there} members and not {store.runs}: another program took some out"
         raise fault(store.path, text, "Go on with --resume.")
@@ -67,8 +67,8 @@ def once_more(
     def keep(rows: list[Row], *_: object) -> None:
         take(rows)
 
-    told = _Told(keep, 0, count, progress, "sweep: what may be loosened, {} of {}")
-    _computed(study, numbers, told, hands)
+    counted = _Counted(keep, 0, count, progress, "sweep: what may be loosened, {} of {}")
+    _computed(study, numbers, counted, hands)
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Attributed:
         return ("", None, [self.study.lost(member, OUTSIDE + reason)])
 
 
-def _computed(study: Computed, missing: Iterator[int], told: "_Told", hands: Hands) -> None:
+def _computed(study: Computed, missing: Iterator[int], counted: "_Counted", hands: Hands) -> None:
     workers, executor, study = hands.workers, hands.executor, Attributed(study, software())
     if executor is not None:
         client = client_of(executor)
@@ -104,27 +104,27 @@ def _computed(study: Computed, missing: Iterator[int], told: "_Told", hands: Han
         count = getattr(executor, "_max_workers", None) or (threads_of(client) if client else os.cpu_count()) or 1
         alive = None if client is None else lambda: is_alive(client)
         ours = given(executor, count, ends=is_ours_to_end(executor), alive=alive, patience=hands.patience)
-        in_batches(study, missing, ours, told)
+        in_batches(study, missing, ours, counted)
         return
     if workers is None or workers < 2:
-        in_batches(study, missing, here(), told)
+        in_batches(study, missing, here(), counted)
         return
     begun = perf_counter()
     first = list(islice(missing, FIRST))
     for member in first:  # the last one shows what one takes when all is compiled
         begun = perf_counter()
-        in_batches(study, iter([member]), here(), told)
-    left = (told.of - told.done) * (perf_counter() - begun)
+        in_batches(study, iter([member]), here(), counted)
+    left = (counted.of - counted.done) * (perf_counter() - begun)
     who = here() if left < SOON else processes(workers)
     try:
-        in_batches(study, missing, who, told)
+        in_batches(study, missing, who, counted)
     except BaseException:
         who.close(at_once=True)
         raise
     who.close()
 
 
-class _Told:
+class _Counted:
     """Takes rows: where they are kept, and says how far it is."""
 
     def __init__(self, take: Callable[..., None], done: int, of: int, progress: Progress, words: str) -> None:

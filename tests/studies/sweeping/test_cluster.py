@@ -17,7 +17,7 @@ from tests.studies.sweeping.conftest import Sweeps
 
 
 class Scheduler:
-    """What a client asks its scheduler."""
+    """The calls of a scheduler that a client asks for."""
 
     ncores = "ncores"
 
@@ -29,7 +29,7 @@ class Client:
         self.workers, self.status, self.scheduler = workers, "running", Scheduler()
 
     def nthreads(self) -> dict[str, int]:
-        """Of each worker one."""
+        """A thread for each worker."""
         return dict.fromkeys(self.workers, 1)
 
     def scheduler_info(self, n_workers: int) -> dict[str, Any]:
@@ -42,12 +42,12 @@ class Client:
         return self.workers
 
     def sync(self, call: Any, callback_timeout: float) -> dict[str, int]:
-        """What the scheduler answers."""
+        """The answer of the scheduler."""
         return self.nthreads()
 
 
 class Executor(ThreadPoolExecutor):
-    """That of the client; `lost`: how many batches come back uncomputed at first."""
+    """The executor of a client; `lost`: how many batches come back uncomputed at first."""
 
     def __init__(self, client: Client, lost: int = 0, gone: bool = False) -> None:
         super().__init__(1)

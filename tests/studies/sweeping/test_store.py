@@ -45,7 +45,7 @@ def opened(path: Path, runs: int = 4, **options: Any) -> Store:
 
 
 class Meanwhile:
-    """What happens to the store while a sweep computes its member of this number."""
+    """An act on the store while a sweep computes its member of this number."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, member: int, act: Callable[[], None]) -> None:
         numbers, self.count = Builds.numbers, 0
@@ -310,12 +310,12 @@ def test_a_limit_on_the_size_of_files_is_told(tmp_path: Path) -> None:
         "--runs",
         "400",
     ]
-    told = subprocess.run(
+    ended = subprocess.run(
         [*command, "--store", str(store)],
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000)),
         capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert told.returncode == 2 and "bug" not in told.stderr and "limit on the size of files" in told.stderr
-    assert str(store) in told.stderr
+    assert ended.returncode == 2 and "bug" not in ended.stderr and "limit on the size of files" in ended.stderr
+    assert str(store) in ended.stderr
     subprocess.run([*command, "--store", str(store), "--resume", "--quiet"], check=True)
     assert len(rows(store)) == 400
