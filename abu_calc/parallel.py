@@ -1,13 +1,21 @@
-"""The same work on many things, side by side in threads; the outcome does not depend on how many there are.
+"""The same work on many things, side by side in threads, and pools of processes for any other work.
 
-Compiled code lets go of the interpreter, so its runs go side by side. Plain Python gains nothing by threads.
+Compiled code lets go of the interpreter, so its runs go side by side in threads. Plain Python gains nothing by them.
+The outcome does not depend on how many there are.
 """
 
 import os
+import signal
+import threading
 import time
-from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from typing import Any, TypeVar
+import warnings
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from concurrent.futures import ProcessPoolExecutor
 
 T = TypeVar("T")
 
@@ -50,3 +58,47 @@ def side_by_side(
         finally:
             for future in futures:
                 future.cancel()
+
+
+def process_pool(count: int) -> "ProcessPoolExecutor":
+    """Processes started afresh on every system: a copy of this one would have its locks, but not its threads."""
+    from concurrent.futures import ProcessPoolExecutor  # here, since their imports take as long as some work
+    from multiprocessing import get_context
+
+    return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
+
+
+@contextmanager
+def interrupts_left_to_parent() -> Iterator[None]:
+    """Processes started within never see Ctrl-C, not even while they start; this one sees it afterwards."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows, where they ignore it once they have started
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def end_processes(executor: Executor) -> None:
+    """End the processes of a pool at once: nobody wants what they compute."""
+    for process in list((getattr(executor, "_processes", None) or {}).values()):
+        process.terminate()
+
+
+def _begin() -> None:
+    """A worker leaves Ctrl-C to the one who started it, and ends when that one does, however."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # The process that began them says once what there is to say of compiled code.
+    warnings.filterwarnings("ignore", message="compiled code")
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    from multiprocessing import parent_process
+
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+    os._exit(1)

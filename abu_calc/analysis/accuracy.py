@@ -4,7 +4,8 @@ import math
 import statistics
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Final
 
@@ -16,7 +17,7 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Sampling, Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
 from abu_calc.progress import Progress, Stage
 
@@ -37,8 +38,14 @@ ASKED: Final = 1.2e-3
 """Time of an event by the second of the verifying integrators [s], whose decisions are made in Python."""
 
 REPEATS: Final = 3
+LATEST: Final = 2.0
+"""Budgets after which a reference that was expected sooner is broken off."""
 LONG, LOADING = 0.5, 3.0
 """Seconds above which one repeat has to do, and that are more than loading and compiling take."""
+
+
+class OverBudgetError(TooMuchWorkError):
+    """A run was broken off, since its time is over."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +97,8 @@ class Method:
     rung: str
     integrator: str | None
     tolerance: float | None
-    run: Callable[[], Any]
+    run: Callable[[float], Any]
+    """Takes the seconds after which it is broken off."""
     read: Callable[[Any], tuple[Measures, int, int]]
 
     @property
@@ -103,14 +111,16 @@ class Method:
 def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: float, progress: Progress) -> Study:
     """Measure within `budget` seconds; what no longer fits is skipped, and named.
 
-    Raises NotTrustworthyError when two methods do not agree on the reference better than the accuracy, and InputError
-    for a quantity nobody knows.
+    The time begins when the integrators of the reference are loaded and compiled; what runs when it is over is broken
+    off. Raises NotTrustworthyError when the reference takes longer, or two methods do not agree on it better than the
+    accuracy, and InputError for a quantity nobody knows.
     """
     if quantity not in QUANTITIES:
         raise InputError("not one of the known quantities", found=quantity, allowed=", ".join(QUANTITIES))
-    end = time.perf_counter() + budget
     full, _ = with_parted_balls(full)
     progress("reference")
+    _load(full, accuracy)
+    end = time.perf_counter() + budget
     reference = _reference(full, quantity, accuracy, budget)
     points: list[Point] = []
     skipped: list[str] = []
@@ -167,9 +177,9 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
     Cheap ones first; closed forms and envelope leave out what they cannot average.
     """
     smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
-    found = [[Method("closed-form", None, None, lambda: closed_form(smooth), _estimated)]]
+    found = [[Method("closed-form", None, None, _after(partial(closed_form, smooth)), _estimated)]]
     found.append([
-        Method("envelope", "scipy-lsoda", tolerance, partial(averaged, smooth, tolerance), _estimated)
+        Method("envelope", "scipy-lsoda", tolerance, _after(partial(averaged, smooth, tolerance)), _estimated)
         for tolerance in ENVELOPE_TOLERANCES
     ])  # fmt: skip
     here = list(choice.available(assemble(scene)))
@@ -180,6 +190,11 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
         found += [[_integration("everything", full, name, each) for each in TOLERANCES[1:5:2]] for name in usable]
     others = [name for name in here if name not in QUICK]
     return found + [[_integration("equations", scene, name, each) for each in TOLERANCES] for name in others]
+
+
+def _after(estimate: Callable[[], Estimate]) -> Callable[[float], Estimate]:
+    """One that is done too soon to be broken off."""
+    return lambda _: estimate()
 
 
 def _estimated(estimate: Estimate) -> tuple[Measures, int, int]:
@@ -194,9 +209,9 @@ def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method
         """What is compared of a run, and its work."""
         return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
 
-    def run() -> Trajectory:
+    def run(seconds: float) -> Trajectory:
         """The integration alone."""
-        return choice.integrate_with(name, equations, tolerance, times, most)
+        return choice.integrate_with(name, equations, tolerance, _until(times, seconds), most)
 
     return Method(rung, name, tolerance, run, read)
 
@@ -205,7 +220,7 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     """One method, run once cold and then warm as long as there is time."""
     started = time.perf_counter()
     try:
-        run = method.run()
+        run = method.run(end - started)
     except TooMuchWorkError:
         raise
     except AbuError as failure:
@@ -217,7 +232,7 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
         if time.perf_counter() + cold > end:
             break
         started = time.perf_counter()
-        method.run()
+        method.run(math.inf)
         warm.append(time.perf_counter() - started)
     measures, evaluations, steps = method.read(run)
     error = QUANTITIES[quantity](full, measures, reference.response)
@@ -235,36 +250,69 @@ def _point(full: Scene, method: Method, reference: Reference, quantity: str, end
     )
 
 
-def _trial(name: str, equations: Equations, times: Any) -> tuple[Trajectory, float]:
+def _until(times: Any, seconds: float) -> Any:
+    """The same times, for a run that raises OverBudgetError after so many seconds of the processor."""
+    end = time.thread_time() + seconds
+
+    def check(_: float) -> None:
+        if time.thread_time() > end:
+            raise OverBudgetError(f"more than {seconds:.2g} s of the processor")
+
+    return Sampling.of(times).telling(check)
+
+
+def _trial(name: str, equations: Equations, times: Any, seconds: float) -> tuple[Trajectory, float]:
     """A loose run, and its time [s]; a short one once more, since the first also loads and compiles."""
     for _ in range(2):
         started = time.perf_counter()
-        run = choice.integrate_with(name, equations, TRIAL, times, MOST_EVALUATIONS)
+        run = choice.integrate_with(name, equations, TRIAL, _until(times, seconds), MOST_EVALUATIONS)
         spent = time.perf_counter() - started
         if spent > LOADING:
             break
     return run, spent
 
 
+def _load(full: Scene, accuracy: float) -> None:
+    """Load and compile the integrators of the reference, by one revolution of the scene."""
+    short = replace(full, duration=full.revolution)
+    equations, times = assemble(short), needed_times(short)
+    for name, _ in choice.verifiers(assemble(full), max(accuracy, FINEST)):
+        with suppress(AbuError):
+            choice.integrate_with(name, equations, TRIAL, _until(times, LOADING), MOST_IN_PYTHON)
+
+
+def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError:
+    return NotTrustworthyError(
+        f"{full.name}: the reference alone takes {takes}\n"
+        f"  give more time (--budget {enough:.1f}, Python: budget_s=), "
+        "or shorten the run (--duration, Python: duration_s=)"
+    )
+
+
 def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     """Two methods at tight tolerances; they must agree better than half the accuracy.
 
-    A loose run first shows how long they will take.
+    A loose run first shows how long they will take; what is not done in twice the time is broken off.
     """
+    try:
+        return _verified(full, quantity, accuracy, budget)
+    except OverBudgetError:
+        raise _unaffordable(full, f"more than {LATEST * budget:g} s", 2 * LATEST * budget) from None
+
+
+def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
     (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
-    trial, spent = _trial(one, equations, times)
+    end = time.thread_time() + LATEST * budget
+    trial, spent = _trial(one, equations, times, LATEST * budget)
     steps = 1 - EVENT * trial.events / work(trial)
     # Events are as many and as long at every tolerance; whoever is second asks Python for each.
     expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
-        raise NotTrustworthyError(
-            f"{full.name}: the reference alone takes about {expected:.1f} s, {trial.events} events among it\n"
-            f"  give more time (--budget {2 * expected:.1f}, Python: budget_s=), "
-            "or shorten the run (--duration, Python: duration_s=)"
-        )
-    first = evaluate(full, choice.integrate_with(one, equations, loose, times, MOST_EVALUATIONS))
-    second = evaluate(full, choice.integrate_with(other, equations, tight, times, MOST_EVALUATIONS))
+        raise _unaffordable(full, f"about {expected:.1f} s, {trial.events} events among it", 2 * expected)
+    until = _until(times, end - time.thread_time())
+    first = evaluate(full, choice.integrate_with(one, equations, loose, until, MOST_EVALUATIONS))
+    second = evaluate(full, choice.integrate_with(other, equations, tight, until, MOST_EVALUATIONS))
     apart = QUANTITIES[quantity](full, first, second)
     if not apart <= accuracy / 2:
         raise NotTrustworthyError(

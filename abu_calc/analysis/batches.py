@@ -4,17 +4,18 @@ Batches take about a second, so that handing them out costs little; a few are in
 with their number. Who dies while computing is found, recorded and passed over.
 """
 
-import os
-import signal
-import threading
+import math
+import time
+from collections import Counter
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from itertools import islice
-from multiprocessing import get_context, parent_process
 from typing import Any, Final, Protocol
 
-from abu_calc.errors import NotTrustworthyError
+from abu_calc.errors import AbuError, NotTrustworthyError
+from abu_calc.parallel import end_processes, interrupts_left_to_parent, process_pool
 
 BATCH: Final = 1.0
 MOST: Final = 512
@@ -23,6 +24,10 @@ RATE: Final = 32
 """Batches a second that one process hands out at ease, of some milliseconds each; for more workers they are longer."""
 AHEAD: Final = 2
 """Batches in flight for each worker."""
+LOOK_S: Final = 2.0
+"""Seconds without a result after which it is looked whether anybody computes."""
+TRIES: Final = 3
+"""How often a batch is handed out that an executor gives back uncomputed."""
 ENDED: Final = "the process that computed it ended"
 KILLED: Final = "KilledWorker"
 """What Dask raises once some of its workers ended on the same member."""
@@ -54,14 +59,18 @@ class Here(Executor):
 class RenewableExecutor:
     """Who computes: `make` an executor, and how many work at once; `own`: it is ours to close and to make anew.
 
-    `ends`: whoever computes is a process that may be ended when it hangs, since another takes its place.
+    `ends`: whoever computes is a process that may be ended when it hangs, since another takes its place. `alive`: asks
+    whether anybody computes there; without an answer for `patience` seconds there is no more waiting.
     """
 
     make: Callable[[], Executor]
     count: int = 1
     own: bool = True
     ends: bool = False
+    alive: Callable[[], bool] | None = None
+    patience: float = math.inf
     _executor: Executor | None = field(default=None, init=False)
+    _seen: float = field(default=-math.inf, init=False)
 
     @property
     def executor(self) -> Executor:
@@ -76,9 +85,23 @@ class RenewableExecutor:
             raise NotTrustworthyError("the executor is broken, so no more members can be computed")
         self.close()
 
-    def close(self) -> None:
-        """No more is wanted."""
+    def look(self) -> bool:
+        """Tell whether anybody computes. Raises NotTrustworthyError if nobody has for too long."""
+        if self.alive is None or self.alive():
+            self._seen = math.inf
+            return True
+        now = time.monotonic()
+        self._seen = now if math.isinf(self._seen) else self._seen
+        if now - self._seen >= self.patience:
+            gone = f"the cluster has had no scheduler or no worker for {self.patience:g} s"
+            raise NotTrustworthyError(f"{gone}; no more members are computed")
+        return False
+
+    def close(self, *, at_once: bool = False) -> None:
+        """No more is wanted; `at_once`: nor is what is under way."""
         if self._executor is not None and self.own:
+            if at_once:
+                end_processes(self._executor)
             self._executor.shutdown(wait=True, cancel_futures=True)
         self._executor = None
 
@@ -90,29 +113,15 @@ def here() -> RenewableExecutor:
 
 def processes(count: int) -> RenewableExecutor:
     """So many processes, started afresh on every system."""
-
-    def pool() -> Executor:
-        return ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
-
-    return RenewableExecutor(pool, count, ends=True)
+    return RenewableExecutor(lambda: process_pool(count), count, ends=True)
 
 
-def given(executor: Executor, count: int, *, ends: bool = False) -> RenewableExecutor:
+def given(
+    executor: Executor, count: int, *, ends: bool = False, alive: Callable[[], bool] | None = None,
+    patience: float = math.inf,
+) -> RenewableExecutor:  # fmt: skip
     """Somebody else's; `ends`: of processes that their owner starts anew when they end."""
-    return RenewableExecutor(lambda: executor, count, own=False, ends=ends)
-
-
-def _begin() -> None:
-    """A worker leaves Ctrl-C to the one who started it, and ends when that one does, however."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-    os._exit(1)
+    return RenewableExecutor(lambda: executor, count, own=False, ends=ends, alive=alive, patience=patience)
 
 
 def in_batches(
@@ -120,18 +129,27 @@ def in_batches(
 ) -> None:
     """Computes all members; `take` gets rows as they come, in any order. `size` of the first batch."""
     waiting: dict[Future[Any], tuple[int, ...]] = {}
+    back: list[tuple[int, ...]] = []
+    tries = Counter[int]()
     lasting = max(BATCH, workers.count / RATE)
     ahead = AHEAD * workers.count if not isinstance(workers.executor, Here) else 1
     try:
         while True:
-            while len(waiting) < ahead and (batch := tuple(islice(members, size))):
+            while len(waiting) < ahead and (batch := back.pop() if back else tuple(islice(members, size))):
                 waiting[_submit(study, batch, workers)] = batch
             if not waiting:
                 return
             suspects: list[tuple[int, ...]] = []
-            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+            done = wait(waiting, timeout=LOOK_S, return_when=FIRST_COMPLETED).done
+            if not done:
+                workers.look()
+            for future in done:
                 batch = waiting.pop(future)
-                if future.cancelled() or future.exception() is not None:
+                if not workers.own and future.cancelled():
+                    _await(workers, batch[0], tries)
+                    back.append(batch)
+                    continue
+                if future.cancelled() or _error(future) is not None:
                     suspects.append(batch)
                     continue
                 rows, seconds = future.result()
@@ -146,11 +164,47 @@ def in_batches(
 
 def _submit(study: Study, batch: tuple[int, ...], workers: RenewableExecutor) -> Future[Any]:
     try:
-        return workers.executor.submit(study.rows, batch, workers.ends)
+        with interrupts_left_to_parent() if workers.own and workers.ends else nullcontext():
+            return workers.executor.submit(study.rows, batch, workers.ends)
+    except ImportError as error:
+        raise _unloadable(error) from error
     except BrokenExecutor as error:
         broken: Future[Any] = Future()
         broken.set_exception(error)
         return broken
+    except RuntimeError:  # closed, or without a connection
+        if workers.own:
+            raise
+        returned: Future[Any] = Future()
+        returned.cancel()
+        returned.set_running_or_notify_cancel()
+        return returned
+
+
+def _error(future: Future[Any]) -> BaseException | None:
+    """The error of a batch. Raises an error that has no member as its reason: whoever computes cannot compute any."""
+    error = future.exception()
+    if isinstance(error, AbuError):
+        raise error
+    if isinstance(error, ImportError):
+        raise _unloadable(error)
+    return error
+
+
+def _unloadable(error: ImportError) -> NotTrustworthyError:
+    return NotTrustworthyError(
+        f"a library cannot be loaded where members are computed: {error}\n"
+        "  Install abu-calc of this version there, and go on. The members under way are not recorded."
+    )
+
+
+def _await(workers: RenewableExecutor, member: int, tries: Counter[int]) -> None:
+    """Before a batch that came back uncomputed is handed out again: until somebody computes there."""
+    tries[member] += 1
+    if tries[member] > TRIES:
+        raise NotTrustworthyError("the executor cancels what it is given, so no more members are computed")
+    while not workers.look():
+        time.sleep(LOOK_S / 4)
 
 
 def _stopped(waiting: dict[Future[Any], tuple[int, ...]], workers: RenewableExecutor) -> list[tuple[int, ...]]:
@@ -162,6 +216,18 @@ def _stopped(waiting: dict[Future[Any], tuple[int, ...]], workers: RenewableExec
     return [waiting.pop(future) for future in gone]
 
 
+def _alone(study: Study, member: int, workers: RenewableExecutor) -> Future[Any]:
+    """A batch of one member, done."""
+    tries = Counter[int]()
+    while True:
+        future = _submit(study, (member,), workers)
+        while not wait([future], timeout=LOOK_S).done:
+            workers.look()
+        if workers.own or not future.cancelled():
+            return future
+        _await(workers, member, tries)
+
+
 def _one_by_one(
     study: Study, batches: list[tuple[int, ...]], workers: RenewableExecutor, take: Callable[[list[Row]], None]
 ) -> None:
@@ -170,8 +236,8 @@ def _one_by_one(
     for member in (one for batch in batches for one in batch):
         if broken:
             workers.renew()
-        future = _submit(study, (member,), workers)
-        error = future.exception()
+        future = _alone(study, member, workers)
+        error = _error(future)
         broken = isinstance(error, BrokenExecutor)
         if error is None:
             take(future.result()[0])

@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,6 +31,9 @@ WORK, WORK_FAST = 10_000_000, 2_000_000
 A preset takes some ten thousand, the swing arm two hundred thousand, over a million for its levels. The second, where
 something oscillates far faster than the rotor turns: mostly a stiffness in another unit, worth some seconds."""
 
+WORK_PLAIN = 700_000
+"""The same for plain code that was asked for, at some 25 µs for each evaluation of its own: a minute or two."""
+
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
 """On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but
 two runs may come near each other by chance. By 300 random scenes and both integrators: tests/studies/claims.py."""
@@ -53,6 +56,8 @@ class Cost:
     events: int
     wall_s: float
     why: str
+    work: int = 0
+    """Work in SciPy's evaluations, as `most_evaluations` counts."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +91,7 @@ def simulate(
     """The envelope where its error is below `accuracy`; otherwise the equations, tightened until that holds.
 
     `sample_times` [s] are further times to hold in the trajectory; `most_evaluations` bounds the work of all runs, in
-    SciPy's evaluations: what takes more by counting is not begun; None: WORK or WORK_FAST. `integrator` is auto, scipy,
+    SciPy's evaluations: what takes more by counting is not begun; None: `usual_work`. `integrator` is auto, scipy,
     plain or compiled; any but auto asks for the equations. `progress` gets what is being done. Raises
     NotTrustworthyError when the work does not suffice, or when no tolerance reaches the accuracy: the motion is then
     chaotic, or decided by less than rounding.
@@ -118,10 +123,10 @@ def _integrated(
     needed = needed if len(needed) < len(times.times) else times.times  # one array of both where they are the same
     choice = choose(equations, integrator, tolerances(accuracy)[0])
     about, fast = choice.expected(equations, tolerances(accuracy)[0]), softer(equations)
-    most = most or (WORK_FAST if fast else WORK)
+    most = most or usual_work(scene, integrator)
     if about > most:
         raise too_much(f"about {about:.2g}", most, fast)
-    started, evaluations, steps = time.perf_counter(), 0, 0
+    started, evaluations, steps, worked = time.perf_counter(), 0, 0, 0
     runs: list[Response] = []
     apart, spared, last = math.nan, 0, 0
     for tolerance in tolerances(accuracy):
@@ -144,7 +149,7 @@ def _integrated(
             ) from None
         progress(f"{scene.name}: reading what came of it")
         last = choice.work(trajectory)
-        most, spared = most - last, 2 * last
+        most, spared, worked = most - last, 2 * last, worked + last
         runs = [*runs[-1:], evaluate(scene, trajectory, course)]
         evaluations, steps = evaluations + trajectory.evaluations, steps + trajectory.steps
         if len(runs) < 2:
@@ -153,13 +158,21 @@ def _integrated(
         before, apart = apart, _apart(scene, *runs)
         error = max(SAFETY * apart, FLOOR * tolerance, FALL * before if before > 0 else 0.0)
         if error <= accuracy:
-            cost = _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why)
+            cost = replace(
+                _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why), work=worked
+            )
             if times.held is None:
                 remarks(trajectory)
             texts = (*warnings, *remarks.texts)
             return Simulation(scene, runs[1], trajectory, cost, error, texts, "equations", offered)
         del trajectory
     raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)
+
+
+def usual_work(scene: Scene, integrator: str) -> int:
+    """Work that a simulation may take if nothing says how much."""
+    work = WORK_FAST if softer(assemble(scene)) else WORK
+    return min(work, WORK_PLAIN) if integrator == "plain" else work
 
 
 def _cost(run: Trajectory, evaluations: int, steps: int, spent: float, why: str) -> Cost:

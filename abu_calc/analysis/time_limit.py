@@ -3,23 +3,32 @@
 import ctypes
 import faulthandler
 import os
+import sys
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
+from abu_calc.interruption import importing
+
 GRACE: Final = 5.0
 """Seconds after which a process whose work does not give up is ended, where it may be."""
+AGAIN_S: Final = 0.5
+"""Seconds after which it is raised again: what runs for the garbage collector swallows whatever is raised in it."""
+IMPORTS_S: Final = 0.05
+"""Seconds between two looks at a thread that imports: a module whose import is broken off is broken for good."""
 
 
 class Overtime(BaseException):
     """The time is over."""
 
+    comes_again = True
+
 
 @contextmanager
 def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
-    """Raises Overtime inside once the time is over, as soon as Python code runs there.
+    """Raise Overtime inside once the time is over, as soon as Python code runs there that is no import.
 
     `may_end_process`: what never returns to Python takes the process with it; only for processes that were made to
     compute, whose owner notices.
@@ -27,13 +36,21 @@ def limited(seconds: float, *, may_end_process: bool = False) -> Iterator[None]:
     thread, lock, inside = threading.get_ident(), threading.Lock(), True
 
     def stop() -> None:
-        with lock:
-            if inside:
-                _raise_in(thread, Overtime)
+        while True:
+            with lock:
+                if not inside:
+                    return
+                raised = not importing(sys._current_frames().get(thread))
+                if raised:
+                    _raise_in(thread, Overtime)
+            time.sleep(AGAIN_S if raised else IMPORTS_S)
 
     timer = threading.Timer(seconds, stop)
     timer.daemon = True
-    timer.start()
+    try:
+        timer.start()
+    except RuntimeError as error:  # no room for another thread
+        raise OSError(str(error)) from None
     if may_end_process:
         _end_at(thread, time.monotonic() + seconds + GRACE)
     try:

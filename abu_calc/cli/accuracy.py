@@ -25,7 +25,9 @@ def accuracy(
         str, typer.Option("--quantity", help="amplitude (default), level, settling or angles.")
     ] = "amplitude",
     accuracy: Accuracy = 0.01,
-    budget_s: Annotated[float, typer.Option("--budget", metavar="SECONDS", help="Time to spend.")] = 20.0,
+    budget_s: Annotated[
+        float, typer.Option("--budget", metavar="SECONDS", help="Time to spend, once libraries are loaded.")
+    ] = 20.0,
     duration_s: Duration = None,
 ) -> Outcome:
     """What accuracy costs: every way to compute a scene, its error and its time."""

@@ -9,10 +9,10 @@ from typing import Final
 import typer
 
 from abu_calc.cli.deliver import fail
-from abu_calc.cli.signals import INTERRUPTED, EndedBySignal, status_of
 from abu_calc.cli.streams import make_safe
-from abu_calc.errors import AbuError, InputError, OutputError
+from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
 from abu_calc.escapes import escaped, shortened
+from abu_calc.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.version import __version__
 
 FIRST_STEPS: Final = """\
@@ -61,6 +61,11 @@ COMMANDS = (
 )
 """In the order of the help; each has its module."""
 
+NUMERIC: Final = frozenset(COMMANDS) - {"check-fit", "validate", "init", "presets", "schema", "explain"}
+"""Commands that load libraries of numbers."""
+NEEDED_MB: Final = 760
+"""Address space that these libraries reserve, most of which they never use: 700 MB on two processors."""
+
 
 def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
     """The application with these commands: who calls one need not load the others."""
@@ -104,6 +109,7 @@ def main(arguments: list[str] | None = None) -> None:
             file=sys.stderr,
         )
         status = OutputError.exit_status
+    leave_signals()
     sys.exit(status)
 
 
@@ -119,17 +125,26 @@ def run(arguments: list[str]) -> int:
         return 0
     command = next((word for word in arguments if not word.startswith("-")), "")
     as_json = "--json" in arguments
+    if command in NUMERIC and not {"--help", "-h"} & set(arguments) and (short := _memory()) is not None:
+        return fail(command, short, as_json)
     try:
-        names = (command,) if command in COMMANDS else COMMANDS
-        status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
+        try:
+            names = (command,) if command in COMMANDS else COMMANDS
+            status = typer.main.get_command(build(names)).main(arguments, prog_name="abu", standalone_mode=False)
+        except Exception:
+            raise_pending()
+            raise
     except AbuError as error:
         return fail(command, error, as_json)
     except (KeyboardInterrupt, EndedBySignal) as ended:
         status = status_of(ended)
     except typer.Abort:
         status = INTERRUPTED
+    except (ImportError, MemoryError) as error:
+        return fail(command, _starved(error), as_json)
     except OSError as error:
-        return fail(command, OutputError(f"refused by the system: {error.strerror or error}"), as_json)
+        place = Place(str(error.filename)) if error.filename else Place()
+        return fail(command, OutputError(f"refused by the system: {error.strerror or error}", place=place), as_json)
     except Exception as error:
         # Errors of the parser of command lines, whichever Typer brings along, word themselves so.
         if worded := getattr(error, "format_message", None):
@@ -141,3 +156,25 @@ def run(arguments: list[str]) -> int:
     if isinstance(status, int) and status >= INTERRUPTED - 2:
         print("Interrupted; nothing was written.", file=sys.stderr)
     return status if isinstance(status, int) else 0
+
+
+def _starved(error: BaseException) -> NotTrustworthyError:
+    """The error of a process without memory, or with half a library."""
+    if isinstance(error, ImportError):
+        text = f"a library cannot be loaded: {shortened(escaped(str(error)))}"
+        return NotTrustworthyError(f"{text}; install abu-calc anew, or give the process more memory")
+    return NotTrustworthyError("the memory is exhausted; give the process more, or ask for less at once")
+
+
+def _memory() -> NotTrustworthyError | None:
+    """The error of a process that may have too little memory: libraries of C then end it, or wait for ever."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return None
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if most == resource.RLIM_INFINITY or most >= NEEDED_MB << 20:
+        return None
+    return NotTrustworthyError(
+        f"the process may have {most >> 20} MB of address space and needs {NEEDED_MB} MB: raise `ulimit -v`"
+    )

@@ -1,20 +1,24 @@
 """A Dask cluster by the address of its scheduler, as an executor of concurrent.futures."""
 
 import importlib
+import logging
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from typing import Final
+from typing import Any, Final
 
 from abu_calc.errors import InputError, Place
 
-PATIENCE: Final = 10
-"""Seconds to wait for the scheduler."""
+CONNECT_S: Final = 10.0
+"""Seconds to wait for a scheduler that has never answered: most often the address is wrong."""
 
 
 @contextmanager
-def executor(address: str) -> Iterator[Executor]:
-    """Computes on the workers of that scheduler, which need abu-calc of the same version. Raises InputError."""
+def executor(address: str, patience: float) -> Iterator[Executor]:
+    """Compute on the workers of that scheduler, which need the same software; wait so long [s] for the first.
+
+    Raises InputError.
+    """
     try:
         distributed = importlib.import_module("distributed")
     except ImportError:
@@ -23,8 +27,21 @@ def executor(address: str) -> Iterator[Executor]:
             place=Place(key="--cluster"),
             remedy='pip install "abu-calc[cluster]", here and on the workers.',
         ) from None
+    # Dask reports each lost connection with a traceback; the command ends with a line of its own.
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
     try:
-        client = distributed.Client(address, timeout=PATIENCE)
+        with _connected(distributed, address, patience) as client:
+            yield client.get_executor(pure=False)
+    finally:
+        logging.disable(before)
+
+
+@contextmanager
+def _connected(distributed: Any, address: str, patience: float) -> Iterator[Any]:
+    """A client of the cluster, once it has a worker."""
+    try:
+        client = distributed.Client(address, timeout=min(CONNECT_S, patience))
     except (OSError, TimeoutError, ValueError) as error:
         raise InputError(
             "no Dask scheduler answers there",
@@ -33,9 +50,16 @@ def executor(address: str) -> Iterator[Executor]:
             allowed="tcp://HOST:8786, as `dask scheduler` prints it",
         ) from None
     try:
-        if not client.nthreads():
-            raise InputError("the cluster has no workers", place=Place(key="--cluster"), found=address,
-                             remedy="Start some: dask worker ADDRESS.")  # fmt: skip
-        yield client.get_executor(pure=False)
+        client._timeout = patience  # for which it looks for a scheduler that is gone
+        try:
+            client.wait_for_workers(1, timeout=patience)
+        except TimeoutError:
+            raise InputError(
+                f"the cluster has had no workers for {patience:g} s",
+                place=Place(key="--cluster"),
+                found=address,
+                remedy="Start some: dask worker ADDRESS. Or wait longer: --cluster-wait S.",
+            ) from None
+        yield client
     finally:
-        client.close()
+        client.close(timeout=CONNECT_S)

@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from abu_calc.cli.signals import EndedBySignal, status_of
 from abu_calc.errors import AbuError
 from abu_calc.escapes import escaped, escaped_lines, shortened
+from abu_calc.interruption import EndedBySignal, status_of
 from abu_calc.report.outcome import Outcome, document, error_document, to_json
 
 BUG = 3
@@ -34,7 +34,7 @@ class Delivery(NamedTuple):
             from abu_calc.report.files import FORMATS, check_extra
             from abu_calc.report.write import check_target
 
-            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn))
+            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
             check_extra(self.output.suffix.lower())
 
 

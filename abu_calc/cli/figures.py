@@ -1,6 +1,7 @@
 """`--figure NAME=FILE`: figures as files of their own, refused early where they could not be written."""
 
 import inspect
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Final
@@ -44,12 +45,12 @@ def check_figures(command: str, figures: Iterable[tuple[str, Path]], output: Pat
     from abu_calc.report.plotting.draw import SUFFIXES, check_matplotlib
     from abu_calc.report.write import check_target
 
-    taken = set() if output is None else {output.resolve()}
+    taken = set() if output is None else {os.path.realpath(output)}
     for name, path in figures:
         one = known(command, name)
-        check_target(path, force=force, suffixes=SUFFIXES)
-        if path.resolve() in taken:
+        check_target(path, force=force, suffixes=SUFFIXES, option=OPTION)
+        if os.path.realpath(path) in taken:
             raise OutputError("two outputs name the same file", place=Place(str(path)), remedy="Give another name.")
-        taken.add(path.resolve())
+        taken.add(os.path.realpath(path))
         if not (one.drawn and path.suffix.lower() == ".svg"):
             check_matplotlib(f"{path.suffix.lower()} files of {name}")

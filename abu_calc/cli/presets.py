@@ -16,7 +16,7 @@ def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="P
 
     if name is not None:
         text = text_of(name)
-        return Outcome("presets", {"name": name, "text": text}, (), plain=text)
+        return Outcome("presets", {"name": name, "text": text}, (), plain=text, plain_suffix=".toml")
     listed = [{"name": each, "machine": read_file(each).title} for each in names()]
     blocks = (
         Heading("Presets"),

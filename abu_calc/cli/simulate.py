@@ -85,7 +85,7 @@ def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) ->
         if samples is not None:
             raise InputError("--samples goes with --trajectory", remedy="Add --trajectory FILE.csv.")
         return
-    check_target(trajectory, force=how.force, suffixes=(".csv",))
+    check_target(trajectory, force=how.force, suffixes=(".csv",), option="--trajectory")
     if how.output is not None and how.output.resolve() == trajectory.resolve():
         raise InputError("--output and --trajectory name the same file", found=str(trajectory))
     if trajectory.resolve() in {path.resolve() for _, path in how.figures}:

@@ -15,8 +15,8 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.cli.deliver import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.cli.scene_options import File
-from abu_calc.cli.signals import EndedBySignal, status_of
-from abu_calc.errors import InputError, Place, StoppedError
+from abu_calc.errors import InputError, NotTrustworthyError, Place, StoppedError
+from abu_calc.interruption import EndedBySignal, status_of
 from abu_calc.report.outcome import Outcome
 
 Vary = Annotated[
@@ -67,18 +67,26 @@ def sweep(
     cluster: Annotated[
         str | None, typer.Option("--cluster", metavar="ADDRESS", help="Of a Dask scheduler that computes instead.")
     ] = None,
+    cluster_wait_s: Annotated[
+        float,
+        typer.Option("--cluster-wait", metavar="S", help="Longest wait for a cluster without scheduler or workers."),
+    ] = 60.0,
 ) -> Outcome:
     """Many machines like this one: share that meets the limits, percentiles, which value decides."""
     from abu_calc.report.figures.sweep import sweep_extras
     from abu_calc.report.sweep import sweep_blocks, sweep_screen
     from abu_calc.spec.read_scene import read_any
+    from abu_calc.studies.sweep import WAIT
     from abu_calc.studies.sweep import sweep as study
+    from abu_calc.studies.sweeping.store_faults import checked_path
 
+    WAIT.check(cluster_wait_s)
     if resume and store is None:
         raise InputError("--resume goes with --store", remedy="Add --store FILE.sqlite.")
-    if store is not None and how.output is not None and store.resolve() == how.output.resolve():
-        raise InputError("--output and --store name the same file", found=str(store))
-    with _wording(store), _executor(cluster) as executor, progress(how) as tell:
+    if store is not None:
+        files = (*([how.output] if how.output else []), *(path for _, path in how.figures))
+        checked_path(store, taken=files)
+    with _wording(store), _executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
         result = study(
             read_any(machine, set_ or ()),
             vary,
@@ -96,6 +104,7 @@ def sweep(
             force=how.force,
             executor=executor,
             workers=None if executor else (workers or os.cpu_count() or 1),
+            cluster_wait_s=cluster_wait_s,
             command=_command(),
             progress=tell,
         )
@@ -119,26 +128,36 @@ def _wording(store: Path | None) -> Iterator[None]:
         if error.place.file is not None or not key.startswith("vary "):
             raise
         raise error.at(Place(key=f"--{key}")) from None
+    except NotTrustworthyError as error:
+        kept = getattr(error, "__notes__", ())
+        if store is None or not kept:
+            raise
+        raise NotTrustworthyError(f"{error}\n{_going_on(store, kept[0])}") from None
     except (KeyboardInterrupt, EndedBySignal) as stopped:
         kept = getattr(stopped, "__notes__", ())
         if store is None or not kept:
             text = "interrupted; no member is kept. A sweep with --store FILE.sqlite can be gone on with."
         else:
-            resume = "" if "--resume" in sys.argv else " --resume"
-            text = f"interrupted; {kept[0]} are in {store}. Go on with:\n  {_command()}{resume}"
+            text = f"interrupted; {_going_on(store, kept[0])}"
         raise StoppedError(text, status_of(stopped)) from None
 
 
+def _going_on(store: Path, kept: str) -> str:
+    """Text that names the place of the members, and the command that computes the others."""
+    resume = "" if "--resume" in sys.argv else " --resume"
+    return f"{kept} are in {store}. Go on with:\n  {_command()}{resume}"
+
+
 @contextmanager
-def _executor(cluster: str | None) -> Iterator[Executor | None]:
+def _executor(cluster: str | None, patience: float) -> Iterator[Executor | None]:
     """That of a Dask cluster, if one is asked for."""
     if cluster is None:
         yield None
         return
     from abu_calc.cli.cluster import executor
 
-    with executor(cluster) as found:
-        yield found
+    with executor(cluster, patience) as chosen:
+        yield chosen
 
 
 def register(app: typer.Typer) -> None:

@@ -67,8 +67,20 @@ def as_html(outcome: Outcome) -> str:
 
 
 def as_file(outcome: Outcome, suffix: str) -> str:
-    """The text of a file with this suffix; what stands for itself is written as it is."""
-    return {**FORMATS, **DRAWN}[suffix](outcome) if outcome.plain is None else outcome.plain
+    """The text of a file with this suffix; a text that stands for itself is written as it is, under its own suffix.
+
+    Raises OutputError for a suffix by which such a text would be taken for something else.
+    """
+    if outcome.plain is None or (suffix == ".json" and outcome.plain_suffix != ".json"):
+        return {**FORMATS, **DRAWN}[suffix](outcome)
+    if suffix in (outcome.plain_suffix, ".txt"):
+        return outcome.plain
+    raise OutputError(
+        f"`abu {outcome.command}` does not write this here",
+        found=suffix,
+        allowed=" ".join(dict.fromkeys((outcome.plain_suffix, ".json", ".txt"))),
+        remedy="Give the file a name with such an ending.",
+    )
 
 
 FORMATS: dict[str, Callable[[Outcome], str]] = {

@@ -42,6 +42,8 @@ class Outcome:
     """The command line that gives this, files that it writes left out."""
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
+    plain_suffix: str = ".json"
+    """The ending of files that hold such a text."""
     further: tuple["Target", ...] = ()
     """Files that were asked for beside the result's own."""
 

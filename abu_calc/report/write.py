@@ -18,8 +18,11 @@ class Target(NamedTuple):
     text: str | bytes | Iterable[str | bytes]
 
 
-def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> None:
-    """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force."""
+def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = (), option: str | None = None) -> None:
+    """Refuse early what could not be written later: unknown suffix, missing folder, existing file without --force.
+
+    `option`: that names the file, for errors about names that no file can have.
+    """
     place = Place(str(path))
     if "\0" in str(path):
         raise OutputError("not a file name", place=place)
@@ -34,7 +37,8 @@ def check_target(path: Path, *, force: bool, suffixes: tuple[str, ...] = ()) -> 
         if os.path.lexists(path) and not force:
             raise _exists(path)
     except OSError as error:
-        raise OutputError(f"cannot be written: {error.strerror or error}", place=place) from None
+        named = Place(str(path), key=option)
+        raise OutputError(f"cannot be written: {error.strerror or error}", place=named) from None
 
 
 def write(targets: Iterable[Target], *, force: bool) -> None:
@@ -91,7 +95,7 @@ def _beside(path: Path, pieces: Iterable[str | bytes]) -> Path:
 
 def _final(path: Path) -> Path:
     """Where a path leads, through symbolic links."""
-    return path.resolve() if path.is_symlink() else path.absolute()
+    return Path(os.path.realpath(path)) if path.is_symlink() else path.absolute()
 
 
 def _place(temporary: Path, path: Path, *, force: bool) -> None:

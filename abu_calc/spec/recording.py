@@ -12,6 +12,8 @@ from abu_calc.errors import InputError, Place
 
 MotionQuantity = Literal["acceleration", "velocity", "displacement"]
 QUANTITIES: Final[tuple[MotionQuantity, ...]] = ("acceleration", "velocity", "displacement")
+LARGEST: Final = 1e9
+"""Largest sample, in SI units: squares of much larger ones, and their sums, are infinite."""
 MOST_AXES: Final = 3
 
 
@@ -63,6 +65,13 @@ def recording(
             "the signal is the same number from start to end", place=Place(path, key=still[0]),
             remedy="A sensor that is not connected? Leave the channel out: --channels (Python: channels=).",
         )  # fmt: skip
+    for name, values in axes:
+        if (largest := float(np.abs(values).max())) > LARGEST:
+            raise InputError(
+                "a sample is larger than anything that vibrates", place=Place(path, key=name),
+                found=f"{largest:g} in SI units", allowed=f"at most {LARGEST:g}",
+                remedy="Correct the sample, the unit in the column's name or --scale (Python: scale=).",
+            )  # fmt: skip
     digest = hashlib.sha256(content).hexdigest()
     return Recording(path, digest, quantity, names, samples, rate, tuple(told), simulated)
 

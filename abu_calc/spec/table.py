@@ -1,9 +1,9 @@
 """What all tables of a file share: strictness, the defaults in force, the rules between keys."""
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, get_args
+from typing import Annotated, ClassVar, Final, Self, get_args
 
-from pydantic import AfterValidator, BaseModel, ConfigDict
+from pydantic import AfterValidator, BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from abu_calc.escapes import LINE_BREAKS
@@ -13,9 +13,16 @@ from abu_calc.spec.wording import described
 RULE = "rule"
 """Type of the errors that `problem` makes, among those of pydantic."""
 
+LEAST: Final = 1e-12
+"""Least magnitude of a number that is not zero, in the unit of its key: squares of smaller ones are lost in rounding,
+and those of the smallest are zero, by which formulas divide."""
+
 
 class Table(BaseModel):
-    """A table of a file: strict (no text for a number), frozen, every number finite, unknown keys refused."""
+    """A table of a file: strict (no text for a number), frozen, every number finite, unknown keys refused.
+
+    A number is zero or of a magnitude that can be computed with, see LEAST.
+    """
 
     # Built when first used: a file with bearings alone does not pay for the machine.
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
@@ -34,6 +41,20 @@ class Table(BaseModel):
         """Bounds and defaults stand in the fields alone: their descriptions are made of them."""
         for field in cls.model_fields.values():
             field.description = described(field)
+
+    @model_validator(mode="after")
+    def _magnitudes(self) -> Self:
+        for key in type(self).model_fields:
+            for number in _numbers(getattr(self, key)):
+                if 0 < abs(number) < LEAST:
+                    raise problem(
+                        "too small to compute with",
+                        key,
+                        found=f"{number:g}",
+                        allowed=f"0 or a magnitude of at least {LEAST:g}, in the range of the key",
+                        remedy="correct the number; its unit stands in the key",
+                    )
+        return self
 
     @classmethod
     def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
@@ -85,6 +106,15 @@ class Table(BaseModel):
                 for index, item in enumerate(value):
                     if isinstance(item, Table):
                         yield from item.tables((*path, key, index))
+
+
+def _numbers(value: object) -> Iterator[float]:
+    """The number that a key has, or those of its lists."""
+    if isinstance(value, float):
+        yield value
+    elif isinstance(value, tuple):
+        for inner in value:
+            yield from _numbers(inner)
 
 
 def subtable(model: type[Table], key: str) -> type[Table] | None:

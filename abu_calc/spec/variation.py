@@ -144,7 +144,7 @@ def _one(part: str, text: str, place: Place) -> object:
         raise _refused(text, place, "a value is missing")
     try:
         return tomllib.loads(f"value = {part}")["value"]
-    except ValueError:
+    except (ValueError, RecursionError):  # no TOML, or brackets without end
         return part
 
 

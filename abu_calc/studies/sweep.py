@@ -1,13 +1,15 @@
 """Many machines like one: how many meet the limits, and which value decides."""
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check, coded
-from abu_calc.errors import NotTrustworthyError, OutputError, Place
+from abu_calc.errors import AbuError, InputError, NotTrustworthyError
 from abu_calc.progress import Progress, silent
 from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import SceneDescription
@@ -23,9 +25,13 @@ from abu_calc.studies.sweeping.members import Study
 from abu_calc.studies.sweeping.plan import Plan, planned
 from abu_calc.studies.sweeping.records import Failed, MeetsLimits, Percentiles
 from abu_calc.studies.sweeping.result import Kept, Members, SweepResult, Varied
+from abu_calc.studies.sweeping.software import software, versions
 from abu_calc.studies.sweeping.store import Store, study_of
-from abu_calc.studies.sweeping.who import Take, compute, described, once_more, versions
+from abu_calc.studies.sweeping.store_faults import checked_path, damaged, fault
+from abu_calc.studies.sweeping.who import Hands, Take, compute, described, once_more
+from abu_calc.validity import Range
 
+WAIT: Final = Range("wait for a cluster", 0, 1e6, unit="s", open_low=True, key="cluster_wait_s")
 ROUGH: Final = 256
 """Rows of Saltelli's design below which indices may be off by a tenth and more."""
 FEW: Final = 0.05
@@ -51,6 +57,7 @@ def sweep(
     force: bool = False,
     executor: Executor | None = None,
     workers: int | None = None,
+    cluster_wait_s: float = 60.0,
     command: str | None = None,
     progress: Progress = silent,
 ) -> SweepResult:
@@ -59,61 +66,77 @@ def sweep(
     `vary`: how each value varies, by key: "normal(265, 40)", "100:300:5", a list of values; as on the command line.
     What is None is that of [sweep] in the file. `what`: build (the design is fixed; each member is one machine built
     and switched on once) or design (sized anew). `executor`: any of concurrent.futures, or `workers` processes; the
-    members do not depend on it. `store`: where they go as they come; `resume` goes on with one that is there.
-    `result.members` has them as arrays. Raises InputError for what is wrong in file or arguments, NotTrustworthyError
-    where no member gave a number.
+    members do not depend on it; `cluster_wait_s`: how long a Dask cluster may be without scheduler or workers before
+    the sweep ends. `store`: where they go as they come; `resume` goes on with one that is there. `result.members` has
+    them as arrays. Raises InputError for what is wrong in file or arguments, NotTrustworthyError where no member gave a
+    number.
     """
     ACCURACY.check(accuracy)
     WORKERS.check(1 if workers is None else workers)
-    path = None if store is None else _path(Path(store), resume, force)
+    hands = Hands(workers, executor, WAIT.check(cluster_wait_s))
+    path = None if store is None else _path(store, resume, force)
     ask = asked(
         machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
         sampling=sampling, seed=seed, time_limit_s=time_limit_s,
     )  # fmt: skip
     if resume and path is not None and ask.nothing and (known := study_of(path)):
-        ask = _as_stored(machine, known, grid, time_limit_s)
+        ask = _as_stored(path, machine, known, grid, time_limit_s)
     plan = planned(machine, ask, accuracy)
     kept = None if path else Kept()
     file = kept.folder / "members.sqlite" if kept else path or Path()
     columns, texts = _columns(plan.study)
-    database = Store.open(file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs)
+    database = Store.open(
+        file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs,
+        force=force and not resume, time_limit=ask.time_limit,
+    )  # fmt: skip
     database.drawn = plan.study.sample.drawn
     try:
-        _computed(plan, database, machine, workers, executor, command, progress)
+        _computed(plan, database, machine, hands, command, progress)
         members = Members(file, columns, database.runs, kept)
         progress("sweep: reading the answers")
 
         def again(study: Trials, numbers: Iterator[int], take: Take) -> None:
             count = len(study.studies) * len(study.members)
-            once_more(study, numbers, take, count, workers, executor, progress)
+            once_more(study, numbers, take, count, hands, progress)
 
         return _answered(plan, ask, database, machine, members, path, again)
     except BaseException as ended:
-        if not isinstance(ended, Exception):  # Ctrl-C or a signal
+        with suppress(AbuError):  # of a store that cannot even be asked
             ended.add_note(f"{database.done} of {database.runs} members")
         raise
     finally:
         database.close()
 
 
-def _path(path: Path, resume: bool, force: bool) -> Path:
-    """Where the store is; refused where one is there that nobody wants to go on with, or no folder is."""
-    if not path.absolute().parent.is_dir():
-        raise OutputError(f"{path}: the folder does not exist", place=Place(key="store"), remedy="Make it first.")
-    if path.exists() and not resume:
-        if not force:
-            remedy = "Go on with it by --resume, name another, or overwrite it with --force."
-            raise OutputError(f"{path} exists already", place=Place(key="store"), remedy=remedy)
-        study_of(path)  # which refuses what is no store
-        for suffix in ("", "-wal", "-shm"):
-            Path(f"{path}{suffix}").unlink(missing_ok=True)
+def _path(given: str | Path, resume: bool, force: bool) -> Path:
+    """The path of the store; refused if a file is there that nobody wants to go on with."""
+    path = checked_path(given)
+    if path.exists() and not (resume or force) and not _is_cold(path):
+        raise fault(path, "exists already", "Go on with it by --resume, name another, or overwrite it with --force.")
     return path
 
 
+def _is_cold(path: Path) -> bool:
+    """Tell whether a store is there that another process has just begun, without a table in it."""
+    try:
+        return study_of(path) is None
+    except AbuError:
+        return False
+
+
 def _as_stored(
-    machine: Machine | SceneDescription, known: Mapping[str, Any], grid: Any, time_limit_s: float | None
+    path: Path, machine: Machine | SceneDescription, known: Mapping[str, Any], grid: Any, time_limit_s: float | None
 ) -> Asked:
     """The study that a store was begun with."""
+    try:
+        return _ask_of(machine, known, grid, time_limit_s)
+    except (InputError, LookupError, TypeError, AttributeError) as error:
+        raise damaged(path, f"its study cannot be read: {error}") from None
+
+
+def _ask_of(
+    machine: Machine | SceneDescription, known: Mapping[str, Any], grid: Any, time_limit_s: float | None
+) -> Asked:
     return asked(
         machine, [f"{key}={known['vary'][key]}" for key in known["order"]], runs=known["base"] or known["runs"],
         what=None if known["what"] == "scene" else known["what"], sensitivity=known["scheme"] == "saltelli",
@@ -142,29 +165,29 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
         "vary": {one.key: one.variation.text for one in sample.factors},
         "order": [one.key for one in sample.factors],
         "file": plan.content,
-        "versions": versions(),
+        "versions": software(),
     }
 
 
 def _computed(
-    plan: Plan, store: Store, source: Machine | SceneDescription, workers: int | None, executor: Executor | None,
-    command: str | None, progress: Progress,
+    plan: Plan, store: Store, source: Machine | SceneDescription, hands: Hands, command: str | None, progress: Progress,
 ) -> None:  # fmt: skip
-    import json
-
     facts = {
         "file": source.file,
         "sha256": source.sha256,
-        "versions": json.dumps(versions("llvmlite", "distributed")),
+        "versions": json.dumps({**software(), **versions("distributed")}),
         "seed": plan.study.sample.seed,
         "command": command,
-        "workers": described(workers, executor),
+        "workers": described(hands.workers, hands.executor),
     }
-    run = store.begun(facts)
+    store.begun(facts)
     try:
-        compute(plan.study, store, workers, executor, progress)
-    finally:
-        store.ended(run)
+        compute(plan.study, store, hands, progress)
+    except BaseException:
+        with suppress(AbuError):  # the first fault is the one to tell
+            store.ended()
+        raise
+    store.ended()
 
 
 def _answered(
@@ -263,12 +286,10 @@ def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -
     if 0 < rows < ROUGH:
         found.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
     if plan.study.what != "design":
-        never = next(
-            store.ask(
-                "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
-                (store.drawn,),
-            )
-        )[0]
+        never = store.ask(
+            "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
+            (store.drawn,),
+        )[0][0]
         if never and quantities["settling_time_s"].mean is None:
             found.append(
                 f"{never} members never settle: they count as later than all others, and settling has no mean."

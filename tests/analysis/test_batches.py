@@ -1,5 +1,6 @@
 """Batches by any executor: all members come, whoever fails on the way."""
 
+import contextlib
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -112,6 +113,17 @@ def test_work_without_end_is_given_up() -> None:
     with limited(0.05):
         pass
     time.sleep(0.1)  # nothing arrives afterwards
+
+
+def test_the_end_of_the_time_is_told_again_if_something_swallows_it() -> None:
+    """As callbacks of the garbage collector do."""
+    begun = time.perf_counter()
+    with pytest.raises(Overtime), limited(0.05):
+        with contextlib.suppress(BaseException):
+            while time.perf_counter() - begun < 60:
+                pass
+        while time.perf_counter() - begun < 60:
+            pass
 
 
 def test_time_is_limited_in_other_threads_too() -> None:

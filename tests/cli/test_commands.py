@@ -13,7 +13,7 @@ from hypothesis import given, settings
 
 import abu_calc
 from abu_calc.analysis import ensemble, machine
-from abu_calc.cli.signals import INTERRUPTED
+from abu_calc.interruption import INTERRUPTED
 from abu_calc.report.explain import explanation_blocks
 from abu_calc.report.numbers import number
 from abu_calc.sizing import size as size_design

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.cli import signals
+from abu_calc import interruption
 from abu_calc.cli.streams import Outlet
 from tests.spec.samples import BEARINGS
 
@@ -70,9 +70,9 @@ def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:
 
 
 def test_a_system_without_these_signals_does_without(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in signals.ENDING:
+    for name in interruption.ENDING:
         monkeypatch.delattr(signal, name, raising=False)
-    signals.heed_signals()  # raises nothing
+    interruption.heed_signals()  # raises nothing
 
 
 @posix
@@ -81,7 +81,7 @@ def test_what_is_ignored_stays_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     kept = {name: signal.getsignal(getattr(signal, name)) for name in ("SIGINT", "SIGTERM")}
     try:
-        signals.heed_signals()
+        interruption.heed_signals()
         assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
     finally:
         signal.signal(signal.SIGHUP, before)

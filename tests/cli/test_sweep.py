@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from abu_calc.errors import NotTrustworthyError
 from abu_calc.studies.sweeping.members import Study
 from tests.cli.runner import abu
 
@@ -67,6 +68,7 @@ def test_who_interrupts_the_trials_is_told_that_all_members_are_there(
         (("--resume",), "--resume goes with --store"),
         (("--runs", "0"), "--runs"),
         (("--what", "builds"), "--what"),
+        (("--cluster-wait", "0"), "--cluster-wait"),
         (("--grid", "wheel.mass_kg", "machine.mass_kg"), "--grid"),
         (("--set", 'sweep.vary=["wheel.mass_kg"]'), "not KEY="),
         (("--set", "sweep.run=5"), "runs"),
@@ -85,6 +87,49 @@ def test_a_file_that_is_no_store_is_refused_and_stays(tmp_path: Path) -> None:
         seen = abu("sweep", "msh-230", "--tolerances", "--store", str(other), *more)
         assert seen.status == 2 and "store" in seen.err
     assert other.read_text(encoding="utf-8") == "something else"
+
+
+@pytest.mark.parametrize("option", ["--output", "--figure"])
+@pytest.mark.parametrize("through", ["itself", "a link", "another way"])
+def test_a_store_on_the_path_of_another_output_is_refused(option: str, through: str, tmp_path: Path) -> None:
+    """Before anything is computed, and by the name of the store."""
+    file = tmp_path / ("found.json" if option == "--output" else "found.svg")
+    other = tmp_path / ".." / tmp_path.name / file.name
+    store = {"itself": file, "a link": tmp_path / "link", "another way": other}[through]
+    if through == "a link":
+        store.symlink_to(file)
+    given = str(file) if option == "--output" else f"shares={file}"
+    seen = abu("sweep", "msh-230", "--tolerances", "--runs", "2", "--store", str(store), option, given)
+    assert seen.status == 2 and "--store" in seen.err and "another output" in seen.err
+    assert not file.exists()
+
+
+def test_a_loop_of_links_is_told_by_the_name_of_the_store(tmp_path: Path) -> None:
+    loop = tmp_path / "loop"
+    loop.symlink_to(loop)
+    for more in ((), ("--resume",), ("--force",), ("--output", str(tmp_path / "out.json"))):
+        seen = abu("sweep", "msh-230", "--tolerances", "--store", str(loop), *more)
+        assert seen.status == 2 and f"--store: {loop}" in seen.err and "bug" not in seen.err
+
+
+def test_memory_is_no_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    seen = abu("sweep", "msh-230", "--tolerances", "--runs", "2", "--store", ":memory:")
+    assert seen.status == 2 and "--store" in seen.err and list(tmp_path.iterdir()) == []
+
+
+def test_who_lost_a_cluster_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    computed = Study._row
+
+    def lost(self: Study, member: int, may_end_process: bool) -> Any:
+        if member == 3:
+            raise NotTrustworthyError("the cluster has had no scheduler or no worker for 60 s")
+        return computed(self, member, may_end_process)
+
+    monkeypatch.setattr(Study, "_row", lost)
+    store = tmp_path / "members.sqlite"
+    seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "8", *CALM, "--store", str(store))
+    assert seen.status == 3 and f"of 8 members are in {store}. Go on with:" in seen.err and "--resume" in seen.err
 
 
 def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,9 @@
 """What is written: never over a file that came meanwhile, through links and not over them, and nothing but files."""
 
+import json
 import os
 import threading
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -124,3 +126,51 @@ def test_presets_are_copied_and_files_are_not(tmp_path: Path) -> None:
         seen = abu(*arguments)
         assert seen.status == 2 and "no preset of this name" in seen.err and "password" not in seen.out + seen.err
     assert list(tmp_path.iterdir()) == [secret]
+
+
+LONG = "x" * 300
+
+
+@pytest.mark.parametrize(
+    ("arguments", "option"),
+    [
+        (("size", "msh-230", "--output", f"{LONG}.json"), "--output"),
+        (("size", "msh-230", "--figure", f"settling={LONG}.svg"), "--figure"),
+        (("simulate", "msh-230", "--trajectory", f"{LONG}.csv"), "--trajectory"),
+        (("sweep", "msh-230", "--tolerances", "--store", f"{LONG}.sqlite"), "--store"),
+        (("verify", LONG), LONG),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_names_that_no_file_can_have_are_told_with_their_option(arguments: tuple[str, ...], option: str) -> None:
+    seen = abu(*arguments)
+    assert seen.status == 2 and option in seen.err and "name too long" in seen.err.lower()
+
+
+def test_loops_of_links_are_no_targets(tmp_path: Path) -> None:
+    loop = tmp_path / "loop.svg"
+    loop.symlink_to(loop)
+    for more in ((), ("--force",)):
+        seen = abu("size", "msh-230", "--figure", f"settling={loop}", *more)
+        assert seen.status == 2 and "--figure" in seen.err and "symbolic links" in seen.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name", "taken"),
+    [
+        (("schema",), "schema.json", True),
+        (("schema",), "schema.toml", False),
+        (("schema", "result"), "schema.csv", False),
+        (("presets", "msh-230"), "machine.toml", True),
+        (("presets", "msh-230"), "machine.json", True),
+        (("presets", "msh-230"), "machine.csv", False),
+    ],
+)
+def test_a_files_ending_says_what_is_in_it(arguments: tuple[str, ...], name: str, taken: bool, tmp_path: Path) -> None:
+    file = tmp_path / name
+    seen = abu(*arguments, "--output", str(file))
+    assert seen.status == (0 if taken else 2) and file.exists() == taken
+    if taken:
+        (json.loads if name.endswith(".json") else tomllib.loads)(file.read_text(encoding="utf-8"))
+    else:
+        assert ".json" in seen.err and "does not write" in seen.err

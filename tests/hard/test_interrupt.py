@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from abu_calc.cli import app, start
-from abu_calc.cli.signals import INTERRUPTED
 from abu_calc.dynamics.integrators.compiled import code
+from abu_calc.interruption import INTERRUPTED
 from tests.cli.runner import abu
 from tests.spec.scenes import SCENE
 

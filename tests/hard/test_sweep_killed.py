@@ -125,7 +125,7 @@ def test_a_member_that_never_returns_is_passed_over_on_a_cluster() -> None:
     """Its worker ends, the cluster starts another, and after some of them the member is recorded."""
     from distributed import Client, LocalCluster
 
-    from abu_calc.studies.sweeping.who import is_ours_to_end
+    from abu_calc.studies.sweeping.cluster import is_ours_to_end
 
     found: list[Row] = []
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:

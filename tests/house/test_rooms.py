@@ -19,6 +19,7 @@ GROUND = (
     "parallel",
     "roots",
     "escapes",
+    "interruption",
 )
 ROOMS = (
     *("standards", "spec", "formulas", "fits", "sizing", "dynamics", "scenes", "analysis", "studies", "report", "cli"),

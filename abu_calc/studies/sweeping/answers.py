@@ -39,8 +39,8 @@ def there(store: Store) -> str:
 def failed(store: Store) -> Failed:
     """How many gave no numbers, and why."""
     query = "SELECT reason, COUNT(*), MIN(member) FROM members WHERE reason IS NOT NULL GROUP BY reason ORDER BY 2 DESC"
-    rows = list(store.ask(f"{query}, 1 LIMIT {REASONS}"))
-    count = next(store.ask("SELECT COUNT(*) FROM members WHERE reason IS NOT NULL"))[0]
+    rows = store.ask(f"{query}, 1 LIMIT {REASONS}")
+    count = store.ask("SELECT COUNT(*) FROM members WHERE reason IS NOT NULL")[0][0]
     return Failed(members=count, reasons=tuple(Failure(reason=r, members=n, first=k) for r, n, k in rows))
 
 
@@ -53,7 +53,7 @@ def spread(store: Store, name: str) -> Percentiles:
     """Percentiles as NumPy has them; one that is null (never, or nothing) comes after all numbers."""
     column = quoted(name)
     query = f"SELECT COUNT(*), COUNT({column}), AVG({column}) FROM members WHERE {there(store)}"
-    count, numbers, mean = next(store.ask(query))
+    count, numbers, mean = store.ask(query)[0]
     p05, p50, p95 = percentiles(store, name, (0.05, 0.5, 0.95), there(store))
     return Percentiles(p05=p05, p50=p50, p95=p95, mean=mean if numbers == count and count else None)
 
@@ -71,7 +71,7 @@ def distributions(store: Store, what: What, limits: Mapping[str, float]) -> dict
 
 def percentiles(store: Store, name: str, shares: Sequence[float], where: str) -> tuple[float | None, ...]:
     """Each between the two members about it, None where one of them is none; the members are put in order once."""
-    count = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
+    count = store.ask(f"SELECT COUNT(*) FROM members WHERE {where}")[0][0]
     if not count:
         return (None,) * len(shares)
     places = [share * (count - 1) for share in shares]
@@ -100,9 +100,8 @@ def meets(store: Store, what: What) -> MeetsLimits:
 
 
 def _share(store: Store, name: str) -> Share:
-    met, count = next(
-        store.ask(f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE member < {store.drawn}")
-    )
+    query = f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE member < {store.drawn}"
+    met, count = store.ask(query)[0]
     return Share(share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
 
 
@@ -177,7 +176,7 @@ def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
     query = f"SELECT member, {', '.join(map(quoted, names))} FROM members WHERE {ANSWERED}"
     size = 8 * BLOCK
     for first in range(0, store.runs, size):
-        rows = list(store.ask(f"{query} AND member >= ? AND member < ? ORDER BY member", (first, first + size)))
+        rows = store.ask(f"{query} AND member >= ? AND member < ? ORDER BY member", (first, first + size))
         if rows:
             table = np.array([[np.nan if value is None else value for value in row] for row in rows], dtype=float).T
             yield table[0].astype(np.int64), table[1:]

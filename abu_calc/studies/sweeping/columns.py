@@ -30,6 +30,11 @@ SEED: Final = Column("seed", "of what is particular to the member: how its balls
 REASON: Final = Column("reason", "why there are no numbers")
 MEMBER: Final = Column("member", "number of the member, from 0")
 
+OUTSIDE: Final = "not computed: "
+"""Start of reasons that lie outside the machine, in the computer: such members are tried again by the next run."""
+OVERTIME: Final = "not done within "
+"""Start of the reason of a member that took too long; the limit in seconds follows. A longer one tries it again."""
+
 QUANTITIES: Final[dict[What, tuple[Column, ...]]] = {
     "build": (
         LEVEL,

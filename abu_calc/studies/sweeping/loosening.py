@@ -90,7 +90,7 @@ def _way(sample: Sample, key: str) -> Variation:
 def _before(store: Store, names: Sequence[str], members: Sequence[int]) -> list[Numbers]:
     columns = ", ".join(map(quoted, names))
     query = f"SELECT {columns} FROM members WHERE member IN ({', '.join(map(str, members))}) ORDER BY member"
-    return list(store.ask(query))
+    return store.ask(query)
 
 
 def _compared(way: str, before: Sequence[Numbers], after: Sequence[Numbers]) -> Loosened:

@@ -15,6 +15,7 @@ from abu_calc.analysis.sampling import Sample
 from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.errors import AbuError
 from abu_calc.formulas.oil import drag_ratio
+from abu_calc.interruption import raise_pending
 from abu_calc.scenes.from_design import AHEAD
 from abu_calc.scenes.from_scene import scene_from
 from abu_calc.scenes.members import OPPOSITE
@@ -26,7 +27,7 @@ from abu_calc.spec.read import Machine
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.variants import Variants
 from abu_calc.studies.size import size
-from abu_calc.studies.sweeping.columns import FLAGS, QUANTITIES, What
+from abu_calc.studies.sweeping.columns import FLAGS, OUTSIDE, OVERTIME, QUANTITIES, What
 from abu_calc.units import from_si, to_si
 
 LOT: Final = 0.5e-6
@@ -71,11 +72,16 @@ class Study(ABC):
             with limited(self.time_limit, may_end_process=may_end_process):
                 numbers = self.numbers(named, seed)
         except Overtime:
-            return self.lost(member, f"not done within {self.time_limit:g} s")
-        except AbuError as error:
-            return self.lost(member, str(error).splitlines()[0])
+            return self.lost(member, f"{OVERTIME}{self.time_limit:g} s")
+        except ImportError:  # of all members, and of this computer: no result of any
+            raise_pending()
+            raise
         except Exception as error:  # one member must not end the others
-            return self.lost(member, f"{type(error).__name__}: {error}".splitlines()[0])
+            raise_pending()
+            if isinstance(error, AbuError):
+                return self.lost(member, _line(str(error)))
+            outside = OUTSIDE if isinstance(error, (OSError, MemoryError)) else ""
+            return self.lost(member, _line(f"{outside}{type(error).__name__}: {error}"))
         return (member, seed, *map(_plain, values), *map(_finite, numbers), None)
 
     def _in_file(self, values: Values) -> dict[Any, object]:
@@ -163,6 +169,10 @@ class Scenes(Study):
             one.level, one.settling_time, from_si(one.axis_amplitude, "mm"),
             from_si(one.residual_imbalance, "g_mm"), found.balanced, found.balanced,
         )  # fmt: skip
+
+
+def _line(text: str) -> str:
+    return text.splitlines()[0] if text else text
 
 
 def _finite(value: float | None) -> float | None:

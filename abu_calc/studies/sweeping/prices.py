@@ -55,7 +55,7 @@ def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves |
     sides = []
     for side, sign in (("lower", "<="), ("upper", ">")):
         where = f"{there(store)} AND {key} {sign} {middle!r}"
-        many = next(store.ask(f"SELECT COUNT(*) FROM members WHERE {where}"))[0]
+        many = store.ask(f"SELECT COUNT(*) FROM members WHERE {where}")[0][0]
         # By the binomial law of how many of a half lie below its own 95 % level.
         off = 1.96 * math.sqrt(KEPT * (1 - KEPT) / max(many, 1))
         level, highest = percentiles(store, name, (KEPT, min(KEPT + off, 1.0)), where)

@@ -1,7 +1,7 @@
 """What a sweep returns: its answers, and its members as arrays."""
 
+import os
 import shutil
-import sqlite3
 import tempfile
 import weakref
 from collections.abc import Sequence
@@ -24,7 +24,8 @@ from abu_calc.studies.sweeping.records import (
     Price,
     Sensitivity,
 )
-from abu_calc.studies.sweeping.store import Store
+from abu_calc.studies.sweeping.store import Store, connected
+from abu_calc.studies.sweeping.store_faults import faults_of
 
 
 @record
@@ -36,11 +37,19 @@ class Varied(Record):
 
 
 class Members:
-    """The members as arrays, read when asked for: `members["level_db"]`; `names` and `units` of all columns."""
+    """The members as arrays, read when asked for: `members["level_db"]`; `names` and `units` of all columns.
+
+    A copy that is pickled carries them if their store is a temporary one; else it reads the store that was named.
+    """
 
     def __init__(self, store: Path, columns: Sequence[Column], runs: int, kept: object = None) -> None:
-        self.store, self.names, self._runs, self._kept = store, tuple(one.name for one in columns), runs, kept
-        self.units = {one.name: one.unit for one in columns}
+        self.store, self.names, self._runs, self._kept = store, tuple(column.name for column in columns), runs, kept
+        self.units = {column.name: column.unit for column in columns}
+        self._carried: dict[str, NDArray[Any]] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        carried = self._carried if self._kept is None else {name: self[name] for name in self.names}
+        return {**vars(self), "store": self.store.absolute(), "_kept": None, "_carried": carried}
 
     def __len__(self) -> int:
         return self._runs
@@ -48,27 +57,30 @@ class Members:
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.names:
             raise KeyError(f"{name} is no column; there are {', '.join(self.names)}")
-        store = Store(self.store, connection(self.store), self.names, self._runs)
-        try:
-            return store.column(name)
-        finally:
-            store.close()
+        if name in self._carried:
+            return self._carried[name].copy()
+        with faults_of(self.store):
+            store = Store(self.store, connected(self.store), self.names, self._runs)
+            try:
+                return store.column(name)
+            finally:
+                store.close()
 
     def __repr__(self) -> str:
         return f"Members({self._runs} of {', '.join(self.names)})"
 
 
 class Kept:
-    """A folder that is there as long as somebody holds this."""
+    """A folder that is there as long as somebody in this process holds this; its forks leave it alone."""
 
     def __init__(self) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="abu-sweep-"))
-        weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+        weakref.finalize(self, _remove, self.folder, os.getpid())
 
 
-def connection(path: Path) -> sqlite3.Connection:
-    """To a store that is there."""
-    return sqlite3.connect(path, timeout=30)
+def _remove(folder: Path, owner: int) -> None:
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 @record

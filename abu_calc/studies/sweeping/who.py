@@ -2,19 +2,30 @@
 
 import os
 import platform
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import dataclass
 from itertools import islice
 from time import perf_counter
-from typing import Any, Final
+from typing import Final
 
 from abu_calc.analysis.batches import Row, given, here, in_batches, processes
 from abu_calc.analysis.batches import Study as Computed
+from abu_calc.errors import InputError
 from abu_calc.progress import Progress
+from abu_calc.studies.sweeping.cluster import (
+    PLACE,
+    client_of,
+    is_alive,
+    is_ours_to_end,
+    refuse_other_software,
+    threads_of,
+)
+from abu_calc.studies.sweeping.columns import OUTSIDE
 from abu_calc.studies.sweeping.members import Study
+from abu_calc.studies.sweeping.software import differences_of_software, software, worker_name
 from abu_calc.studies.sweeping.store import Store
-from abu_calc.version import __version__
+from abu_calc.studies.sweeping.store_faults import fault
 
 Take = Callable[[list[Row]], None]
 
@@ -24,15 +35,13 @@ FIRST: Final = 4
 """Members that are computed here first: they make the compiled code for all, and tell how long one takes."""
 
 
-def versions(*names: str) -> dict[str, str]:
-    """Of this program and of what its numbers hang on."""
-    found = {"abu-calc": __version__}
-    for name in ("numpy", "scipy", *names):
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            found[name] = "none"
-    return found
+@dataclass(frozen=True)
+class Hands:
+    """Number of processes that compute, or somebody's executor, with the longest wait for its workers [s]."""
+
+    workers: int | None
+    executor: Executor | None
+    patience: float
 
 
 def described(workers: int | None, executor: Executor | None) -> str:
@@ -41,70 +50,92 @@ def described(workers: int | None, executor: Executor | None) -> str:
     return f"{who}; Python {platform.python_version()}, {platform.system()} {platform.machine()}"
 
 
-def compute(study: Study, store: Store, workers: int | None, executor: Executor | None, progress: Progress) -> None:
-    """Puts the missing members into the store as they come."""
-    told = _Told(store.put, store.done, store.runs, progress, "sweep: {} of {} members")
-    _computed(study, store.missing(), told, workers, executor)
+def compute(study: Study, store: Store, hands: Hands, progress: Progress) -> None:
+    """Put the missing members into the store as they come."""
+    counted = _Counted(store.put, store.done, store.runs, progress, "sweep: {} of {} members")
+    _computed(study, store.missing(), counted, hands)
+    if (there := store.ask("SELECT COUNT(*) FROM members")[0][0]) != store.runs:
+        text = f"it has {there} members and not {store.runs}: another program took some out"
+        raise fault(store.path, text, "Go on with --resume.")
 
 
 def once_more(
-    study: Computed, numbers: Iterator[int], take: Take, count: int, workers: int | None, executor: Executor | None,
-    progress: Progress,
-) -> None:  # fmt: skip
-    """Members beside those of the store."""
-    told = _Told(take, 0, count, progress, "sweep: what may be loosened, {} of {}")
-    _computed(study, numbers, told, workers, executor)
-
-
-def _computed(
-    study: Computed, missing: Iterator[int], told: "_Told", workers: int | None, executor: Executor | None
+    study: Computed, numbers: Iterator[int], take: Take, count: int, hands: Hands, progress: Progress
 ) -> None:
+    """Members beside those of the store."""
+
+    def keep(rows: list[Row], *_: object) -> None:
+        take(rows)
+
+    counted = _Counted(keep, 0, count, progress, "sweep: what may be loosened, {} of {}")
+    _computed(study, numbers, counted, hands)
+
+
+@dataclass(frozen=True)
+class Attributed:
+    """A study as workers get it: its rows come with who computed them. A worker with other software computes none."""
+
+    study: Computed
+    software: Mapping[str, str]
+
+    def rows(self, members: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
+        """One entry: the worker, its software, the rows of the members."""
+        if different := differences_of_software(self.software, software()):
+            raise InputError(
+                "a worker has other software than the process that asks it",
+                place=PLACE,
+                found=f"{worker_name()}: {different}",
+                remedy=f"Install abu-calc {self.software['abu-calc']} with the same libraries there, and restart it.",
+            )
+        rows, seconds = self.study.rows(members, may_end_process)
+        return [(worker_name(), {**software(), "python": platform.python_version()}, rows)], seconds
+
+    def lost(self, member: int, reason: str) -> Row:
+        """The entry of a member whose worker gave nothing: the next run tries it again."""
+        return ("", None, [self.study.lost(member, OUTSIDE + reason)])
+
+
+def _computed(study: Computed, missing: Iterator[int], counted: "_Counted", hands: Hands) -> None:
+    workers, executor, study = hands.workers, hands.executor, Attributed(study, software())
     if executor is not None:
-        count = getattr(executor, "_max_workers", None) or _cluster_size(executor) or os.cpu_count() or 1
-        in_batches(study, missing, given(executor, count, ends=is_ours_to_end(executor)), told)
+        client = client_of(executor)
+        if client is not None:
+            refuse_other_software(client)
+        count = getattr(executor, "_max_workers", None) or (threads_of(client) if client else os.cpu_count()) or 1
+        alive = None if client is None else lambda: is_alive(client)
+        ours = given(executor, count, ends=is_ours_to_end(executor), alive=alive, patience=hands.patience)
+        in_batches(study, missing, ours, counted)
         return
     if workers is None or workers < 2:
-        in_batches(study, missing, here(), told)
+        in_batches(study, missing, here(), counted)
         return
     begun = perf_counter()
     first = list(islice(missing, FIRST))
     for member in first:  # the last one shows what one takes when all is compiled
         begun = perf_counter()
-        in_batches(study, iter([member]), here(), told)
-    left = (told.of - told.done) * (perf_counter() - begun)
+        in_batches(study, iter([member]), here(), counted)
+    left = (counted.of - counted.done) * (perf_counter() - begun)
     who = here() if left < SOON else processes(workers)
     try:
-        in_batches(study, missing, who, told)
-    finally:
-        who.close()
+        in_batches(study, missing, who, counted)
+    except BaseException:
+        who.close(at_once=True)
+        raise
+    who.close()
 
 
-def _cluster_size(executor: Executor) -> int | None:
-    """Threads of a Dask cluster behind its client's executor."""
-    client: Any = getattr(executor, "_client", None)
-    return sum(client.nthreads().values()) if client is not None else None
-
-
-def is_ours_to_end(executor: Executor) -> bool:
-    """Whether who computes is a process of a Dask cluster that is started anew when it ends."""
-    client: Any = getattr(executor, "_client", None)
-    if client is None:
-        return False
-    workers = client.scheduler_info(n_workers=-1)["workers"].values()
-    return bool(workers) and all(one.get("nanny") for one in workers)
-
-
-class _Told:
+class _Counted:
     """Takes rows: where they are kept, and says how far it is."""
 
-    def __init__(self, take: Take, done: int, of: int, progress: Progress, words: str) -> None:
+    def __init__(self, take: Callable[..., None], done: int, of: int, progress: Progress, words: str) -> None:
         self.take, self.of, self.progress, self.words = take, of, progress, words
         self.before = self.done = done
         self.begun = perf_counter()
 
-    def __call__(self, rows: list[Row]) -> None:
-        self.take(rows)
-        self.done += len(rows)
+    def __call__(self, entries: list[Row]) -> None:
+        for worker, its_software, rows in entries:
+            self.take(rows, worker, its_software)
+            self.done += len(rows)
         passed = perf_counter() - self.begun
         rate = (self.done - self.before) / max(passed, 1e-9)
         left = (self.of - self.done) / max(rate, 1e-9)
