@@ -17,6 +17,7 @@ from abu_calc.sizing.capacity import required_capacity
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.housing import housing
+from abu_calc.spec.table import LEAST
 from abu_calc.standards.balls import stock_diameters
 from tests.sizing.machines import machine
 
@@ -26,6 +27,11 @@ RANDOM = settings(max_examples=60, deadline=None, derandomize=True)
 def _between(low: float, high: float) -> st.SearchStrategy[float]:
     """Evenly in the logarithm."""
     return st.floats(math.log(low), math.log(high)).map(math.exp)
+
+
+def _least(low: float, high: float) -> st.SearchStrategy[float]:
+    """Evenly, with 0 for what is too small to compute with, which files are refused for."""
+    return st.floats(low, high).map(lambda number: number if abs(number) >= LEAST else 0.0)
 
 
 @st.composite
@@ -40,7 +46,7 @@ def machines(draw: st.DrawFn) -> dict[str, Any]:
         "machine__speed_range_rpm": [speed * draw(st.floats(0.5, 1)), speed * draw(st.floats(1, 1.5))],
         "machine__spindle_axis": draw(st.sampled_from(["horizontal", "vertical"])),
         "suspension__natural_frequencies_hz": frequencies,
-        "suspension__damping_ratios": [draw(st.floats(0, 1)), draw(st.floats(0, 1))],
+        "suspension__damping_ratios": [draw(_least(0, 1)), draw(_least(0, 1))],
         "wheel__mass_kg": draw(_between(0.05, 30)),
         "wheel__imbalance_g_mm": draw(st.just(0.0) | _between(1, 1e5)),
         "wheel__runout_mm": draw(st.just(0.0) | _between(0.001, 0.5)),
@@ -49,17 +55,17 @@ def machines(draw: st.DrawFn) -> dict[str, Any]:
         "autobalancer__bore_diameter_mm": draw(st.floats(5, 0.4 * envelope)),
         "autobalancer__design": draw(st.sampled_from(["one-piece", "bearing-ring", "light"])),
         "autobalancer__corrector": draw(st.sampled_from(["ball", "roller"])),
-        "autobalancer__rolling_drag_per_s": draw(st.floats(0, 200)),
+        "autobalancer__rolling_drag_per_s": draw(_least(0, 200)),
         "autobalancer__rolling_friction_mm": draw(st.sampled_from([0.0, 0.002, 0.05])),
         "autobalancer__race_eccentricity_mm": draw(st.sampled_from([0.0, 0.01, 0.1])),
     }
     if draw(st.booleans()):
         changes["machine__transverse_inertia_kg_m2"] = draw(_between(0.001, 10))
         changes["machine__center_of_mass_to_wheel_mm"] = draw(_between(10, 500))
-        changes["autobalancer__plane_offset_mm"] = draw(st.floats(-50, 50))
+        changes["autobalancer__plane_offset_mm"] = draw(_least(-50, 50))
     if draw(st.booleans()):
         contact = draw(st.sampled_from(["compliant", "rigid", "face"]))
-        changes["grinding"] = {"contact": contact, "cutting_coefficient": draw(st.floats(0, 0.9))}
+        changes["grinding"] = {"contact": contact, "cutting_coefficient": draw(_least(0, 0.9))}
         if contact == "compliant":
             changes["grinding"]["contact_stiffness_N_per_m"] = draw(_between(1e4, 1e7))
     return changes
