@@ -5,10 +5,12 @@ The words stand in check_data/, one file for each hundred, read when one of its 
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Final
+
+from abu_calc.frozen import dataclass
 
 _DATA: Final = Path(__file__).parent / "check_data"
 

@@ -1,8 +1,9 @@
 """A check of a design and the status of several: what every step of the way may hand on beside its numbers."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Literal
+
+from abu_calc.frozen import dataclass
 
 Status = Literal["pass", "fail", "not-done"]
 """Of a whole result."""

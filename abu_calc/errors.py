@@ -11,10 +11,10 @@ Statuses 0 and 1 are no errors: they tell whether every check of a result passed
 """
 
 import re
-from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from abu_calc.escapes import LONGEST_FOUND, escaped, shortened
+from abu_calc.frozen import dataclass
 
 LONGEST_FILE_NAME: Final = 1000
 """Characters of it that messages show."""

@@ -6,9 +6,9 @@ A formula is registered where it stands, by the decorator of the function (or cl
 import importlib
 import inspect
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
+from abu_calc.frozen import dataclass
 from abu_calc.signs import conversions, in_files, signs, signs_in, told, unit_in_files, unit_name
 from abu_calc.validity import Range
 

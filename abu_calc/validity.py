@@ -1,9 +1,9 @@
 """The range in which a formula holds, as data that the code checks."""
 
 import math
-from dataclasses import dataclass
 
 from abu_calc.errors import Place, RangeError
+from abu_calc.frozen import dataclass
 
 
 def bounded(value: float) -> str:

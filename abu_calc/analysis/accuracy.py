@@ -5,7 +5,7 @@ import statistics
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any, Final
 
@@ -19,6 +19,7 @@ from abu_calc.dynamics.integrators.run import EVENT, TooMuchWorkError, work
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
 from abu_calc.dynamics.trajectory import Sampling, Trajectory
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, Stage
 
 TOLERANCES: Final = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)

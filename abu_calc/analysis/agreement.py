@@ -1,7 +1,7 @@
 """How far closed form and simulation of the same machine at its work agree."""
 
 import cmath
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.grinding import Work
@@ -9,6 +9,7 @@ from abu_calc.analysis.under_load import Balls, Steady, contact_presses
 from abu_calc.analysis.working import Working, only_contact, working
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.durations import free_rates
 from abu_calc.scenes.from_design import scene_of_design

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.checks import Check, Grade, coded, verdict
@@ -10,6 +10,7 @@ from abu_calc.dynamics.balanced.arrangements import Arrangement
 from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.from_design import contact_half_angle, scene_of_design
 from abu_calc.sizing.arm_repairs import Change, Way, changes

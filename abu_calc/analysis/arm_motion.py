@@ -1,7 +1,7 @@
 """The motion of an arm whose imbalance nothing balances: by perturbation and by simulation, and its tongue."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -14,6 +14,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.arm_motion import ORDERS, averaged_edge, forced_harmonics, free_rates
 from abu_calc.formulas.swing_arm import MODULATION, Arm, resonance
+from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
 Harmonics = tuple[complex, ...]

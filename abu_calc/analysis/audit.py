@@ -1,11 +1,10 @@
 """An audit: the same scene once more with every effect in, and what that really changed."""
 
-from dataclasses import dataclass
-
 from abu_calc.analysis.differences import difference
 from abu_calc.analysis.ledger import Ledger
 from abu_calc.analysis.simulate import Simulation, simulate, usual_work
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 
 

@@ -2,13 +2,13 @@
 
 import cmath
 import math
-from dataclasses import dataclass
 
 from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.under_load import Steady, bare, contact_of, fitted, runout_of
 from abu_calc.errors import InputError
 from abu_calc.formulas.grinding import largest_factor
 from abu_calc.formulas.shaking import shaken_drag, shaking_threshold
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.units import to_si

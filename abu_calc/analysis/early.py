@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Final
 
@@ -13,6 +13,7 @@ from abu_calc.analysis.response import Response, amplitude_window, axis_velocity
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, Until, merged
+from abu_calc.frozen import dataclass
 
 LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
 """Shares of the time at full speed after which a run may end."""
@@ -83,6 +84,16 @@ class Early:
     def moving(self, samples: Samples) -> tuple[float, float]:
         """How far what is left may go until then [kg m], and by how much the level rose of late [dB]; at first all."""
         end = float(samples.t[-1])
+        if end not in self._moves:
+            self._moves[end] = self._moving(samples, end)
+        return self._moves[end]
+
+    @cached_property
+    def _moves(self) -> dict[float, tuple[float, float]]:
+        """What was said of a run that might end at each of these times."""
+        return {}
+
+    def _moving(self, samples: Samples, end: float) -> tuple[float, float]:
         seen = SEEN * (end - self.at_speed)
         times = settling_times(self.scene)
         times = times[(times >= end - seen) & (times <= end)]

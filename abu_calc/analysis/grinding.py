@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, Literal
 
 from abu_calc.analysis.bouncing import bounces, bouncing
@@ -12,6 +12,7 @@ from abu_calc.analysis.under_load import Steady, bare, changed, contact_presses,
 from abu_calc.analysis.working import Working, seen, working
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.from_design import grinding_without, scene_of_design
 from abu_calc.sizing import size

@@ -1,7 +1,6 @@
 """What each hand carries of a machine that is held still in the air."""
 
-from dataclasses import dataclass
-
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.design import Design
 from abu_calc.units import GRAVITY
 

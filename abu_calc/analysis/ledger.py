@@ -1,12 +1,13 @@
 """Which effects of a scene are simulated: those whose absence would be seen at the accuracy asked for."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.dynamics.effect import Weight
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 
 SHARE: Final = 0.5
 """Of the accuracy; what all effects left out may weigh together. The rest is for the errors of integration."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -17,6 +17,7 @@ from abu_calc.analysis.octaves import (
     weighted_rms,
     why_not,
 )
+from abu_calc.frozen import dataclass
 from abu_calc.standards.vibration import Octave, octaves
 from abu_calc.units import level_from_velocity
 

@@ -1,12 +1,12 @@
 """The scenes a machine file calls for, simulated with the effects they call for."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent
 from abu_calc.scenes.from_design import scene_of_design

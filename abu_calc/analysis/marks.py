@@ -1,6 +1,5 @@
 """When the zero mark passes its sensor: from pulses of either polarity, square or rounded, to times of revolutions."""
 
-from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
@@ -8,6 +7,7 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]

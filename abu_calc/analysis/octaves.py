@@ -6,12 +6,12 @@ at the edges of a band, causal, so that only the start of a record has to be lef
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.frozen import dataclass
 from abu_calc.standards.vibration import Octave, band_limits, hand_arm_response, high_pass, octaves
 from abu_calc.units import from_si
 

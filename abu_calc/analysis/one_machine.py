@@ -1,6 +1,6 @@
 """What one machine comes to that is built and switched on once."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from abu_calc.analysis.balanced import HALF, allowed_imbalance, balances, slip
 from abu_calc.analysis.ensemble import MANY, WORK, outcome_of
@@ -13,6 +13,7 @@ from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.supports.receptance import reference_imbalance
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.motion import SETTLED
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.switched_on import SwitchedOn, scene_switched_on
 from abu_calc.sizing.built import with_worst
 from abu_calc.sizing.design import Design

@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.response import Response
 from abu_calc.checks import Check, coded, overall, verdict
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import running_up
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design

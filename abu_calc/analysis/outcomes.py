@@ -3,12 +3,13 @@
 import math
 import statistics
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from operator import attrgetter
 from typing import Any
 
 from abu_calc.analysis.balanced import SLIPPING, balances
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.members import Member
 
 

@@ -1,10 +1,9 @@
 """The design whose starts all balance: the first of the candidates that does, and remedies that were tried."""
 
-from dataclasses import dataclass
-
 from abu_calc.analysis.ensemble import simulate_members
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.remedies import passes, remedy
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent, within
 from abu_calc.sizing import instead
 from abu_calc.sizing.balls import Candidate, sound

@@ -7,7 +7,6 @@ the whole revolutions between the first passage and the last, evenly sampled or 
 """
 
 import math
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from abu_calc.analysis.marks import LONGER, Edge, Passages, passages, smooth
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.spec.rig_record import RigRecord
 from abu_calc.units import from_si
 

@@ -1,7 +1,6 @@
 """The frequency region of a machine without approximations: where its idle balanced state is stable."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -14,6 +13,7 @@ from abu_calc.dynamics.balanced.hanging import HangingBounds
 from abu_calc.dynamics.balanced.stability import MARGIN, judged
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import contact_half_angle, idle_scene
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si

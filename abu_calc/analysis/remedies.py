@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from abu_calc.analysis.ensemble import simulate_members
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.formulas.suspension import Springs
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, within
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import RunUp

@@ -1,7 +1,6 @@
 """What one run says: amplitude, velocity, level, settling, residual imbalance, and where everything ended."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
 from abu_calc.dynamics.trajectory import Array, Samples, Sampling, merged
 from abu_calc.formulas.motion import SETTLED
+from abu_calc.frozen import dataclass
 from abu_calc.units import level_from_velocity
 
 SAMPLES_PER_REVOLUTION = 64

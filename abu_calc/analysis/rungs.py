@@ -1,7 +1,7 @@
 """The rungs of the ladder that integrate no equations of motion: closed form and envelope, and what that may be off."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -27,6 +27,7 @@ from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.motion import SETTLED
 from abu_calc.formulas.slow_motion import decay_rate
+from abu_calc.frozen import dataclass
 
 LEADING, SLOWNESS = 0.5, 10.0
 """Weights in the error of the envelope: of what its last order changes, and of (rate of the balls/gap)². Calibrated

@@ -8,13 +8,13 @@ sequences, scrambled (Owen 1998); Saltelli's design for sensitivities (Saltelli 
 import inspect
 import math
 import warnings
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.frozen import dataclass
 from abu_calc.spec.text import Part
 from abu_calc.spec.variation import Variation
 

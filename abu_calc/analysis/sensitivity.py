@@ -6,12 +6,13 @@ products are taken is decided by what a fit to four fifths of the members says o
 two values are left out; what no product explains is told beside. From Saltelli's design: scipy.stats.sobol_indices.
 """
 
-from dataclasses import dataclass
 from itertools import combinations, product
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ machine along its spindle so that balls roll across their race, or the runout in
 their way. Source of the question: Kladiev 1996.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, Literal
 
 import numpy as np
@@ -22,6 +22,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Sampling
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.shaking import shaking_threshold
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design

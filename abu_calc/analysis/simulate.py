@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas import motion
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, share_of, silent
 from abu_calc.scenes.durations import lasting
 

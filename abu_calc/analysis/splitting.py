@@ -3,9 +3,10 @@
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Final, Literal
+
+from abu_calc.frozen import dataclass
 
 Action = Literal["remove", "add"]
 

@@ -5,11 +5,12 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.two_planes import Balancing, Method, RunOnRig, Solution, Weight, motion_of, solved
 from abu_calc.formulas.two_planes import Matrix, Pair
+from abu_calc.frozen import dataclass
 
 LENGTHS: Final = ("a", "b", "c", "d")
 UNKNOWN: Final = math.pi

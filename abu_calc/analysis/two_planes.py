@@ -8,7 +8,6 @@ Numbers in SI; imbalances and motions as complex numbers, as in formulas/two_pla
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
@@ -24,6 +23,7 @@ from abu_calc.formulas.two_planes import (
     influence,
     natural_frequencies,
 )
+from abu_calc.frozen import dataclass
 from abu_calc.units import from_si
 
 Method = Literal["rig data", "trial masses"]

@@ -7,13 +7,14 @@ in the plane of the wheel.
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 from abu_calc.formulas.contact import SteadyContact
 from abu_calc.formulas.grinding import loaded_stiffness
 from abu_calc.formulas.loaded_stability import characteristic, growing_roots
 from abu_calc.formulas.suspension import dynamic_stiffness
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import contact_half_angle
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case

@@ -11,7 +11,6 @@ to be centred at a rigid contact, where it is driven off.
 import cmath
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from abu_calc.analysis.under_load import Steady
 from abu_calc.formulas.contact import SteadyContact
 from abu_calc.formulas.grinding import runout_rate
+from abu_calc.frozen import dataclass
 
 SMALLEST = 1e-9
 """Depth [m] at which the search for events begins."""

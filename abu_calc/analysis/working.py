@@ -1,7 +1,7 @@
 """What the simulation of a machine at its work shows: phasors of axis and contact force, and how they press."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Array, Samples
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 
 TURNS = 20

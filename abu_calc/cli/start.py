@@ -15,9 +15,10 @@ def main() -> None:
     """Run `abu` without what only a long process gains from: that saves a short one a fifth of its time.
 
     Garbage is seldom searched for, and not at the end, when the system takes back all; installed distributions are not
-    searched for plugins of pydantic.
+    searched for plugins of pydantic; matrices are too small for threads, which only wait for each other.
     """
     gc.set_threshold(OBJECTS)
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
         heed_signals()

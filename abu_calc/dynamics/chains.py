@@ -4,12 +4,13 @@ A gap is joined, 1, or open, 0, and these are numbers: one way of summing serves
 joined, since its balls cannot fill it.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from abu_calc.frozen import dataclass
 
 Array = NDArray[Any]
 

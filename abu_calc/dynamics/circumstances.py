@@ -6,12 +6,12 @@ in the rotor from its zero mark, which lies on +x at t = 0, in the sense of rota
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from functools import cached_property
 
 from abu_calc.dynamics.race import LARGEST, NON_NEGATIVE, Balls, Race, balls_of, finite, same_length
 from abu_calc.dynamics.rotor import Rotor
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 

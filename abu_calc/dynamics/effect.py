@@ -3,7 +3,6 @@
 Effects are in `effects/`, one file each; how they go together is written in `effects/__init__.py`.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Literal, Protocol
 
@@ -15,6 +14,7 @@ from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.rotor import STEADY, Rotor
 from abu_calc.dynamics.trajectory import Samples
+from abu_calc.frozen import dataclass
 
 Kind = Literal["conservative", "dissipative", "driven"]
 

@@ -1,11 +1,11 @@
 """The numbers of a scene, combined once so that an evaluation of the equations needs few operations. SI."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 from typing import Any
 
 from abu_calc.dynamics.motion import Array, Levers, Motion
 from abu_calc.dynamics.rotor import Rotor
+from abu_calc.frozen import dataclass
 
 Modes = tuple[Any, ...]
 """How each effect acts for the time being (sticking, touching …); None where there is one way only."""
@@ -106,7 +106,7 @@ class Parameters:
         return all(effect.traceable for effect in self.effects)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Acting:
     """The numbers of a scene while its effects act in some modes: what an evaluation of the equations gets.
 

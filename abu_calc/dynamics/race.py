@@ -2,13 +2,13 @@
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 LARGEST: Final = sys.float_info.max

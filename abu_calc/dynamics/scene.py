@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.effect import Effect
@@ -10,6 +10,7 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.rotor import Rotor, most_demanding
 from abu_calc.dynamics.support import Support
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 
 __all__ = ["Effect", "Race", "Scene", "Support", "only", "parted_angles", "placed", "with_parted_balls", "without"]
 

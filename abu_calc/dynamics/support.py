@@ -5,7 +5,7 @@ Nobody else asks which kind it is: what a kind needs stands behind one of these 
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Self
 
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.parameters import Frame, Geometry
 from abu_calc.dynamics.race import Balls, Race
 from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.frozen import dataclass
 
 if TYPE_CHECKING:
     from abu_calc.formulas.swing_arm import Arm

@@ -1,12 +1,13 @@
 """What an integrator hands on, and which samples it is asked for."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Share
 
 Array = NDArray[np.float64]

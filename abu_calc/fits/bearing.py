@@ -1,6 +1,6 @@
 """A bearing with its two seats, in SI, as the formulas of this room take it."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from abu_calc.errors import InputError, Place
 from abu_calc.fits.ranges import (
@@ -15,6 +15,7 @@ from abu_calc.fits.ranges import (
     WARMER_RING,
     WARMER_THAN_MOUNTED,
 )
+from abu_calc.frozen import dataclass
 from abu_calc.standards.bearings import Series
 from abu_calc.standards.limits import BearingType, Limits
 from abu_calc.standards.maker_fits import Kind, Ratings, RingLoad

@@ -1,6 +1,6 @@
 """A seat as a joint of two parts, the same for shaft and housing: what every judgement of it needs."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Final, NamedTuple
 
@@ -9,6 +9,7 @@ from abu_calc.fits.bearing import Ring
 from abu_calc.fits.interference import Interval, clearance_probability, probability_below, theoretical_interference
 from abu_calc.fits.requirement import creep_interference, load_loss
 from abu_calc.fits.stress import PERMITTED_RING_STRESS
+from abu_calc.frozen import dataclass
 from abu_calc.standards.limits import Limits, Seat, part_limits
 from abu_calc.standards.maker_fits import MakerFits
 

@@ -4,9 +4,8 @@ Conventions: x = Re(X e^{iΩt}), y = Re(Y e^{iΩt}); U total imbalance [kg m] an
 along the imbalance; D dynamic stiffness per axis [N/m]; q = 1/c_n compliance [m/N]; T = s·f·N friction along x.
 """
 
-from dataclasses import dataclass
-
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 
 
 @dataclass(frozen=True)

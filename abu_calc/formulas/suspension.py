@@ -1,11 +1,11 @@
 """What holds the machine: springs given by natural frequencies, or two hands, as seen from the wheel plane."""
 
-from dataclasses import dataclass
 from typing import Protocol
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formula import formula
 from abu_calc.formulas.hands import handle_reaction
+from abu_calc.frozen import dataclass
 from abu_calc.roots import root
 from abu_calc.standards.hands import Hand
 

@@ -5,9 +5,9 @@ Source: Kovalenko 2010, corrected.
 
 import itertools
 import math
-from dataclasses import dataclass
 
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 from abu_calc.roots import root
 from abu_calc.validity import Range
 

@@ -7,10 +7,10 @@ A·cos(Ωt − α) is X = A·e^{−iα} likewise.
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 
 Pair = tuple[complex, complex]
 """Left and right."""

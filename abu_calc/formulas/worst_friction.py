@@ -1,9 +1,9 @@
 """How far dry rolling friction can hold the axis at most, over all arrangements of the balls."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 
 if TYPE_CHECKING:
     import numpy as np

@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from typing import TYPE_CHECKING, Any
 
 from abu_calc.checks import Check, Status
 from abu_calc.errors import AbuError, InputError
+from abu_calc.frozen import dataclass
 from abu_calc.report.blocks import Block
 
 if TYPE_CHECKING:

@@ -1,10 +1,10 @@
 """The steps of sizing as `abu explain` shows them: the formulas of each, and how the numbers of a result go in."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.formula import Formula, formula_of
+from abu_calc.frozen import dataclass
 from abu_calc.report import step_numbers
 
 if TYPE_CHECKING:

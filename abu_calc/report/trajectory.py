@@ -1,10 +1,10 @@
 """A motion as CSV: the axis in mm, ball angles in degrees, unwrapped, and what else of the scene moves."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
+from abu_calc.frozen import dataclass
 from abu_calc.studies.motion import Motion
 
 DIGITS = 12

@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp as RunUpEffect
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import Start, guided, running_up, scene_of_design
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track

@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import AHEAD
 from abu_calc.scenes.members import OPPOSITE, RUN_UP, Member, scene_of_member
 from abu_calc.sizing.design import Design

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, Literal
 
 from abu_calc.formulas.swing_arm import (
@@ -19,6 +19,7 @@ from abu_calc.formulas.swing_arm import (
     stiffness_limit,
     worst_contact_angle,
 )
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.swing_arm import LEAST_SINE
 from abu_calc.units import from_si, to_si
 from abu_calc.validity import bounded

@@ -1,10 +1,10 @@
 """Step 5: which balls, how many, on which race radius."""
 
 from bisect import bisect_left
-from dataclasses import dataclass
 
 from abu_calc.formula import formula
 from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.budget import (
     AccuracyBudget,
     Balls,

@@ -1,8 +1,7 @@
 """The mass that really moves: the machine as a rigid body, felt at places along its spindle axis."""
 
-from dataclasses import dataclass
-
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,11 @@
 
 import math
 from bisect import bisect_left
-from dataclasses import dataclass
 
 from abu_calc.formula import formula
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.suspension import resonance_factor
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.capacity import Requirement, plane_ratio
 from abu_calc.sizing.case import Case
 from abu_calc.units import level_from_velocity, velocity_from_level

@@ -1,10 +1,9 @@
 """Step 3: the capacity that the balls must have, m(R−r)·… ≥ m₀e + Mε, exactly."""
 
-from dataclasses import dataclass
-
 from abu_calc.formula import formula
 from abu_calc.formulas.contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.validity import Range
 

@@ -1,11 +1,11 @@
 """A machine file in SI. Elsewhere sizing asks the tables only which of several ways people have chosen."""
 
-from dataclasses import dataclass
 from typing import Literal
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import INERTIA_FACTORS
 from abu_calc.formulas.suspension import Hands, Springs, Suspension
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.body import Body
 from abu_calc.spec.machine import Autobalancer, Grinding, MachineFile
 from abu_calc.standards.hands import hand

@@ -1,8 +1,8 @@
 """What was measured with the autobalancer, beside what is predicted of the same place."""
 
 import math
-from dataclasses import dataclass
 
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.budget import accuracy_budget, displacement_level
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design

@@ -1,9 +1,9 @@
 """The finished design: every step's frozen result, side by side."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from abu_calc.checks import Check
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.balls import Candidate, Choice
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.drawing import Advice

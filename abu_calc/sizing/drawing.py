@@ -1,10 +1,10 @@
 """Step 10: what the drawing must say, each tolerance with the dB it costs."""
 
 import math
-from dataclasses import dataclass
 
 from abu_calc.errors import RangeError
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import oval_rest
 from abu_calc.sizing.case import Case

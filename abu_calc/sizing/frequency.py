@@ -1,11 +1,11 @@
 """Step 1: is balancing possible at these speeds at all?"""
 
-from dataclasses import dataclass
 from typing import Literal
 
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.units import from_si
 from abu_calc.validity import Range

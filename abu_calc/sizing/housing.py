@@ -1,10 +1,10 @@
 """Housing of the race: dimensions and mass by rules that are stated here and printed in every report."""
 
 import math
-from dataclasses import dataclass
 from typing import Final, Literal
 
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 from abu_calc.units import to_si
 
 Design = Literal["one-piece", "bearing-ring", "light"]

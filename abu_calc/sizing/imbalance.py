@@ -1,11 +1,11 @@
 """Step 2: the wheel's imbalance, from any of its sources."""
 
 import math
-from dataclasses import dataclass
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.instruments import in_words, velocity_shown
 from abu_calc.spec.measured import Shown

@@ -1,11 +1,11 @@
 """One spinning imbalance as instruments show it: velocity, displacement, acceleration, weighted, one axis or three."""
 
 import math
-from dataclasses import dataclass
 from statistics import fmean
 
 from abu_calc.errors import InputError
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 from abu_calc.spec.measured import Shown
 from abu_calc.standards.vibration import hand_arm_weight
 from abu_calc.units import from_si, level_from_velocity, to_si, velocity_from_level

@@ -1,7 +1,6 @@
 """How oval balls make their race: an oval race has two lobes, and these hold balls where they are."""
 
-from dataclasses import dataclass
-
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL
 from abu_calc.sizing.stress import STEEL_MODULUS, hinged_wall_lobes, ring_flexure, wall_lobes, web_lobes

@@ -5,10 +5,11 @@ carries the bulge of the edge that leaves it, the tangent of a quarter of its ar
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, GROOVE_CLEARANCE, RULES, STEEL, groove_depth, groove_radius

@@ -1,7 +1,6 @@
 """Whether balls, race and rim bear their forces at the highest speed."""
 
-from dataclasses import dataclass
-
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import ALUMINIUM, STEEL, groove_radius
 from abu_calc.sizing.stress import (

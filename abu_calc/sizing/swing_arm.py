@@ -1,7 +1,7 @@
 """Step 9: bounds for a machine on a swing arm, over all contact angles (Kovalenko 2010, corrected)."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from abu_calc.check_codes import CHECK_CODES
 from abu_calc.checks import Check, coded, verdict
@@ -23,6 +23,7 @@ from abu_calc.formulas.swing_arm import (
     stiffness_limit,
     worst_contact_angle,
 )
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.spec.machine import SwingArm
 from abu_calc.units import from_si, to_si

@@ -1,11 +1,11 @@
 """Step 6: the race and what it bears."""
 
 import math
-from dataclasses import dataclass
 
 from abu_calc.checks import Check, coded, verdict
 from abu_calc.formula import formula
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
+from abu_calc.frozen import dataclass
 from abu_calc.sizing import trials
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import oval_rest, permitted_displacement

@@ -3,10 +3,10 @@
 import cmath
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
 from abu_calc.sizing.capacity import steady_contact

@@ -1,11 +1,11 @@
 """What may stay at the worst: the arrangement at which friction holds the axis farthest off, and everything in line."""
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
 
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.formulas.worst_friction import worst_friction
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, judged_speeds
 from abu_calc.sizing.case import Case

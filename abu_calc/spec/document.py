@@ -8,13 +8,13 @@ import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.bounds import check_nesting
 from abu_calc.spec.remarks import Source, remarks
 from abu_calc.spec.source import LARGEST_FILE, bytes_of

@@ -2,12 +2,12 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Final
 
 from pydantic import ValidationError
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.lines import line_of
 from abu_calc.spec.names import header, meant_key, meant_table, nearest
 from abu_calc.spec.table import RULE, Table, is_array, subtable, table_at

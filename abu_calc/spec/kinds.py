@@ -2,10 +2,10 @@
 
 import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 
 if TYPE_CHECKING:
     from abu_calc.spec.document import Document

@@ -1,10 +1,10 @@
 """What an instrument showed of the idle machine, as people write it: keys of [wheel] and of [measured_after] alike."""
 
-from dataclasses import dataclass
 from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from abu_calc.frozen import dataclass
 from abu_calc.spec.table import Name, Table, boxed, problem, whole
 from abu_calc.spec.usual import usual
 

@@ -4,10 +4,10 @@ import copy
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.plain import found_as, plain_value
 from abu_calc.spec.table import Table, table_at
 from abu_calc.spec.text import Part, key_path

@@ -2,10 +2,10 @@
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.bearing_file import BearingFile
 from abu_calc.spec.document import LARGEST_FILE, Document, Reading, named, open_document, parsed_overrides, validate
 from abu_calc.spec.kinds import refuse_others

@@ -2,11 +2,11 @@
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec import presets
 from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
 from abu_calc.spec.kinds import refuse_others

@@ -2,9 +2,9 @@
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from abu_calc.frozen import dataclass
 from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
 from abu_calc.spec.kinds import kind_of, refuse_others
 from abu_calc.spec.read import Machine, machine_from

@@ -2,13 +2,13 @@
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 
 MotionQuantity = Literal["acceleration", "velocity", "displacement"]
 QUANTITIES: Final[tuple[MotionQuantity, ...]] = ("acceleration", "velocity", "displacement")

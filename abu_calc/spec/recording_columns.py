@@ -1,9 +1,9 @@
 """What the name of a column of a recorded motion tells: time or motion, its quantity, its unit."""
 
 import re
-from dataclasses import dataclass
 from typing import Final
 
+from abu_calc.frozen import dataclass
 from abu_calc.spec.recording import MotionQuantity
 from abu_calc.units import GRAVITY
 

@@ -2,13 +2,13 @@
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.recording import Asked, MotionQuantity, Recording, chosen, flat_tops, recording
 from abu_calc.spec.recording_columns import AXIS, Column, column_of
 

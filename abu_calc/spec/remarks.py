@@ -3,10 +3,10 @@ and defaults that are another machine's.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, reduce
 from typing import TYPE_CHECKING, cast
 
+from abu_calc.frozen import dataclass
 from abu_calc.spec.table import Table
 from abu_calc.spec.text import Part, is_number, key_path, unit_suffix, unit_symbol
 from abu_calc.spec.usual import Usual, usual_of

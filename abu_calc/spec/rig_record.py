@@ -2,7 +2,6 @@
 
 import io
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.source import regular_file
 
 LARGEST: Final = 300_000_000

@@ -2,12 +2,12 @@
 
 import copy
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Generic
 
 from pydantic import ValidationError
 
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.spec.document import Document, Model, Reading
 from abu_calc.spec.errors import Origin, input_error
 from abu_calc.spec.overrides import Override, apply, parse_override

@@ -1,7 +1,6 @@
 """What makers measured of machines with autobalancers."""
 
-from dataclasses import dataclass
-
+from abu_calc.frozen import dataclass
 from abu_calc.standards.tables import toml_table
 
 Span = tuple[float, float]

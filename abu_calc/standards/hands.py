@@ -1,7 +1,6 @@
 """The hand as a mechanical system, as data; `sizing` says how its elements connect."""
 
-from dataclasses import dataclass
-
+from abu_calc.frozen import dataclass
 from abu_calc.standards.tables import toml_table, unknown
 
 _Four = tuple[float, float, float, float]

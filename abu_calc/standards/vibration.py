@@ -1,12 +1,12 @@
 """Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure."""
 
 import math
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from abu_calc.errors import RangeError
 from abu_calc.formula import formula
+from abu_calc.frozen import dataclass
 from abu_calc.standards.tables import toml_table
 from abu_calc.units import from_si, to_si
 

@@ -2,7 +2,6 @@
 
 import hashlib
 import math
-from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.analysis.recorded_run import RecordedRun, recorded_run
@@ -10,6 +9,7 @@ from abu_calc.analysis.two_plane_errors import Deviations
 from abu_calc.analysis.two_planes import Balancing, RunOnRig, Weight
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.two_planes import RollOnRig
+from abu_calc.frozen import dataclass
 from abu_calc.spec.read_readings import Readings
 from abu_calc.spec.readings import Errors, ReadingsFile, Rotor, Run, Trial
 from abu_calc.spec.rig_record import read_rig_record

@@ -3,7 +3,7 @@
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.splitting import Share, correction
@@ -19,6 +19,7 @@ from abu_calc.analysis.two_plane_errors import (
 from abu_calc.analysis.two_planes import Balancing, Method, Solution, method_of, motion_of, said_of_resonance, solved
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.two_planes import Pair, Signed, influence, natural_frequencies, printed_answer
+from abu_calc.frozen import dataclass
 from abu_calc.spec.readings import ReadingsFile
 from abu_calc.standards.balance import permissible_imbalance
 from abu_calc.studies.balance_case import Taken, balancing, deviations

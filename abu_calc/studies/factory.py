@@ -1,9 +1,9 @@
 """The factory's machines: what was measured beside what is predicted, by one set of assumptions."""
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from abu_calc.checks import Status
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent, within
 from abu_calc.spec.read import Machine, read
 from abu_calc.standards.factory import FactoryRow, Span, factory_rows, factory_source

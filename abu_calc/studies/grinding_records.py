@@ -3,7 +3,6 @@
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Final, Self
 
 import numpy as np
@@ -15,6 +14,7 @@ from abu_calc.analysis.grinding import Remedy
 from abu_calc.analysis.shaking import Shaken
 from abu_calc.analysis.under_load import Steady
 from abu_calc.analysis.working import Working
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, wrapped_deg

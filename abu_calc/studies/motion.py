@@ -1,7 +1,7 @@
 """How a scene moved, at equally spaced times."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Final, Self
 
 import numpy as np
@@ -11,6 +11,7 @@ from abu_calc.analysis.course import axis_place
 from abu_calc.analysis.simulate import Simulation
 from abu_calc.dynamics.effect import ACROSS
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 from abu_calc.units import from_si
 from abu_calc.validity import Range
 

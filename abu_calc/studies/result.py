@@ -2,10 +2,10 @@
 
 import datetime
 import importlib
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from abu_calc.checks import Check, Status, overall
+from abu_calc.frozen import dataclass
 from abu_calc.studies.quantity import Record, as_plain, record
 from abu_calc.version import __version__
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Final, Self
 
 import numpy as np
@@ -13,6 +12,7 @@ from abu_calc.analysis.response import axis_velocity, beginning
 from abu_calc.dynamics.race import balls_of
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory, merged
+from abu_calc.frozen import dataclass
 from abu_calc.units import from_si, level_from_velocity
 
 Array = NDArray[np.float64]

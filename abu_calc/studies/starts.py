@@ -1,11 +1,11 @@
 """Ways in which one machine was switched on, to be looked at: run again when somebody asks, which few do."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.starts import Again, levels_of, starts_again
+from abu_calc.frozen import dataclass
 from abu_calc.sizing.design import Design
 from abu_calc.studies.rotor_view import RotorView
 

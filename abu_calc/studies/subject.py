@@ -5,12 +5,13 @@ All keep every effect there is data for: which of them are simulated is decided 
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.durations import lasting
 from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scene_of_design
 from abu_calc.scenes.from_scene import scene_from

@@ -30,7 +30,7 @@ def evaluation_times(equations: Equations) -> tuple[float, float]:
     """Of rates, and of rates with all that is watched [s], the best of a few."""
     ordered, _ = in_order(equations)
     found, numbers = prepared(ordered, "rk45")
-    module = code._module([(TEXT, {})], NAMES, code._text(arrays))
+    module = code._module([(TEXT, {})], NAMES, code._text(arrays))[0]
     module.function("connect", len(code.EQUATIONS))(*map(found._equations.address, code.EQUATIONS))
     y, par = np.array(ordered.initial, dtype=float), np.empty(found.program.parameters)
     found._equations.function("setup", 2)(numbers.ctypes.data, par.ctypes.data)

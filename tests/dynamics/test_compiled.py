@@ -246,7 +246,7 @@ def test_plain_code_gives_the_same_numbers(name: str) -> None:
 @pytest.fixture
 def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     """As in a new process with an empty folder."""
-    for name in ("_codes", "_texts"):
+    for name in ("_codes", "_texts", "_loops"):
         monkeypatch.setattr(compiled_code, name, {})
     monkeypatch.setattr(ready, "_failures", [])
     monkeypatch.setenv(cache.FOLDER, str(tmp_path))
@@ -268,6 +268,7 @@ def test_code_is_kept_on_disk_and_rebuilt_where_it_is_damaged(fresh: Path, monke
             place.write_bytes(damage(content))
         compiled_code._codes.clear()
         compiled_code._texts.clear()
+        compiled_code._loops.clear()
         assert not ready.loaded(equations, "rk45")
         runs.append(compiled.integrate(equations, 1e-6, [2.0]).y)
         assert {one: one.read_bytes() for one in fresh.iterdir()} == before

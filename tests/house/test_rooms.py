@@ -9,6 +9,7 @@ from tests.house.structure import PACKAGE, circles, files, imports, lines
 
 GROUND = (
     "version",
+    "frozen",
     "errors",
     "units",
     "checks",

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from abu_calc.dynamics.balanced.arrangements import Arrangement
 from abu_calc.dynamics.balanced.crossings import Motion, between, crossings, solvable
@@ -12,6 +12,7 @@ from abu_calc.dynamics.balanced.stability import MARGIN, decided, judged
 from abu_calc.dynamics.balanced.stationary import still_axis
 from abu_calc.dynamics.balanced.two_modes import two_modes
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
@@ -14,6 +13,7 @@ from abu_calc.dynamics.balanced.speeds import GRID, MANY, check_range, grid_of
 from abu_calc.dynamics.balanced.stability import MARGIN, judged, worst
 from abu_calc.dynamics.balanced.two_modes import TwoModes, two_modes
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 
 MOST_STATES: Final = 16
 """States for which all crossings can be solved for in a moment."""

@@ -1,7 +1,6 @@
 """Whether balls may hang in a scene: the closed bounds of `formulas.hanging` on any linear support."""
 
 import math
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -13,6 +12,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.support import SmallMotion
 from abu_calc.dynamics.trajectory import merged
 from abu_calc.formulas.hanging import damped_drag, gravity_drag, resonance_drag, side_by_side
+from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -11,7 +11,7 @@ Supports with an odd number of coordinates, and those that turn with the rotor, 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Final, Self
 
@@ -24,6 +24,7 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.equations.jacobian import jacobians
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

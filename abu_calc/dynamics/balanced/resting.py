@@ -3,7 +3,7 @@
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import accumulate, islice, pairwise
 
 import numpy as np
@@ -13,6 +13,7 @@ from abu_calc.dynamics.balanced.stationary import NotKnownError, needed_resultan
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.jacobian import jacobian
 from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.frozen import dataclass
 from abu_calc.roots import root
 
 TOUCHING = 1e-9

@@ -6,7 +6,7 @@ frequency; that does not suffice.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, Literal, Protocol, Self, TypeVar
 
 from abu_calc.dynamics.balanced.arrangements import Arrangement, rests
@@ -14,6 +14,7 @@ from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import Rest, resting_state
 from abu_calc.dynamics.balanced.stationary import NotKnownError
 from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
 
 MARGIN: Final = 1e-9
 """Growth per radian of rotation that is taken for none: below, rounding decides."""

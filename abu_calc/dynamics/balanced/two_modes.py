@@ -12,7 +12,7 @@ The same as `linearised` finds for any support and any balls, in a fraction of t
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Final, Self
 
@@ -23,6 +23,7 @@ from abu_calc.dynamics.balanced import floquet
 from abu_calc.dynamics.balanced.arrangements import likeness
 from abu_calc.dynamics.balanced.linearised import QUARTER, WIDE_SPAN, BalancedMotion
 from abu_calc.dynamics.support import SmallMotion
+from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -9,7 +9,7 @@ Glocker 2001, Set-Valued Force Laws.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -23,6 +23,7 @@ from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.switching.sticking import AT_REST
 from abu_calc.dynamics.switching.touching import Responses, approaches, impacts, pressing, responses
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 TOUCHING = 1e-9

@@ -11,7 +11,6 @@ arm k_r; balls may rest where |Im(w e^{−iθ})| ≤ f R_p. The inner side is ta
 """
 
 import math
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -26,6 +25,7 @@ from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalance
 from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
 from abu_calc.dynamics.trajectory import Samples, merged
 from abu_calc.formulas.friction_band import friction_band
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 LEAVES = 1e-4

@@ -6,7 +6,7 @@ The support's own weight and that of the balls in the middle are held by its spr
 equilibrium. Source: Kladiev 1996, (1), the term −(g/R) cos γ.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -18,6 +18,7 @@ from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.units import GRAVITY
 
 SHAKES = 0.1

@@ -22,7 +22,7 @@ with its cube, so that it is infinite after a finite time. Compliance, one-sided
 import cmath
 import math
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -37,6 +37,7 @@ from abu_calc.dynamics.supports.receptance import weighing_amplitude
 from abu_calc.dynamics.switching.cutting import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 Contact = Literal["compliant", "rigid", "face"]

@@ -7,7 +7,6 @@ Blekhman 1988, Synchronization in Science and Technology, ch. 6. The rotor start
 a run-up.
 """
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -17,6 +16,7 @@ from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import DRIVEN, Rotor
+from abu_calc.frozen import dataclass
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ The balls centre the race, so the axis keeps a whirl of radius Δ, whatever the 
 """
 
 import cmath
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from abu_calc.dynamics.circumstances import Circumstances
@@ -14,6 +13,7 @@ from abu_calc.dynamics.effect import Effect, Kind, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.supports.receptance import weighing_amplitude
+from abu_calc.frozen import dataclass
 
 
 @dataclass(frozen=True)

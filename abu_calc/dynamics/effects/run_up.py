@@ -10,7 +10,6 @@ rotor stands on what carries it: a swing arm feels −J_r Ω', J_r the rotor's i
 rest, its torque sets the pace, and in the run-down it is switched off.
 """
 
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,6 +21,7 @@ from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import GUIDED, Rotor
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 
 
 @dataclass(frozen=True)

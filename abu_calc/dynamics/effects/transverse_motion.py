@@ -24,7 +24,6 @@ still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b 
 
 import math
 import sys
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -36,6 +35,7 @@ from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 _LARGEST = sys.float_info.max

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from abu_calc.dynamics.equations import right_hand_side
@@ -11,6 +10,7 @@ from abu_calc.dynamics.motion import Array, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.scene import Scene
 from abu_calc.formulas.motion import HARDLY
+from abu_calc.frozen import dataclass
 
 Rhs = Callable[[Any, Any, Any, Acting], Array]
 

@@ -7,7 +7,6 @@ smooth scenes and for tight tolerances, order 5 (RK45) for looser ones where eve
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Final, cast
 
@@ -19,6 +18,7 @@ from abu_calc.dynamics.integrators.run import EVENT, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 
 if TYPE_CHECKING:

@@ -1,10 +1,9 @@
 """About how much work a scene is, by counting: nothing is timed, so that a scene has one answer on every machine."""
 
-from dataclasses import dataclass
-
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.rates import cycles
 from abu_calc.dynamics.switching.modes import watches
+from abu_calc.frozen import dataclass
 
 EVALUATIONS, ORDER = 35.0, 8
 """Of DOP853 per revolution, or per cycle of what oscillates faster, at a tolerance of 1e-6, and the order by which they

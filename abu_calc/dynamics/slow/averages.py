@@ -4,7 +4,6 @@ Source: Kladiev 1996, (4)–(7), generalised; Blekhman 1988, ch. 2 (vibrational 
 derived here.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.support import SmallMotion
+from abu_calc.frozen import dataclass
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]

@@ -15,7 +15,6 @@ import cmath
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, cast
 
@@ -25,6 +24,7 @@ from numpy.typing import NDArray
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.slow.averages import SLOW, TURNED, Averages, averages, dying
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 
 Complex = NDArray[np.complex128]
 Array = NDArray[np.float64]

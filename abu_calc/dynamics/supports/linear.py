@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Self
 
 import numpy as np
@@ -13,6 +13,7 @@ from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
 from abu_calc.dynamics.race import LARGEST, Balls, Race, finite
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 Matrix = tuple[tuple[float, ...], ...]

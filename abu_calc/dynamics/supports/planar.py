@@ -1,6 +1,5 @@
 """A rotor whose races are in one plane, and move in it."""
 
-from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
@@ -9,6 +8,7 @@ from abu_calc.dynamics.motion import Array, Levers, Motion
 from abu_calc.dynamics.parameters import Geometry, Parameters
 from abu_calc.dynamics.support import Unbalance
 from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, LinearGeometry, LinearSupport, Pair
+from abu_calc.frozen import dataclass
 
 AHEAD = np.array(((-1.0,), (1.0,)))
 """(−sin γ, cos γ) from (sin γ, cos γ)."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, ClassVar, Self, final
 
 import numpy as np
@@ -14,6 +14,7 @@ from abu_calc.dynamics.race import LARGEST, NON_NEGATIVE, Balls, Race, finite
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
 from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit, resonance
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 CONTACT_STIFFNESS = Range("contact stiffness", 0, LARGEST, "N/m")

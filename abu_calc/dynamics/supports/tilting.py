@@ -1,7 +1,6 @@
 """A rigid rotor on bearings, which moves in its plane and tilts, with gyroscopic moments."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar, final
 
 import numpy as np
@@ -20,6 +19,7 @@ from abu_calc.dynamics.supports.linear import (
     Pair,
     rows,
 )
+from abu_calc.frozen import dataclass
 from abu_calc.validity import Range
 
 

@@ -6,7 +6,7 @@ v is the speed of the wheel's surface over the work. Standing is exact: v is 0, 
 friction, as for balls in `sticking`.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +16,7 @@ from abu_calc.dynamics.motion import Array, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.switching.sticking import AT_REST, HOLD
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 
 RUNAWAY = 1e3
 """Balls this many times as fast as the rotor run away: they go on to infinite speed, in a moment."""

@@ -5,7 +5,7 @@ all slow balls at rest, until they and the accelerations that follow from them a
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from abu_calc.dynamics.equations.right_hand_side import prepared
 from abu_calc.dynamics.motion import Array, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 
 AT_REST = 1e-9
 """A ball slower than this, relative to the slow motion of the balls, is at rest: events are located no better."""

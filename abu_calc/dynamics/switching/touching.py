@@ -5,7 +5,7 @@ the support and the other effects. Balls that touch pass on torques about the ra
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from abu_calc.dynamics.equations.elimination import by_pulls, solve_all
 from abu_calc.dynamics.equations.right_hand_side import derivative, prepared
 from abu_calc.dynamics.motion import Array
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
 
 MOST_IMPACTS = 10_000
 """In a chain that passes impacts on without end, all that still approach lose their speed at once."""

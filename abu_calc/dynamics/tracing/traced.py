@@ -6,7 +6,7 @@ All other numbers are parameters of the code.
 
 import copy
 from collections.abc import Callable
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import lru_cache
 from typing import Any, TypeVar
 
@@ -16,6 +16,7 @@ from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.switching.modes import watched, watches
 from abu_calc.dynamics.tracing.graph import Array, Functions, Graph, Symbol
+from abu_calc.frozen import dataclass
 
 MOST_KEPT = 32
 """Structures whose code this process holds at most."""

@@ -1,8 +1,9 @@
 """What a drawing is made of. Places and lengths in mm of the thing, y upwards; heights of texts in mm on paper."""
 
 import math
-from dataclasses import dataclass
 from typing import Final, Literal, NamedTuple
+
+from abu_calc.frozen import dataclass
 
 Point = tuple[float, float]
 Corner = tuple[float, float, float]

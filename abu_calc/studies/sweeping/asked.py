@@ -1,10 +1,11 @@
 """What a sweep is asked for: the table [sweep] of the file, and what arguments put in its place."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Final
 
 from abu_calc.errors import InputError, Place
+from abu_calc.frozen import dataclass
 from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import SceneDescription
 from abu_calc.spec.sweep import MOST_RUNS, Sweep

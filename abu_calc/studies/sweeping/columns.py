@@ -1,8 +1,8 @@
 """What a member of a sweep says: its columns, with units, as store, answers and Python have them."""
 
-from dataclasses import dataclass
 from typing import Final, Literal
 
+from abu_calc.frozen import dataclass
 from abu_calc.units import unit_of
 
 What = Literal["build", "design", "scene"]

@@ -3,13 +3,14 @@
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from abu_calc.analysis.batches import Row
 from abu_calc.analysis.sampling import Sample
+from abu_calc.frozen import dataclass
 from abu_calc.spec.variation import Variation
 from abu_calc.studies.sweeping.columns import DECIDING, MEETS
 from abu_calc.studies.sweeping.members import Study

@@ -4,7 +4,6 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
 import numpy as np
@@ -15,6 +14,7 @@ from abu_calc.analysis.sampling import Sample
 from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.errors import AbuError
 from abu_calc.formulas.oil import drag_ratio
+from abu_calc.frozen import dataclass
 from abu_calc.interruption import raise_pending
 from abu_calc.scenes.from_design import AHEAD
 from abu_calc.scenes.from_scene import scene_from

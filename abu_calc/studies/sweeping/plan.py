@@ -1,11 +1,11 @@
 """From what is asked of a file to the study that is computed: who varies how, the design, the integrators."""
 
-from dataclasses import dataclass
 from typing import Final
 
 from abu_calc.analysis.sampling import Factor, Sample
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.oil import TEMPERATURE
+from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_scene import scene_from
 from abu_calc.scenes.switched_on import KINDS
 from abu_calc.sizing import size as sized

@@ -4,7 +4,6 @@ import os
 import platform
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from itertools import islice
 from time import perf_counter
 from typing import Final
@@ -12,6 +11,7 @@ from typing import Final
 from abu_calc.analysis.batches import Row, given, here, in_batches, processes
 from abu_calc.analysis.batches import Study as Computed
 from abu_calc.errors import InputError
+from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress
 from abu_calc.studies.sweeping.cluster import (
     PLACE,

@@ -12,8 +12,9 @@ import re
 import secrets
 import sys
 import warnings
-from dataclasses import dataclass
 from pathlib import Path
+
+from abu_calc.frozen import dataclass
 
 FOLDER = "ABU_CALC_CACHE"
 """Environment variable that names another folder."""

@@ -35,6 +35,7 @@ ROUNDING = 1e-8
 
 _codes: dict[object, "Code"] = {}
 _texts: dict[object, Program] = {}
+_loops: dict[Method, bytes] = {}
 
 
 class Code:
@@ -42,11 +43,8 @@ class Code:
 
     def __init__(self, functions: Program, method: Method) -> None:
         self.program = functions
-        self._equations = _module([(functions.text, NAMES)], EQUATIONS)
-        # One module for each: the loop is the same for all structures.
-        numbers = step_numbers(method)
-        parts: list[language.Part] = [(_text(kernel), vars(kernel) | numbers) for kernel in kernels(method)]
-        self._loop = _module(parts, ("go",), _text(arrays))
+        self._equations = _module([(functions.text, NAMES)], EQUATIONS)[0]
+        self._loop = _loop(method)
         self._loop.function("connect", len(EQUATIONS))(*map(self._equations.address, EQUATIONS))
         self._call = self._loop.function("go", POINTERS)
 
@@ -104,13 +102,23 @@ def _key(parts: list[language.Part]) -> str:
     return hashlib.sha256(repr(rules).encode()).hexdigest()
 
 
-def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = "") -> Loaded:
-    """Machine code for some texts: from disk where it is there and whole."""
+def _loop(method: Method) -> Loaded:
+    """The loop, of which each structure has its own, from the same machine code."""
+    if method in _loops:
+        return Loaded(_loops[method])
+    numbers = step_numbers(method)
+    parts: list[language.Part] = [(_text(kernel), vars(kernel) | numbers) for kernel in kernels(method)]
+    module, _loops[method] = _module(parts, ("go",), _text(arrays))
+    return module
+
+
+def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = "") -> tuple[Loaded, bytes]:
+    """Machine code for some texts, loaded: from disk where it is there and whole."""
     folder, key = Cache.own(), _key(parts)
-    found = folder.read(key)
-    if found is not None:
+    kept = folder.read(key)
+    if kept is not None:
         with contextlib.suppress(CompilerError):  # what cannot be loaded is made anew
-            return Loaded(found)
-    found = machine.compiled(language.translated(parts, exported, given))
-    folder.write(key, found)
-    return Loaded(found)
+            return Loaded(kept), kept
+    made = machine.compiled(language.translated(parts, exported, given))
+    folder.write(key, made)
+    return Loaded(made), made

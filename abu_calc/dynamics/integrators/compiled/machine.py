@@ -41,12 +41,19 @@ def _library() -> Any:
     return llvm
 
 
+@cache
+def _features() -> str:
+    """What this processor knows."""
+    found: str = _library().get_host_cpu_features().flatten()
+    return found
+
+
 def _target() -> Any:
-    """This machine, with what its processor knows."""
+    """This machine; each engine takes one of its own."""
     llvm = _library()
     return llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(
         cpu=llvm.get_host_cpu_name(),
-        features=llvm.get_host_cpu_features().flatten(),
+        features=_features(),
         opt=LEVEL,
         reloc="static" if sys.platform == "win32" else "pic",
         codemodel="jitdefault",
@@ -58,8 +65,8 @@ def described() -> str:
     """What machine code depends on beside its text. Raises CompilerError."""
     with guarded("llvmlite"):
         llvm = _library()
-        features = llvm.get_host_cpu_features().flatten()
-        return f"{llvm.llvm_version_info} {llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features} {LEVEL}"
+        name = llvm.get_host_cpu_name()
+        return f"{llvm.llvm_version_info} {llvm.get_process_triple()} {name} {_features()} {LEVEL}"
 
 
 def compiled(text: str) -> bytes:

@@ -11,7 +11,7 @@ joined (1), and a push on each ball, 0 but in an impact, is among the numbers.
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -24,6 +24,7 @@ from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
 from abu_calc.dynamics.tracing.graph import Functions, Graph, Symbol
 from abu_calc.dynamics.tracing.traced import symbols
+from abu_calc.frozen import dataclass
 
 EQUATIONS = ("setup", "rates", "watched", "apparent")
 """Functions of a structure, in the order in which `arrays` declares them."""
