@@ -10,7 +10,18 @@ from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.compiled import locate, run
-from abu_calc.dynamics.integrators.compiled.arrays import BALLS, FRICTION, ORDER, SEEN, WATCHED, Integers, Reals
+from abu_calc.dynamics.integrators.compiled.arrays import (
+    BALLS,
+    COUNTS,
+    FRICTION,
+    ORDER,
+    SEEN,
+    VALUES,
+    WATCHED,
+    Integers,
+    Reals,
+)
+from abu_calc.dynamics.integrators.compiled.locate import CHECKS
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
 from tests.dynamics.random_scenes import random_scene
@@ -87,3 +98,48 @@ def looked_at(before: Reals, after: Reals) -> int:
 def test_numbers_are_left_alone_that_cannot_fall(before: Reals, after: Reals, many: int) -> None:
     """Those that stay, balls that the race goes on pressing alike; one that moves or is none has all looked at."""
     assert looked_at(before, after) == many
+
+
+@pytest.mark.parametrize("lowest", [0.02, 0.1, 0.3, 0.5, 0.9, 1.1, 1.7, 1.95])
+@pytest.mark.parametrize("check", [2, 3, 4])
+def test_a_dip_anywhere_within_two_quarters_is_found(
+    check: int, lowest: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """(u − lowest)² less a hair, u in quarters: it falls where it is first zero, also right after the first look."""
+    depth = 1e-6
+
+    def value(x: float) -> float:
+        return (CHECKS * x - (check - 2) - lowest) ** 2 - depth
+
+    def peeked(index: int, x: float, *given: Reals) -> float:
+        given[-1][index] = value(x)
+        return value(x)
+
+    monkeypatch.setattr(locate, "peek", peeked)
+    lay: Integers = [0] * 40
+    lay[VALUES], lay[ORDER] = 1, 30
+    rows = [value(quarter / CHECKS) for quarter in range(CHECKS + 1)]
+    assert min(rows[check - 2 : check + 1]) > 0
+    count, nothing, w = [0] * COUNTS, [0.0], [0.0]
+    found = locate.dips(1, check, 0.0, 1.0, nothing, nothing, lay, count, nothing, nothing, nothing, w, rows)
+    assert found == pytest.approx((check - 2 + lowest - depth**0.5) / CHECKS, abs=1e-12)
+
+
+@pytest.mark.parametrize("lowest", [-0.5, -0.01, 2.01, 3.0])
+def test_no_dip_is_looked_for_outside(lowest: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A parabola that only rises or only falls between the looks costs no look."""
+    monkeypatch.setattr(locate, "peek", lambda *_: pytest.fail("looked at"))
+    lay: Integers = [0] * 40
+    lay[VALUES], lay[ORDER] = 1, 30
+    rows, nothing = [(quarter - lowest) ** 2 - 1e-6 for quarter in range(CHECKS + 1)], [0.0]
+    given = (nothing, nothing, lay, [0] * COUNTS, nothing, nothing, nothing, nothing, rows)
+    assert locate.dips(1, 2, 0.0, 1.0, *given) == locate.NEVER
+
+
+def test_balls_that_graze_each_other_at_the_start_of_a_step() -> None:
+    """A ball that has just been hit falls back on the next for a share of a step: long steps see it like short ones."""
+    equations = assemble(random_scene(212))
+    end = [equations.scene.duration]
+    long, short = (run.integrate(equations, tolerance, end, method="dop853") for tolerance in (1e-7, 1e-11))
+    assert long.events == short.events
+    assert long.y == pytest.approx(short.y, abs=1e-6)

@@ -124,12 +124,10 @@ def dips(
     first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
     for k in range(many):
         i = lay[lay[ORDER] + k]
-        slope = second[i] - first[i]
-        if slope >= 0.0:
-            continue
-        later = third[i] - second[i]
-        if later > 0.0 and first[i] > 0.0 and second[i] > 0.0 and third[i] > 0.0:
-            bend = 0.5 * (later - slope)
+        slope, later = second[i] - first[i], third[i] - second[i]
+        bend = 0.5 * (later - slope)
+        # By the parabola it falls at the first of the three and rises at the last.
+        if slope < bend and later > -bend and first[i] > 0.0 and second[i] > 0.0 and third[i] > 0.0:
             lowest = 0.5 - slope / (2.0 * bend)
             if lowest > 0.0 and lowest < 2.0 and first[i] + lowest * (slope + bend * (lowest - 1.0)) < 0.0:
                 x = (check - 2 + lowest) / CHECKS
