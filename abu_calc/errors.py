@@ -11,7 +11,7 @@ Statuses 0 and 1 are no errors: they tell whether every check of a result passed
 """
 
 import re
-from typing import ClassVar, Final
+from typing import Any, ClassVar, Final
 
 from abu_calc.escapes import LONGEST_FOUND, escaped, shortened
 from abu_calc.frozen import dataclass
@@ -102,6 +102,16 @@ class NotTrustworthyError(AbuError):
     """No number that can be trusted: names the quantity, the moment, and what to change."""
 
     kind: ClassVar[str] = "not-trustworthy"
+
+
+class ChaoticError(NotTrustworthyError):
+    """The motion amplifies errors, so that two runs never agree.
+
+    `ended`: one run of several whose balls all came to rest where they balance, so that the end is known but for its
+    numbers; None where the end is not known either.
+    """
+
+    ended: Any = None
 
 
 class StoppedError(AbuError):

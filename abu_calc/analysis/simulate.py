@@ -18,8 +18,9 @@ from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.rates import softer
 from abu_calc.dynamics.integrators.run import too_much
 from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.supports.receptance import reference_imbalance
 from abu_calc.dynamics.trajectory import Array, Sampling, Trajectory
-from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.errors import ChaoticError, InputError, NotTrustworthyError
 from abu_calc.formulas import motion
 from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, share_of, silent
@@ -41,6 +42,15 @@ two runs may come near each other by chance. By 300 random scenes and both integ
 
 LEAST = 0.9
 """Of the work of a run, that one at a tighter tolerance takes: 0.98 and more by three integrators on 17 scenes."""
+
+RESTING = 0.01
+"""Of the rotor's speed: balls that are slower in the mean, seen from the race, rest in it, though a wheel that bounces
+may shake them."""
+
+CHAOTIC_END = (
+    "the motion is chaotic, so that errors decide how it gets to its end: in every run the balls come to rest and "
+    "carry the imbalance; the numbers are those of one run, and another start gives others"
+)
 
 LAST_TOLERANCE = 1e-13
 """Below, rounding decides."""
@@ -129,7 +139,8 @@ def _integrated(
         raise too_much(f"about {about:.2g}", most, fast)
     started, evaluations, steps, worked = time.perf_counter(), 0, 0, 0
     runs: list[Response] = []
-    apart, spared, last = math.nan, 0, 0
+    apart, spared, last, alike = math.nan, 0, 0, True
+    ended: Simulation | None = None
     for tolerance in tolerances(accuracy):
         choice = choose(equations, integrator, tolerance, progress)
         text = f"{scene.name}: {choice.name}, tolerance {tolerance:g}"
@@ -145,29 +156,47 @@ def _integrated(
         except NotTrustworthyError as failure:
             if len(runs) < 2:
                 raise
-            raise unreached(
-                scene, accuracy, apart, (runs[0], runs[1]), choice, 10 * tolerance, spared, failure
-            ) from None
+            finest = (runs[0], runs[1])
+            error_of_runs = unreached(scene, accuracy, apart, finest, choice, 10 * tolerance, spared, failure)
+            raise _with_end(error_of_runs, ended) from None
         progress(f"{scene.name}: reading what came of it")
         last = choice.work(trajectory)
         most, spared, worked = most - last, 2 * last, worked + last
         runs = [*runs[-1:], evaluate(scene, trajectory, course)]
+        alike = alike and balls_rest(scene, runs[-1])
         evaluations, steps = evaluations + trajectory.evaluations, steps + trajectory.steps
         if len(runs) < 2:
             del trajectory  # it may be large
             continue
         before, apart = apart, _apart(scene, *runs)
         error = max(SAFETY * apart, FLOOR * tolerance, FALL * before if before > 0 else 0.0)
+        if error > accuracy and not alike:
+            ended = None
+            del trajectory
+            continue
+        cost = replace(_cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why), work=worked)
+        if times.held is None:
+            remarks(trajectory)
+        texts = (*warnings, *remarks.texts)
+        ended = Simulation(scene, runs[1], trajectory, cost, error, texts, "equations", offered)
         if error <= accuracy:
-            cost = replace(
-                _cost(trajectory, evaluations, steps, time.perf_counter() - started, choice.why), work=worked
-            )
-            if times.held is None:
-                remarks(trajectory)
-            texts = (*warnings, *remarks.texts)
-            return Simulation(scene, runs[1], trajectory, cost, error, texts, "equations", offered)
-        del trajectory
-    raise unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared)
+            return ended
+    raise _with_end(unreached(scene, accuracy, apart, (runs[0], runs[1]), choice, tolerance, spared), ended)
+
+
+def balls_rest(scene: Scene, response: Response) -> bool:
+    """Whether all balls have come to rest in their races, and carry more of the imbalance than they add."""
+    return (
+        all(abs(speed) < RESTING * scene.speed for speed in response.final.ball_speeds)
+        and response.residual_imbalance < reference_imbalance(scene)
+    )  # fmt: skip
+
+
+def _with_end(failure: NotTrustworthyError, ended: Simulation | None) -> NotTrustworthyError:
+    """What is known of a chaotic motion all the same."""
+    if isinstance(failure, ChaoticError) and ended is not None:
+        failure.ended = replace(ended, warnings=(*ended.warnings, CHAOTIC_END))
+    return failure
 
 
 def usual_work(scene: Scene, integrator: str) -> int:

@@ -10,7 +10,7 @@ from abu_calc.analysis.response import Response, evaluate, sampling
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import Choice
 from abu_calc.dynamics.scene import Scene
-from abu_calc.errors import NotTrustworthyError
+from abu_calc.errors import ChaoticError, NotTrustworthyError
 
 MOVED: Final = 1e-9
 """By which one ball of each race is moved at the start [rad], into its widest gap, so that none comes to overlap."""
@@ -45,7 +45,7 @@ def unreached(
     growth = _growth(scene, runs[1], choice, tolerance, most)
     # A run that more work would finish is chaotic only where what starts that small comes near the accuracy.
     if growth > SENSITIVE and (otherwise is None or growth * MOVED > FELT * accuracy):
-        return NotTrustworthyError(
+        return ChaoticError(
             f"{first}: the motion is chaotic, {MOVED:g} rad at its start grow {growth:.0e} times\n"
             "  shorten the run, start the balls at other places, or give them more drag"
         )

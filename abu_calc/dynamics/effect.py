@@ -122,6 +122,8 @@ class Effect:
     kind: ClassVar[Kind]
     about: ClassVar[str]
     """What it is, in a line, where people choose effects."""
+    table: ClassVar[str] = ""
+    """The table of a scene file that it comes with; empty: a table of its own, `scene.effects.NAME`."""
     ball_states: ClassVar[tuple[str, ...]] = ()
     """Names of the states it adds for each ball."""
     switches: ClassVar[bool] = False

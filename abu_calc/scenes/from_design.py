@@ -79,13 +79,18 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     """
     _refuse_what_is_missing(design, which)
     case, table = design.case, design.case.table
+    effects = tuple(_effects(design, which))
     felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
     support: Support = _held(design)
     if table.swing_arm and which.startswith("swing-arm"):
-        from abu_calc.scenes.on_arm import arm_of_design, ball_rate_on_arm
+        from abu_calc.scenes.from_tables import in_order
+        from abu_calc.scenes.on_arm import arm_of_design, ball_rate_on_arm, lift_off
 
         support = arm = arm_of_design(design, table.swing_arm, cutting=which.endswith("cutting"))
         felt, ball_rate = 1.0, ball_rate_on_arm(design, arm)
+        if which.endswith("cutting"):
+            joint, touch = table.swing_arm.joint_stiffness_N_per_m, to_si(table.swing_arm.touch_angle_deg, "deg")
+            effects = in_order((*effects, *lift_off(arm, joint, touch)))
     race = _race(design, start, turning=which != "run-up")
     settling = settling_duration(design, support, race, ball_rate)
     scene = Scene(
@@ -98,7 +103,7 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         duration=settling,
         start_position=support.resting_position(_pulled(design, which)),
         start_velocity=(0.0,) * len(support.names),
-        effects=tuple(_effects(design, which)),
+        effects=effects,
     )
     return replace(scene, duration=settling + running_up(design)) if which == "run-up" else placed(scene)
 

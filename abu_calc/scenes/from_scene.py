@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Final, TypeVar
+from typing import Final, TypeVar, cast
 
+from abu_calc.dynamics.effects.lift_off import LiftOff
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.support import Support
@@ -14,7 +15,8 @@ from abu_calc.dynamics.supports.swing_arm import SwingArm, cutting_arm, idle_arm
 from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import INERTIA_FACTORS, half_angle
-from abu_calc.scenes.from_tables import effects_from
+from abu_calc.scenes.from_tables import effects_from, in_order
+from abu_calc.scenes.on_arm import lift_off
 from abu_calc.spec.scene import SceneRace, SceneSwingArm, SceneTable
 from abu_calc.units import from_si, to_si
 
@@ -49,7 +51,7 @@ def scene_from(table: SceneTable) -> Scene:
         start_velocity=velocity,
         couple=couple,
         couple_angle=couple_angle,
-        effects=effects_from(table.effects),
+        effects=in_order((*effects_from(table.effects), *_lift_off(table, support))),
     )
     return placed(scene)
 
@@ -113,6 +115,14 @@ SUPPORTS: Final[Mapping[str, Callable[[SceneTable], Held]]] = {
     "swing-arm": _arm,
 }
 """How the tables of each kind of support become one in SI: by the key `support` of a scene."""
+
+
+def _lift_off(table: SceneTable, support: Support) -> tuple[LiftOff, ...]:
+    """The work of a swing arm that cuts does not pull."""
+    arm = table.swing_arm
+    if arm is None or not arm.cutting:
+        return ()
+    return lift_off(cast(SwingArm, support), arm.joint_stiffness_N_per_m, to_si(arm.touch_angle_deg, "deg"))
 
 
 def _given(table: Table | None) -> Table:

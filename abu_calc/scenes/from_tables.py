@@ -1,6 +1,6 @@
 """From the tables of a scene file to its effects."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Final
 
 from abu_calc.dynamics.effect import Effect
@@ -14,6 +14,12 @@ Numbers = dict[str, Any]
 def effects_from(tables: scene_effects.Effects) -> tuple[Effect, ...]:
     """The effects that are on, in SI, in the order of the registry."""
     return tuple(_built(kind, NUMBERS[name](getattr(tables, name))) for name, kind in REGISTRY if name in tables.names)
+
+
+def in_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
+    """Effects in the order of the registry."""
+    names = [name for name, _ in REGISTRY]
+    return tuple(sorted(effects, key=lambda effect: names.index(effect.name)))
 
 
 def _built(kind: Callable[..., Effect], numbers: Numbers) -> Effect:

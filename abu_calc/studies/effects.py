@@ -63,7 +63,7 @@ def known_effects() -> KnownEffectsResult:
         title="Effects",
         provenance=Provenance.today(),
         effects=tuple(
-            KnownEffect(name=name, kind=kind.kind, about=kind.about, table=f"scene.effects.{name}")
+            KnownEffect(name=name, kind=kind.kind, about=kind.about, table=kind.table or f"scene.effects.{name}")
             for name, kind in REGISTRY
         ),
     )

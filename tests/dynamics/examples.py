@@ -10,6 +10,7 @@ from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effects.lift_off import LiftOff
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
@@ -26,6 +27,7 @@ EXAMPLES: dict[str, Effect] = {
     "grinding_contact": CONTACT,
     "grinding_contact, rigid": replace(CONTACT, contact="rigid", contact_stiffness=0.0),
     "grinding_contact, face": replace(CONTACT, contact="face", contact_stiffness=0.0),
+    "lift_off": LiftOff(1.2, 1.3, 0.05, 0.06),
     "ball_contact": BallContact(0.1, 0.5),
     "dry_rolling_friction": DryRollingFriction(0.02, 0.1),
 }
@@ -58,10 +60,12 @@ UNITS: dict[str, tuple[int, int, int]] = {
     "runout": (1, 0, 0),
     "wheel_radius": (1, 0, 0),
     "plane_offset": (1, 0, 0),
+    "stiffness": (0, 1, -2),
+    "length": (1, 0, 0),
 }
 """Powers of length, mass and time in the fields of the effects that have units."""
 
-HELD = ("gravity", "grinding_contact", "grinding_contact, rigid", "grinding_contact, face")
+HELD = ("gravity", "grinding_contact", "grinding_contact, rigid", "grinding_contact, face", "lift_off")
 """Effects whose direction in space cannot be told another."""
 
 
@@ -76,6 +80,8 @@ def mirrored_effect(effect: Effect, whole: float) -> Effect:
         return replace(effect, angle=whole - effect.angle)
     if isinstance(effect, Gravity) and whole == 0:
         return replace(effect, acceleration=-effect.acceleration)
+    if isinstance(effect, LiftOff):
+        return replace(effect, touch_angle=-effect.touch_angle, depth=-effect.depth)
     if isinstance(effect, Motor):
         return replace(effect, stall_torque=-effect.stall_torque, no_load_speed=-effect.no_load_speed)
     if isinstance(effect, GrindingContact):

@@ -150,7 +150,8 @@ def test_an_arm_takes_the_reaction_of_what_runs_up_its_rotor():
 def test_a_scene_file_gives_the_rotor_its_inertia(tmp_path):
     effects = "[scene.effects]\n"
     known = "run_up = { time_s = 1.0, rotor_inertia_kg_m2 = 2e-3 }\n"
-    assert scene_from(read(tmp_path, ARM + effects + known).scene).effects == (RunUp(1.0, 0.0, 2e-3),)
+    run_up, lift_off = scene_from(read(tmp_path, ARM + effects + known).scene).effects
+    assert run_up == RunUp(1.0, 0.0, 2e-3) and lift_off.name == "lift_off"
     motor = "motor = { stall_torque_N_m = 3.0, rotor_inertia_kg_m2 = 1e-3 }\n"
     error = refused(tmp_path, ARM + effects + known + motor)
     assert error.place is not None and error.place.key == "scene.effects.run_up.rotor_inertia_kg_m2"

@@ -7,6 +7,7 @@ from abu_calc.dynamics.effects.ball_contact import BallContact
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
 from abu_calc.dynamics.effects.gravity import Gravity
 from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effects.lift_off import LiftOff
 from abu_calc.dynamics.effects.motor import Motor
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
@@ -19,6 +20,7 @@ REGISTRY: Final[tuple[tuple[str, type[Effect]], ...]] = (
     ("transverse_motion", TransverseMotion),
     ("gravity", Gravity),
     ("grinding_contact", GrindingContact),
+    ("lift_off", LiftOff),
     ("ball_contact", BallContact),
     ("dry_rolling_friction", DryRollingFriction),
 )
