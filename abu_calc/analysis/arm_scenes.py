@@ -1,9 +1,14 @@
-"""The joint damping with which the scenes of a swing arm can be simulated, where with less they give no answer."""
+"""What the simulated scenes of a swing arm say: whether the disk stays on its work, and the joint damping that gives an
+answer where less gives none.
+"""
 
+from collections.abc import Sequence
 from typing import Final
 
 from abu_calc.analysis.arm import CUTTING, IDLE, ArmJudgement, changed
-from abu_calc.analysis.machine import simulated
+from abu_calc.analysis.machine import Run, simulated
+from abu_calc.checks import Check, coded, verdict
+from abu_calc.dynamics.effects.lift_off import LiftOff
 from abu_calc.progress import Progress, silent, within
 from abu_calc.scenes.durations import DECAY_TIMES
 from abu_calc.sizing.arm_repairs import Change, up
@@ -14,6 +19,50 @@ LONGEST: Final = 3.0
 
 TIMES: Final = (1.0, 2.0, 4.0)
 """Of the damping with which the arm has come to rest by then."""
+
+
+FIRMER: Final = (1.5, 2.0, 3.0, 5.0, 10.0)
+"""Times the pressing moment, tried where the disk bounces."""
+
+
+def on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress = silent) -> Check | None:
+    """Whether the disk stays on its work in the simulated scene at the work; None where that gave no answer.
+
+    Where it bounces, the least pressing moment of some that were tried with which it stays, and the balls balance.
+    """
+    run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
+    effect = None if run is None else run.simulation.scene.effect("lift_off")
+    if run is None or not isinstance(effect, LiftOff):
+        return None
+    samples = run.simulation.trajectory
+    share, last = 100 * effect.share_apart(samples), effect.last_apart(samples)
+    if share:
+        message = "disk and work part again and again, so that the bounds on the arm do not say how it moves"
+        return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, accuracy, progress))
+    if last is None:
+        return coded("ABU506", "pass", "the disk is pressed to its work throughout", 0.0, 0.0, "%")
+    time, limit = run.simulation.response.settling_time, design.case.table.limits.settling_time_s
+    soon = time is not None and time <= limit
+    message = f"the disk leaves its work until {last:.3g} s, then the bounds on the arm hold"
+    if not soon:
+        message += f"; the balls need more than the {limit:g} s allowed to settle there"
+    return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
+
+
+def _firmer(design: Design, accuracy: float, progress: Progress) -> str:
+    """What was tried."""
+    table = design.case.table.swing_arm
+    assert table is not None
+    for times in FIRMER:
+        change = Change("pressing_moment_N_m", table.pressing_moment_N_m, up(times * table.pressing_moment_N_m))
+        other = changed(design, (change,))
+        if other is None:
+            continue
+        runs, _ = simulated(other, accuracy, within(progress, f"with {change.text}"), (CUTTING,))
+        effect = runs[0].simulation.scene.effect("lift_off") if runs else None
+        if isinstance(effect, LiftOff) and not effect.share_apart(runs[0].simulation.trajectory):
+            return f"Tried: {change.text}; the disk then stays on its work in the end."
+    return f"A better balanced wheel. Tried without success: up to {FIRMER[-1]:g} times the pressing moment."
 
 
 def damping_to_simulate(

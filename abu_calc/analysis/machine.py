@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, simulate
-from abu_calc.errors import NotTrustworthyError
+from abu_calc.errors import ChaoticError, NotTrustworthyError
 from abu_calc.frozen import dataclass
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent
@@ -59,5 +59,9 @@ def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -
         ledger = chosen(scene_of_design(design, name), accuracy)
         run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
         return Run(ledger, run)
+    except ChaoticError as error:
+        if error.ended is not None and error.ended.scene.effect("lift_off"):  # ABU506 judges a disk that bounces
+            return Run(ledger, error.ended)
+        return Failure(name, str(error).splitlines()[0])
     except NotTrustworthyError as error:
         return Failure(name, str(error).splitlines()[0])

@@ -134,8 +134,8 @@ def _checks(found: SwingArmBounds) -> tuple[Check, ...]:
     stiff, stiffness = arm.contact_stiffness < limit, arm_stiffness(arm)
     return (
         coded("ABU501", verdict(stiff), "supercritical at the lowest speed and the worst "
-              "contact angle (the safer of series and exact); necessary, not sufficient", arm.contact_stiffness, limit,
-              "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
+              "contact angle (the safer of series and exact), while the disk is pressed; necessary, not sufficient",
+              arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
         _damped(arm, found.damping_limit, found.bunched_limit),
         coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{_lifted(found.lifted)}",
               stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].remedy, "least"),
@@ -147,7 +147,7 @@ def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
     """By the imbalance; warns where balls that stand on the heavy side at a start need more."""
     damped = arm.joint_damping > limit
     safe = bunched is not None and arm.joint_damping > bunched
-    message = "above what parametric resonance at twice the natural frequency can overcome"
+    message = "above what parametric resonance at twice the natural frequency can overcome while the disk is pressed"
     if damped and not safe:
         message += "; not while the balls stand on the heavy side, as in a start"
     more = None if bunched is None else f"Above {bunched:.3g} N·s/m it damps that, too."

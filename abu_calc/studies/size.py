@@ -107,6 +107,7 @@ def size(
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         region = true_region(design)
     arm, moved = _arm(design, failures, accuracy, progress)
+    stays = _on_work(design, runs, accuracy, progress)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     lost = (not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
@@ -114,7 +115,13 @@ def size(
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,
-        checks=(*_checks(tried, arm), region.check, *ensemble_checks(design, tried.ensemble, tried.remedy), *lost),
+        checks=(
+            *_checks(tried, arm),
+            *stays,
+            region.check,
+            *ensemble_checks(design, tried.ensemble, tried.remedy),
+            *lost,
+        ),
         warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work)),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
@@ -225,6 +232,16 @@ def _arm(
     except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
         return judged, None
     return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
+
+
+def _on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress) -> tuple[Check, ...]:
+    """Whether the disk of a swing arm stays on its work; nothing of machines without one."""
+    if design.swing_arm is None:
+        return ()
+    from abu_calc.analysis.arm_scenes import on_work
+
+    check = on_work(design, runs, accuracy, progress)
+    return () if check is None else (check,)
 
 
 def _other_drags(design: Design, run: Run) -> tuple[SettlingEstimate, ...] | None:

@@ -1,6 +1,7 @@
 """A swing arm judged as a whole, against equations of its own: a grid over contact angles, the balance of moments."""
 
 import math
+import re
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -246,3 +247,20 @@ def test_advice_for_a_scene_file(ratio: float, damping: float) -> None:
 
 def test_a_scene_whose_arm_nothing_holds() -> None:
     assert "joint stiffness" in str(advise_scene(scene(0.0, 10.0)))
+
+
+@pytest.mark.parametrize(("moment", "status"), [(20.0, "pass"), (9.0, "fail")])
+def test_a_disk_that_bounces_is_judged_by_the_simulated_arm(moment: float, status: str) -> None:
+    """ABU506; what it advises holds when it is followed."""
+    machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.pressing_moment_N_m": moment})
+    found = abu_calc.size(machine)
+    (check,) = (check for check in found.checks if check.code == "ABU506")
+    assert check.status == status
+    if status == "pass":
+        assert check.value == 0.0 and "leaves its work until" in check.message
+        return
+    assert check.value is not None and check.value > 10
+    assert check.remedy is not None
+    (advised,) = re.findall(r"Tried: pressing_moment_N_m = (\S+)", check.remedy)
+    followed = abu_calc.size(machine.changed({"swing_arm.pressing_moment_N_m": float(advised)}))
+    assert {check.code: check.status for check in followed.checks}["ABU506"] in ("pass", "warn")

@@ -106,7 +106,7 @@ def _without_effects(folder: Path) -> str:
         ("avtovaz-707-222", ("--scene", "run-up", "--set", "run_up.time_s=1.0"), {
             "run_up", "race_eccentricity", "gravity", "ball_contact", "dry_rolling_friction"}),
         ("swing-arm-grinder", ("--scene", "swing-arm-cutting"), {
-            "race_eccentricity", "gravity", "ball_contact", "dry_rolling_friction"}),
+            "race_eccentricity", "gravity", "lift_off", "ball_contact", "dry_rolling_friction"}),
     ],
 )  # fmt: skip
 def test_of_a_machine(name: str, options: tuple[str, ...], effects: set[str]) -> None:

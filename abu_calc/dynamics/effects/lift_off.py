@@ -103,6 +103,11 @@ class LiftOff(Effect):
         late = samples.t >= LATE * samples.t[-1]
         return float(self._apart(samples)[late].mean())
 
+    def last_apart(self, samples: Samples) -> float | None:
+        """When they were apart last [s], by the samples; None: never."""
+        apart = samples.t[self._apart(samples)]
+        return float(apart[-1]) if len(apart) else None
+
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
         """That the disk lifts off its work at the end of the run, or has done so before."""
         share = self.share_apart(samples)
@@ -112,10 +117,8 @@ class LiftOff(Effect):
                 "end: the bounds on the arm hold as long as it is pressed; press with a larger moment, or balance the "
                 "wheel better",
             )
-        apart = samples.t[self._apart(samples)]
-        if not len(apart):
-            return ()
-        return (f"the disk lifts off its work until t = {apart[-1]:.3g} s, then it stays on it",)
+        last = self.last_apart(samples)
+        return () if last is None else (f"the disk lifts off its work until t = {last:.3g} s, then it stays on it",)
 
     def weight(self, scene: Circumstances) -> Weight:
         """It decides whether a disk bounces, which no closed estimate tells."""
