@@ -14,7 +14,7 @@ from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators import scipy_
 from abu_calc.dynamics.integrators.counts import counts, held_by_decay
 from abu_calc.dynamics.integrators.rates import stiff_decay
-from abu_calc.dynamics.integrators.run import EVENT, work
+from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, work
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
 from abu_calc.errors import InputError, Place
@@ -58,6 +58,8 @@ class Choice:
     """(equations, tolerance, sample times, most evaluations)"""
     share: float = 1.0
     """Work of one of its evaluations, in SciPy's."""
+    event: int = EVENT
+    """Evaluations that an event is worth."""
 
     def evaluations(self, work: int) -> int:
         """How many make up so much work."""
@@ -66,11 +68,11 @@ class Choice:
     def expected(self, equations: Equations, tolerance: float) -> float:
         """About the work of the two runs that a result takes, in SciPy's evaluations, by counting."""
         about = counts(equations, tolerance)
-        return self.share * ((about.loop if self.name in LOOP else about.scipy) + EVENT * about.events)
+        return self.share * ((about.loop if self.name in LOOP else about.scipy) + self.event * about.events)
 
     def work(self, run: Trajectory) -> int:
         """What a run took, counted in SciPy's evaluations."""
-        return math.ceil(self.share * work(run))
+        return math.ceil(self.share * work(run, self.event))
 
 
 def choose(equations: Equations, wanted: str, tolerance: float, progress: Progress = silent) -> Choice:
@@ -129,7 +131,7 @@ def quickest_loop(equations: Equations, tolerance: float, progress: Progress = s
     if ready.loaded(equations, method):
         return _loop_of(equations, True, method)
     about = counts(equations, tolerance)
-    if (about.loop + EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
+    if (about.loop + LOOP_EVENT * about.events) * (1 + len(equations.scene.ball_masses)) < SHORT:
         return _loop_of(equations, False, method, "; a short run, over before compiled code would be loaded")
     progress(f"{equations.scene.name}: loading compiled code")
     if ready.load(equations, method):
@@ -143,7 +145,7 @@ def _loop_of(equations: Equations, compiled: bool, method: "Method", more: str =
     scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
     order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
     why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
-    return Choice(name, why, partial(_through, compiled=compiled), LOOP_WORK)
+    return Choice(name, why, partial(_through, compiled=compiled), LOOP_WORK, LOOP_EVENT)
 
 
 def _through(
@@ -162,7 +164,7 @@ def _events_rule(equations: Equations, tolerance: float, decay: float) -> bool:
     if not watches(equations) or untraceable(equations):
         return False
     about = counts(equations, tolerance)
-    own = about.loop + EVENT * about.events + held_by_decay(equations, decay)
+    own = about.loop + LOOP_EVENT * about.events + held_by_decay(equations, decay)
     return COMPILED_TIME * own < about.scipy + EVENT * about.events
 
 

@@ -24,8 +24,9 @@ TOLERANCE = Range("tolerance", 1e-13, 0.1)
 MOST_EVALUATIONS = 12_000_000
 """Some minutes of SciPy's work; a scene that needs more is stiff or too long for this method."""
 
-EVENT = 50
-"""Evaluations that the work of an event is worth: it is located, modes are settled, and the integrator starts anew."""
+EVENT, LOOP_EVENT = 50, 2
+"""Evaluations that the work of an event is worth beside its own: modes are settled, and the integrator starts anew. In
+the loop, compiled or not, that is next to nothing."""
 
 CROWDED = 100
 """Events of each ball, and of the axis, in a revolution or a cycle of what oscillates faster: beyond, balls chatter,
@@ -136,9 +137,9 @@ class Run(ABC):
                 state, modes = settled(equations, t, state, modes)
 
 
-def work(run: Trajectory) -> int:
-    """What a run took, counted in evaluations."""
-    return run.evaluations + EVENT * run.events
+def work(run: Trajectory, event: int = EVENT) -> int:
+    """What a run took, counted in evaluations; `event`: how many of them one is worth."""
+    return run.evaluations + event * run.events
 
 
 class TooMuchWorkError(NotTrustworthyError):

@@ -50,7 +50,7 @@ from abu_calc.dynamics.integrators.compiled.rk45 import (
     stages,
 )  # fmt: skip
 from abu_calc.dynamics.integrators.compiled.step_size import MOST_FACTOR, longer, shorter
-from abu_calc.dynamics.integrators.run import EVENT, MOST_STALLED
+from abu_calc.dynamics.integrators.run import LOOP_EVENT, MOST_STALLED
 
 SMALLEST = 4e-15
 """Steps below this share of the time are lost in rounding."""
@@ -83,7 +83,7 @@ def go(
     most = MOST_FACTOR
     while t < bound:
         run[TIME], run[STEP] = t, h
-        if count[EVALUATIONS] + EVENT * count[EVENTS] > count[MOST]:
+        if count[EVALUATIONS] + LOOP_EVENT * count[EVENTS] > count[MOST]:
             return TOO_MUCH
         if count[EVALUATIONS] > count[PAUSE]:
             return PAUSED
