@@ -26,13 +26,15 @@ FIRMER: Final = (1.5, 2.0, 3.0, 5.0, 10.0)
 
 
 def on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress = silent) -> Check | None:
-    """Whether the disk stays on its work in the simulated scene at the work; None where that gave no answer.
+    """Whether the disk stays on its work in the simulated scene at the work; None where the work has no stiffness.
 
     Where it bounces, the least pressing moment of some that were tried with which it stays, and the balls balance.
     """
     run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
     effect = None if run is None else run.simulation.scene.effect("lift_off")
-    if run is None or not isinstance(effect, LiftOff):
+    if run is None:
+        return coded("ABU506", "not-done", "the scene at the work gave no answer, see ABU703", unit="%")
+    if not isinstance(effect, LiftOff):
         return None
     samples = run.simulation.trajectory
     share, last = 100 * effect.share_apart(samples), effect.last_apart(samples)

@@ -8,6 +8,7 @@ from functools import partial
 from itertools import islice
 from typing import NamedTuple
 
+from abu_calc import patience
 from abu_calc.analysis.balanced import allowed_imbalance, balances, slip
 from abu_calc.analysis.early import Early
 from abu_calc.analysis.hanging import hanging_bounds
@@ -16,6 +17,7 @@ from abu_calc.analysis.outcomes import Ensemble, Lost, Outcome, deciding, worse
 from abu_calc.analysis.response import Response, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
@@ -35,8 +37,12 @@ WORK, MOST_LOST = 150_000, 3
 """Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth.
 And how many starts at the drag given may be without an answer until no others are tried."""
 
-MANY = 8
-"""Balls beyond which fewer evaluations are allowed, as each takes longer."""
+MORE, MOST_MORE = 20, 24_000_000
+"""Times the work that a start may take in a second run, where that of the first did not suffice, and the work of all
+second runs together: about half a minute of compiled code."""
+
+STARTS = 30
+"""About how many starts and closer runs a machine has."""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
@@ -57,8 +63,8 @@ def simulate_members(
     """Every start once, at these shares of the drag given.
 
     Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
-    below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. The outcome does not
-    depend on how many run side by side.
+    below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. A start
+    whose work did not suffice gets more. The outcome does not depend on how many run side by side.
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
@@ -66,7 +72,9 @@ def simulate_members(
     found = _found(design, starts, accuracy, progress, workers)
     while undecided := deciding(found, design.case.drag):
         again = [(found[k].member, early_end) for k, early_end in undecided.items()]
-        runs = _all(design, again, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers)
+        closer = within(progress, "closer")
+        runs = list(_all(design, again, accuracy, TIGHTER * TOLERANCE, closer, workers))
+        runs = _with_more(design, runs, again, accuracy, TIGHTER * TOLERANCE, closer, workers)
         for k, one in zip(undecided, runs, strict=True):
             found[k] = worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
@@ -80,7 +88,19 @@ def start_once(
     try:
         return run_of_start(design, member, accuracy, tolerance, work, early_end).outcome
     except NotTrustworthyError as error:
-        return Lost(member, str(error).splitlines()[0], _most(design, work))
+        reason = str(error).splitlines()[0]
+        if not isinstance(error, TooMuchWorkError) or patience.over():
+            return Lost(member, reason, work)
+        return Lost(member, reason + _would_do(design, member, error), work, short=True)
+
+
+def _would_do(design: Design, member: Member, error: TooMuchWorkError) -> str:
+    """How many seconds for all starts would do, by how far this one came, in round numbers; nothing if not begun."""
+    if not error.reached:
+        return ""
+    scene = scene_of_member(design, member)
+    evaluations = STARTS * error.evaluations * scene.duration / error.reached
+    return f"; {patience.would_do(evaluations, scene.state_count)} would do, in seconds"
 
 
 def run_of_start(
@@ -92,13 +112,9 @@ def run_of_start(
     choice = choose(equations, "auto", tolerance)
     early = Early(scene, full_speed_at(design, member), partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
-    run = choice.integrate(equations, tolerance, times, choice.evaluations(_most(design, work)))
+    run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
     found = outcome_of(design, member, scene, early.response(run))
     return StartRun(replace(found, work=choice.work(run), rise=early.rising(run)), scene, run)
-
-
-def _most(design: Design, work: int) -> int:
-    return work * MANY // max(MANY, design.autobalancer.ball_count)
 
 
 def _decided(
@@ -123,17 +139,33 @@ def _found(
     others = [(one, True) for one in starts if one.drag != design.case.drag]
     with closing(_all(design, [*first, *others], accuracy, TOLERANCE, progress, workers)) as runs:
         found = list(islice(runs, len(first)))
+        found = _with_more(design, found, first, accuracy, TOLERANCE, progress, workers)
         if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
             return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one, _ in others)]
-        return [*found, *runs]
+        rest = list(runs)
+    return [*found, *_with_more(design, rest, others, accuracy, TOLERANCE, progress, workers)]
+
+
+def _with_more(
+    design: Design, found: list[Outcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
+    tolerance: float, progress: Progress, workers: int,
+) -> list[Outcome | Lost]:  # fmt: skip
+    """What came of the starts, those whose work did not suffice tried once more with more of it."""
+    short = [k for k, outcome in enumerate(found) if isinstance(outcome, Lost) and outcome.short]
+    if not short:
+        return found
+    work = min(MORE * WORK, MOST_MORE // len(short))
+    runs = _all(design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work)
+    longer = dict(zip(short, runs, strict=True))
+    return [longer.get(k, outcome) for k, outcome in enumerate(found)]
 
 
 def _all(
     design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
-    workers: int,
+    workers: int, work: int = WORK,
 ) -> Generator[Outcome | Lost, None, None]:  # fmt: skip
     """Each start once, and whether it may end early."""
-    tasks = [(design, one, accuracy, tolerance, WORK, early_end) for one, early_end in starts]
+    tasks = [(design, one, accuracy, tolerance, work, early_end) for one, early_end in starts]
 
     def told(done: int) -> None:
         progress(Stage(f"idle: {done} of {len(tasks)} starts", done / len(tasks)))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable
 
+from abu_calc import patience
 from abu_calc.analysis.balanced import balanced_well
 from abu_calc.analysis.outcomes import Ensemble, Outcome
 from abu_calc.checks import Check, Grade, coded, verdict
@@ -38,10 +39,13 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | Non
 def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = None) -> Check:
     """The check of the idle level with what the starts show beside the closed form; the worse of both stands.
 
-    `remedy`: what was tried.
+    `remedy`: what was tried. Not done where the patience that was asked for left out a start.
     """
     if ensemble is None or closed.status == "not-done" or closed.limit is None or closed.value is None:
         return closed
+    if patience.over() and ensemble.lost and closed.status != "fail":
+        return coded("ABU401", "not-done", "not all starts were simulated in the time of --patience", None,
+                     closed.limit, "dB")  # fmt: skip
     given, worst = _loudest(ensemble.given), _loudest(ensemble.outcomes)
     if given is None or worst is None:
         return closed
@@ -150,6 +154,6 @@ def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str 
     """
     if mean is not None:
         return coded("ABU703", "warn", mean, of=scene, remedy="What keeps the wheel on the work, see abu grinding.")
-    status: Grade = "warn" if answered and scene == "idle" else "not-done"
+    status: Grade = "warn" if answered and scene == "idle" and not patience.over() else "not-done"
     return coded("ABU703", status, f"no trustworthy simulation: {reason}", of=scene,
                  remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip

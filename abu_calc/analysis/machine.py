@@ -5,12 +5,16 @@ from collections.abc import Sequence
 from abu_calc.analysis.idle import WORK
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.analysis.simulate import Simulation, simulate
+from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.errors import ChaoticError, NotTrustworthyError
 from abu_calc.frozen import dataclass
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent
 from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
+
+MORE = 10
+"""Times the work of a first try that a second may take, where the first did not suffice."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,10 @@ def simulated(
 def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -> Run | Failure:
     try:
         ledger = chosen(scene_of_design(design, name), accuracy)
-        run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
+        try:
+            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
+        except TooMuchWorkError:
+            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=MORE * WORK, progress=progress)
         return Run(ledger, run)
     except ChaoticError as error:
         if error.ended is not None and error.ended.scene.effect("lift_off"):  # ABU506 judges a disk that bounces

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from abu_calc.analysis.balanced import HALF, allowed_imbalance, balances, slip
-from abu_calc.analysis.ensemble import MANY, WORK, outcome_of
+from abu_calc.analysis.ensemble import WORK, outcome_of
 from abu_calc.analysis.outcomes import Outcome
 from abu_calc.analysis.response import Response, evaluate, needed_times
 from abu_calc.dynamics.equations.assemble import assemble
@@ -22,7 +22,7 @@ from abu_calc.sizing.design import Design
 def machine_started(design: Design, start: SwitchedOn, lighter: tuple[float, ...], tolerance: float) -> Outcome:
     """One start of one machine, by one run with every effect there is data for. Raises NotTrustworthyError."""
     scene, _ = with_parted_balls(scene_switched_on(design, start, lighter))
-    response = _response(scene, tolerance, WORK * MANY // max(MANY, len(scene.ball_masses)))
+    response = _response(scene, tolerance, WORK)
     found = outcome_of(design, start.member(design), scene, response)
     if found.balanced or found.hanging or found.imbalance > HALF * scene.imbalance:
         return found

@@ -60,11 +60,15 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Lost:
-    """A start that gave no number to be trusted, and why; `work`: the evaluations it was allowed."""
+    """A start that gave no number to be trusted, and why; `work`: the evaluations it was allowed.
+
+    `short`: whether more work would have given one, as far as is known.
+    """
 
     member: Member
     reason: str
     work: int
+    short: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """The design whose starts all balance: the first of the candidates that does, and remedies that were tried."""
 
+from abu_calc import patience
 from abu_calc.analysis.ensemble import simulate_members
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.remedies import passes, remedy
@@ -32,7 +33,7 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
     if not _carries(design):
         return Proven(design, None)
     first = simulate_members(design, accuracy, progress, workers)
-    if passes(design, first) or not design.frequency.balancing_possible:
+    if passes(design, first) or not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
     spent = first.work
     for one in [each for each, _ in design.choice.runners_up if sound(design.case, each)][:MOST_OTHERS]:

@@ -59,4 +59,4 @@ def _extras(result: "AccuracyResult") -> "Extras":
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "accuracy", accuracy)
+    add_command(app, "accuracy", accuracy, simulates=True)

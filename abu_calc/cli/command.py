@@ -17,6 +17,7 @@ from abu_calc.cli.deliver import Delivery, deliver
 from abu_calc.cli.figures import asked_figures, figure_option
 from abu_calc.cli.filing import write_files
 from abu_calc.errors import InputError, Place
+from abu_calc.patience import limited
 from abu_calc.report.outcome import Outcome
 
 Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="A machine file, or the name of a preset.")]
@@ -48,27 +49,45 @@ def _shared(
     return Delivery(json, output, force, quiet, not no_color, full, asked_figures(figure or ()))
 
 
+def _walled(
+    *,
+    patience: Annotated[
+        float | None,
+        typer.Option(
+            "--patience",
+            metavar="SECONDS",
+            help="Simulate for at most so many seconds, however many evaluations; what has no answer then is not done.",
+        ),
+    ] = None,
+) -> None:
+    """The option of all commands that simulate."""
+
+
 def add_command(
     app: typer.Typer,
     name: str,
     function: Callable[..., Outcome],
     more: Iterable[inspect.Parameter] = (),
     drawn: tuple[str, ...] = (),
+    *,
+    simulates: bool = False,
 ) -> None:
     """Register a command whose function returns an Outcome, with the shared options behind its own.
 
-    `more`: options from a table, which the function takes as `**` keywords; `drawn`: suffixes of its drawing's files.
+    `more`: options from a table, which the function takes as `**` keywords; `drawn`: suffixes of its drawing's files;
+    `simulates`: whether its patience can be told.
     """
     named = inspect.signature(function, eval_str=True).parameters.values()
     own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
+    walled = dict(inspect.signature(_walled, eval_str=True).parameters) if simulates else {}
     shared = _shared_by(name)
-    options = dict(_options(own))
+    options = dict(_options(own | walled))
 
     def run(**given: Any) -> None:
         how = _shared(**{key: given[key] for key in shared})
         how.check(name, drawn)
         wanted = {"how": how} if "how" in own else {}
-        with _naming_options(options):
+        with _naming_options(options), limited(given.get("patience")):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
         outcome = replace(outcome, asked=asked(name, own, given))
         status = deliver(outcome, how, wrote=write_files(outcome, how))
@@ -77,7 +96,7 @@ def add_command(
 
     parameters = [
         parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for parameter in (*own.values(), *shared.values())
+        for parameter in (*own.values(), *walled.values(), *shared.values())
         if parameter.name != "how"
     ]
     run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]

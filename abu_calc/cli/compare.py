@@ -58,4 +58,4 @@ def _extras(result: "CompareResult") -> "Extras":
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "compare", compare)
+    add_command(app, "compare", compare, simulates=True)

@@ -37,4 +37,4 @@ def _extras(result: "GrindingResult") -> "Extras":
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "grinding", grinding)
+    add_command(app, "grinding", grinding, simulates=True)

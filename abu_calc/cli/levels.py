@@ -73,4 +73,4 @@ def levels(
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "levels", levels)
+    add_command(app, "levels", levels, simulates=True)

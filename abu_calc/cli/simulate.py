@@ -100,4 +100,4 @@ def _extras(result: "SimulateResult") -> "Extras":
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "simulate", simulate)
+    add_command(app, "simulate", simulate, simulates=True)

@@ -68,4 +68,4 @@ def _extras(result: "SizeResult") -> "Extras":
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "size", size, drawn=(".dxf", ".svg"))
+    add_command(app, "size", size, drawn=(".dxf", ".svg"), simulates=True)

@@ -76,4 +76,4 @@ def _extras(result: "StabilityResult") -> "Extras":
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "stability", stability)
+    add_command(app, "stability", stability, simulates=True)

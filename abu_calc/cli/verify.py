@@ -133,4 +133,4 @@ def _may_expect(path: Path) -> bool:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "verify", verify)
+    add_command(app, "verify", verify, simulates=True)

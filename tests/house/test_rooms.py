@@ -10,6 +10,7 @@ from tests.house.structure import PACKAGE, circles, files, imports, lines
 GROUND = (
     "version",
     "frozen",
+    "patience",
     "errors",
     "units",
     "checks",

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from abu_calc import patience
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.rates import rates
 from abu_calc.dynamics.integrators.recorder import Recorder
@@ -58,6 +59,8 @@ class Run(ABC):
 
     def __post_init__(self) -> None:
         TOLERANCE.check(self.tolerance)
+        if patience.given():
+            self.most_evaluations = patience.UNBOUNDED
         self.recorder = Recorder(Sampling.of(self.sample_times))
         self.samples, self.longest = self.recorder.sampling.times, self.equations.longest_step
 
@@ -77,6 +80,7 @@ class Run(ABC):
 
     def trajectory(self) -> Trajectory:
         """The whole run. Raises NotTrustworthyError, naming the time, when it cannot be finished."""
+        self.heed_patience(0.0)
         least = float(self.samples[-1]) / self.longest * self.per_step
         if least > self.most_evaluations:
             raise too_much(f"at least {least:.3g}", self.most_evaluations)
@@ -93,6 +97,11 @@ class Run(ABC):
             steps=self.steps,
             events=self.events,
         )
+
+    def heed_patience(self, t: float) -> None:
+        """Raise TooMuchWorkError where the seconds that were asked for are over."""
+        if patience.over():
+            raise TooMuchWorkError(_lost(t, "more time than --patience allows"), t)
 
     def fill(self, states: Array) -> None:
         """The next samples, one column each."""
@@ -129,6 +138,7 @@ class Run(ABC):
                     raise lost(t, "the motion stalls in ever more events")
                 if self.evaluations + EVENT * self.events > self.most_evaluations:
                     raise exceeded(t, self.evaluations, self.events)
+                self.heed_patience(t)
             if t == bound:
                 if self.recorder.enough(t):
                     return
@@ -143,20 +153,26 @@ def work(run: Trajectory, event: int = EVENT) -> int:
 
 
 class TooMuchWorkError(NotTrustworthyError):
-    """A run needs more evaluations than it may take."""
+    """A run needs more evaluations, or seconds, than it may take; it was given up at the time `reached` [s] by so many
+    evaluations, 0 where it was not begun.
+    """
+
+    def __init__(self, message: str, reached: float = 0.0, evaluations: int = 0) -> None:
+        super().__init__(message)
+        self.reached, self.evaluations = reached, evaluations
 
 
 def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
     """The error of a run that was given up at its bound."""
     did = f"{evaluations} evaluations" + (f" and {events} events" if events else "")
-    return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"))
+    return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"), t, evaluations)
 
 
 def too_much(found: str, most: int, remedy: str = "") -> TooMuchWorkError:
     """The error for a run that is not begun, since so many of SciPy's evaluations are not allowed."""
     return TooMuchWorkError(
         f"the run takes more work than allowed (found {found} evaluations; allowed: {most:.3g})\n"
-        f"  {remedy}shorten the run, or ask for less accuracy"
+        f"  {remedy}shorten the run, ask for less accuracy, or allow some seconds: --patience 60"
     )
 
 

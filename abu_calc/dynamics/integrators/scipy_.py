@@ -89,6 +89,7 @@ class _Run(Run):
             self.evaluations = spent + _evaluations(solver, watcher)
             if self.evaluations > self.most_evaluations:
                 raise exceeded(solver.t, self.evaluations, self.events)
+            self.heed_patience(solver.t)
             try:
                 message = solver.step()
             except ValueError:  # implicit methods meet a number that is none in their matrices

@@ -152,6 +152,8 @@ class _Run(Run):
             rows, self.room,
         )  # fmt: skip
         self.fill(rows[: self.counts[arrays.DONE]].T[self.given])
+        if how == arrays.PAUSED:
+            self.heed_patience(float(self.clock[arrays.TIME]))
         return int(how)
 
     def _go(self) -> None:

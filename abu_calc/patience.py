@@ -1,0 +1,61 @@
+"""How long the simulations of a command may take: a wall of seconds where one is asked for.
+
+Without it limits are counts of evaluations, equal on every computer. With it counts do not bound a run: what is not
+done when the time is up has no answer, and a check of it is not done. Threads share it.
+"""
+
+import math
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+from abu_calc.validity import Range
+
+SECONDS: Final = Range("patience", 0.0, 1e6, "s", open_low=True, key="patience")
+
+UNBOUNDED: Final = 2**60
+"""Evaluations that no run takes."""
+
+
+class _Wall:
+    """The time at which patience ends, by the clock of `time.monotonic`; None without one."""
+
+    end: float | None = None
+
+
+STATE_SECONDS: Final = 2e-8
+"""Time [s] of a compiled evaluation for each state of a scene."""
+
+
+def would_do(evaluations: float, states: int) -> str:
+    """The option that would let so many evaluations of a scene be done, in round numbers of seconds.
+
+    >>> would_do(4e7, 16)
+    '--patience 20'
+    """
+    return f"--patience {max(10 * math.ceil(evaluations * states * STATE_SECONDS / 10), 10)}"
+
+
+@contextmanager
+def limited(seconds: float | None) -> Iterator[None]:
+    """All that is simulated within takes at most so many seconds; None: counts bound it. Raises RangeError."""
+    if seconds is None:
+        yield
+        return
+    before = _Wall.end
+    _Wall.end = time.monotonic() + SECONDS.check(seconds)
+    try:
+        yield
+    finally:
+        _Wall.end = before
+
+
+def given() -> bool:
+    """Whether there is a wall."""
+    return _Wall.end is not None
+
+
+def over() -> bool:
+    """Whether the time is up; never without a wall."""
+    return _Wall.end is not None and time.monotonic() > _Wall.end
