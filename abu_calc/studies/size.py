@@ -235,8 +235,9 @@ def _arm(
 
 
 def _on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress) -> tuple[Check, ...]:
-    """Whether the disk of a swing arm stays on its work; nothing of machines without one."""
-    if design.swing_arm is None:
+    """Whether the disk of a swing arm stays on its work; nothing of machines without one, or that does not press."""
+    bounds = design.swing_arm
+    if bounds is None or any(check.status != "pass" for check in bounds.checks if check.code in ("ABU503", "ABU504")):
         return ()
     from abu_calc.analysis.arm_scenes import on_work
 

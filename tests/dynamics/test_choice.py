@@ -155,7 +155,7 @@ def test_the_same_work_is_allowed_to_all():
     for name in ("scipy", "plain", "compiled"):
         chosen = choose(equations, name, 1e-4)
         run = chosen.integrate(equations, 1e-4, times, chosen.evaluations(100_000))
-        assert chosen.evaluations(chosen.work(run)) >= work(run)
+        assert chosen.evaluations(chosen.work(run)) >= work(run, chosen.event)
         with pytest.raises(TooMuchWorkError):
             chosen.integrate(equations, 1e-4, times, chosen.evaluations(chosen.work(run) // 4))
 
