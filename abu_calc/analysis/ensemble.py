@@ -144,7 +144,7 @@ def _all(
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
     """What the response of a member's scene says."""
     speed, settling = abs(response.final.speed) or scene.speed, response.settling_time
-    case = replace(design.case, speed=member.speed or design.case.speed)
+    case = replace(design.case, speed=speed)
     return Outcome(
         member=member,
         settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),

@@ -132,6 +132,7 @@ def _need(result: SizeResult) -> list[Block]:
         Heading("Frequencies and capacity"),
         facts(result, "system_mass_kg", "effective_mass_kg"),
         facts(result.frequency, "speed_hz", "natural_frequencies_hz", "region", "finite_mass_gap"),
+        facts(result, "idle_speed_rpm"),
         Paragraph(_stability(result.frequency)),
         Paragraph(_hanging(result)),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",

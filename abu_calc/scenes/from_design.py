@@ -62,7 +62,7 @@ WORST = math.pi
 """Where the race's centre stands, from the imbalance: there it asks for M Δ more of the balls, as sizing takes it."""
 
 TIME_CONSTANTS = 5.0
-"""Of a motor, after which its speed is within 1 % of the last."""
+"""After so many time constants the speed of a motor is within 1 % of its idle speed."""
 
 
 def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched") -> Scene:
@@ -70,7 +70,8 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
 
     `idle`: at full speed, the axis at rest at its place, the balls as in `STARTS`, the mass that which is felt in
     the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
-    contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one.
+    contact is that of a face, which does not press in the plane. `run-up`: from rest; a motor brings it to its idle
+    speed.
     `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the race's
     eccentricity, the latter at its worst; on a horizontal spindle with gravity; a face wheel at work with transverse
     motion, where its axial runout drives it. Left out: the motor at full speed, where it would change the speed. It
@@ -78,6 +79,8 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     Raises InputError for a table that is missing, NotTrustworthyError for an arm that does not stand at the work.
     """
     _refuse_what_is_missing(design, which)
+    if which == "run-up" and design.case.idle_speed is not None:
+        design = replace(design, case=replace(design.case, speed=design.case.idle_speed))
     case, table = design.case, design.case.table
     felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
     support: Support = _held(design)
@@ -203,7 +206,7 @@ def _effects(design: Design, which: str) -> Iterator[Effect]:
     """All that the file has data for, in the order of the registry."""
     case, table, radius = design.case, design.case.table, design.autobalancer.ball_diameter / 2
     if which == "run-up" and table.run_up:
-        yield guided(design, table.run_up.time_s)
+        yield guided(design, table.run_up.time_s) if table.motor is None else RunUp(running_up(design))
         if table.motor:
             yield _motor(table.motor)
     yield RaceEccentricity(case.race_eccentricity, WORST)
@@ -256,13 +259,15 @@ def guided(design: Design, up: float) -> RunUp:
 
 
 def running_up(design: Design) -> float:
-    """Time [s] from rest to full speed for good; that of a motor is five of its time constants J Ω₀/M."""
+    """Time [s] from rest to full speed for good; that of a motor is five of its time constants J Ω₀/M.
+
+    A motor takes its own time, whatever [run_up] gives.
+    """
     table = design.case.table
-    given = table.run_up.time_s if table.run_up else 0.0
     if table.motor is None:
-        return guided(design, given).at_speed
+        return guided(design, table.run_up.time_s if table.run_up else 0.0).at_speed
     motor = _motor(table.motor)
-    return max(given, TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque)
+    return TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque
 
 
 def _motor(table: MotorTable) -> "Motor":
