@@ -21,7 +21,7 @@ from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
-from abu_calc.scenes.members import DRAGS, Member, full_speed_at, members, scene_of_member
+from abu_calc.scenes.members import DRAGS, Member, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
 
@@ -90,7 +90,7 @@ def run_of_start(
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     equations = assemble(scene)
     choice = choose(equations, "auto", tolerance)
-    early = Early(scene, full_speed_at(design, member), partial(_decided, design, member, scene))
+    early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(_most(design, work)))
     found = outcome_of(design, member, scene, early.response(run))
@@ -143,11 +143,11 @@ def _all(
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
     """What the response of a member's scene says."""
-    speed, settling = abs(response.final.speed) or scene.speed, response.settling_time
+    speed = abs(response.final.speed) or scene.speed
     case = replace(design.case, speed=speed)
     return Outcome(
         member=member,
-        settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),
+        settling=response.settling_time,
         residual=response.axis_amplitude,
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),

@@ -2,14 +2,12 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.response import Response
 from abu_calc.checks import Check, coded, overall, verdict
 from abu_calc.frozen import dataclass
-from abu_calc.scenes.from_design import running_up
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si, level_from_velocity
@@ -89,12 +87,10 @@ def one_run_checks(
     """
     if response.scene not in LIMITED:
         return ()
-    ramp = running_up(design) if response.scene == "run-up" else 0.0
-    limit, settled = design.case.table.limits.settling_time_s, response.settling_time
-    since = replace(response, settling_time=None if settled is None else max(0.0, settled - ramp))
+    ramp, limit = response.full_speed, design.case.table.limits.settling_time_s
     counted = f"{start}; counted from full speed, after {ramp:.3g} s" if ramp else start
     motor = (check for check in design.checks if check.code == "ABU104")
-    checks = (*motor, *_balancing(design, since, f"from {counted}"), _level(design, response, error))
+    checks = (*motor, *_balancing(design, response, f"from {counted}"), _level(design, response, error))
     if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
         reason = f"the run ends after {response.duration:.3g} s, before the limit of the settling time"
         remedy = "A longer run (--duration, Python: duration_s=)."

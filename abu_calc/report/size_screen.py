@@ -7,7 +7,7 @@ from abu_calc.report.arm import arm_bounds, arm_line
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph, Picture
 from abu_calc.report.drawing.characters import legend, section_lines
 from abu_calc.report.numbers import number
-from abu_calc.report.parts import limit_in_file, value_of
+from abu_calc.report.parts import limit_in_file
 from abu_calc.report.screen import BLANK, one_screen, verdict_line
 from abu_calc.report.shown_text import measured_after_blocks
 from abu_calc.studies.design_records import Autobalancer, Vibration
@@ -77,8 +77,7 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
 
 def _idle(result: SizeResult) -> str:
     """The idle speed, if the file gives a motor."""
-    speed = value_of(result, "idle_speed_rpm")
-    return f" The motor idles at {speed}." if speed else ""
+    return "" if result.idle_speed_rpm is None else f" The motor idles at {result.idle_speed_rpm:.0f} rpm."
 
 
 def _starts(result: SizeResult, many: EnsembleResult) -> str:

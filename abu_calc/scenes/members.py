@@ -4,11 +4,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.effects.run_up import RunUp as RunUpEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
-from abu_calc.scenes.from_design import Start, guided, running_up, scene_of_design
+from abu_calc.scenes.from_design import Start, running_up, scene_of_design, taking_up
 from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track
@@ -28,9 +26,6 @@ OPPOSITE, ALIKE = math.pi, math.tau
 balls settle latest and friction leaves the loudest arrangements. A whole turn, since equations without an angle would
 be made and compiled once more."""
 
-LAGS = 3.0
-"""Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
-
 
 @dataclass(frozen=True)
 class Member:
@@ -46,6 +41,11 @@ class Member:
     eccentricity: float = OPPOSITE
     speed: float | None = None
     by_motor: bool = False
+
+    @property
+    def race_centre_deg(self) -> float:
+        """Angle of the race's centre from the imbalance [deg], from 0 to 360."""
+        return round(from_si(self.eccentricity, "deg"), 9) % 360
 
     @property
     def way(self) -> str:
@@ -95,35 +95,12 @@ def idle_speed(case: Case) -> float | None:
 
 
 def scene_of_member(design: Design, member: Member) -> Scene:
-    """The idle scene of a machine started so, with every effect its file has data for.
-
-    Long enough for balls that stand still to take up the speed, beside what the scene lasts in any case.
-    """
+    """The idle scene of a machine started so, with every effect its file has data for."""
     own = _with(design, member)
-    scene = scene_of_design(own, "run-up" if member.run_up else "idle", member.start)
-    turned = (replace(one, angle=member.eccentricity) if isinstance(one, RaceEccentricity) else one
-              for one in scene.effects)  # fmt: skip
-    scene = replace(scene, effects=tuple(turned))
     if not member.run_up:
-        scene = _paused(scene, guided(own, 0.0))
-        if member.start != "standstill":
-            return scene
-    longest = own.case.table.limits.settling_time_s
-    lag = LAGS * own.case.inertia_factor / member.drag if member.drag else longest
-    return replace(scene, duration=scene.duration + min(lag, longest))
-
-
-def full_speed_at(design: Design, member: Member) -> float:
-    """Time [s] at which a member is at full speed for good: that from which settling counts."""
-    own = _with(design, member)
-    return running_up(own) if member.run_up else guided(own, 0.0).at_speed
-
-
-def _paused(scene: Scene, pace: RunUpEffect) -> Scene:
-    """A scene at full speed with the pause of its file, if there is one; longer by that."""
-    if not pace.at_speed:
-        return scene
-    return replace(scene, effects=(pace, *scene.effects), duration=scene.duration + pace.at_speed)
+        return scene_of_design(own, "idle", member.start, member.eccentricity)
+    scene = scene_of_design(own, "run-up", member.start, member.eccentricity)
+    return replace(scene, duration=scene.duration + taking_up(own))
 
 
 def _with(design: Design, member: Member) -> Design:
