@@ -21,6 +21,7 @@ from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
+from abu_calc.scenes.from_design import guided
 from abu_calc.scenes.members import DRAGS, Member, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
@@ -62,15 +63,20 @@ def simulate_members(
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
-    starts = list(members(design, doubtful, shares))
-    found = _found(design, starts, accuracy, progress, workers)
+    starts, tolerance = list(members(design, doubtful, shares)), first_tolerance(design)
+    found = _found(design, starts, accuracy, tolerance, progress, workers)
     while undecided := deciding(found, design.case.drag):
         again = [(found[k].member, early_end) for k, early_end in undecided.items()]
-        runs = _all(design, again, accuracy, TIGHTER * TOLERANCE, within(progress, "closer"), workers)
+        runs = _all(design, again, accuracy, TIGHTER * tolerance, within(progress, "closer"), workers)
         for k, one in zip(undecided, runs, strict=True):
             found[k] = worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
     return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
+
+
+def first_tolerance(design: Design) -> float:
+    """Tolerance of the first run of each start; tighter with a pause, whose slow turns amplify errors."""
+    return TIGHTER * TOLERANCE if guided(design, 0.0).pause else TOLERANCE
 
 
 def start_once(
@@ -116,12 +122,12 @@ def _decided(
 
 
 def _found(
-    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int
+    design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int
 ) -> list[Outcome | Lost]:
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(one, True) for one in starts if one.drag == design.case.drag]
     others = [(one, True) for one in starts if one.drag != design.case.drag]
-    with closing(_all(design, [*first, *others], accuracy, TOLERANCE, progress, workers)) as runs:
+    with closing(_all(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
         found = list(islice(runs, len(first)))
         if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
             return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one, _ in others)]

@@ -24,9 +24,8 @@ SETTINGS: dict[str, dict[str, object]] = {
 }  # fmt: skip
 """Entries of machines beside the presets."""
 
-NEAR = 0.05
-"""Of the settling time: one run at a tolerance of 2e-4 in the ensemble against two that agree. After the pause it is
-3 % off, 0.308 s, and 0.298 s at 2e-5; elsewhere it is below 1 %."""
+NEAR = 0.03
+"""Of the settling time: one run in the ensemble against two that agree; by the pause 2 % apart, elsewhere below 1 %."""
 
 
 @cache
