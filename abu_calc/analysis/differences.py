@@ -24,7 +24,7 @@ class Measures(Protocol):
 
     @property
     def settling_time(self) -> float | None:
-        """[s]; None if later than the run."""
+        """From full speed [s]; None if later than the run."""
 
     @property
     def ball_angles(self) -> tuple[float, ...]:

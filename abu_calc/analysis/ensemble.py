@@ -23,7 +23,8 @@ from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
-from abu_calc.scenes.members import DRAGS, Member, full_speed_at, members, scene_of_member
+from abu_calc.scenes.from_design import guided
+from abu_calc.scenes.members import DRAGS, Member, members, scene_of_member
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
 
@@ -68,17 +69,22 @@ def simulate_members(
     """
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
-    starts = list(members(design, doubtful, shares))
-    found = _found(design, starts, accuracy, progress, workers)
+    starts, tolerance = list(members(design, doubtful, shares)), first_tolerance(design)
+    found = _found(design, starts, accuracy, tolerance, progress, workers)
     while undecided := deciding(found, design.case.drag):
         again = [(found[k].member, early_end) for k, early_end in undecided.items()]
         closer = within(progress, "closer")
-        runs = list(_all(design, again, accuracy, TIGHTER * TOLERANCE, closer, workers))
-        runs = _with_more(design, runs, again, accuracy, TIGHTER * TOLERANCE, closer, workers)
+        runs = list(_all(design, again, accuracy, TIGHTER * tolerance, closer, workers))
+        runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers)
         for k, one in zip(undecided, runs, strict=True):
             found[k] = worse(found[k], one)
     outcomes = tuple(one for one in found if isinstance(one, Outcome))
     return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
+
+
+def first_tolerance(design: Design) -> float:
+    """Tolerance of the first run of each start; tighter with a pause, whose slow turns amplify errors."""
+    return TIGHTER * TOLERANCE if guided(design, 0.0).pause else TOLERANCE
 
 
 def start_once(
@@ -110,7 +116,7 @@ def run_of_start(
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     equations = assemble(scene)
     choice = choose(equations, "auto", tolerance)
-    early = Early(scene, full_speed_at(design, member), partial(_decided, design, member, scene))
+    early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
     found = outcome_of(design, member, scene, early.response(run))
@@ -132,18 +138,18 @@ def _decided(
 
 
 def _found(
-    design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int
+    design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int
 ) -> list[Outcome | Lost]:
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(one, True) for one in starts if one.drag == design.case.drag]
     others = [(one, True) for one in starts if one.drag != design.case.drag]
-    with closing(_all(design, [*first, *others], accuracy, TOLERANCE, progress, workers)) as runs:
+    with closing(_all(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
         found = list(islice(runs, len(first)))
-        found = _with_more(design, found, first, accuracy, TOLERANCE, progress, workers)
+        found = _with_more(design, found, first, accuracy, tolerance, progress, workers)
         if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
             return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one, _ in others)]
         rest = list(runs)
-    return [*found, *_with_more(design, rest, others, accuracy, TOLERANCE, progress, workers)]
+    return [*found, *_with_more(design, rest, others, accuracy, tolerance, progress, workers)]
 
 
 def _with_more(
@@ -175,11 +181,11 @@ def _all(
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
     """What the response of a member's scene says."""
-    speed, settling = abs(response.final.speed) or scene.speed, response.settling_time
-    case = replace(design.case, speed=member.speed or design.case.speed)
+    speed = abs(response.final.speed) or scene.speed
+    case = replace(design.case, speed=speed)
     return Outcome(
         member=member,
-        settling=None if settling is None else max(settling - full_speed_at(design, member), 0.0),
+        settling=response.settling_time,
         residual=response.axis_amplitude,
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),

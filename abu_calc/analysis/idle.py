@@ -8,6 +8,7 @@ from abu_calc.analysis.balanced import balanced_well
 from abu_calc.analysis.outcomes import Ensemble, Outcome
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.scenes.from_design import guided
+from abu_calc.scenes.members import OPPOSITE
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si
 
@@ -95,9 +96,9 @@ def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
         when = "never" if math.isinf(latest.time) else f"{latest.time:.3g} s"
         message += f"; {_named(latest)}: {when}"
     if guided(design, 0.0).pause:
-        message += "; it counts from full speed after the pause"
+        message += "; counted from full speed, after the pause"
     elif any(one.member.run_up for one in ensemble.given):
-        message += "; of a run-up only the time at full speed counts"
+        message += "; counted from full speed, after the run-up"
     value = None if late is None or math.isinf(late.time) else late.time
     return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)
 
@@ -128,7 +129,9 @@ def _loudest(outcomes: Iterable[Outcome]) -> Outcome | None:
 
 
 def _named(one: Outcome) -> str:
-    return _words(one.member.name, one.member.drag)
+    """The start in words, with the race's centre unless that is opposite the imbalance, as in other commands."""
+    side = "" if one.member.eccentricity == OPPOSITE else f", race centre {one.member.race_centre_deg:g}°,"
+    return _words(f"{one.member.name}{side}", one.member.drag)
 
 
 def _words(name: str, drag: float) -> str:

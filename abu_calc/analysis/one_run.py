@@ -2,14 +2,12 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Final
 
 from abu_calc.analysis.balanced import SLIPPING, allowed_imbalance, balances, slip
 from abu_calc.analysis.response import Response
 from abu_calc.checks import Check, coded, overall, verdict
 from abu_calc.frozen import dataclass
-from abu_calc.scenes.from_design import running_up
 from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.design import Design
 from abu_calc.units import from_si, level_from_velocity
@@ -39,15 +37,15 @@ def levels_at_places(design: Design, response: Response) -> tuple[PlaceLevel, ..
     What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
     background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
     """
-    held = _held(design) if response.scene in HELD else []
+    held = _held(design, response) if response.scene in HELD else []
     return tuple(PlaceLevel(name, level(response.velocity_rms)) for name, level in held)
 
 
-def _held(design: Design) -> list[tuple[str, Level]]:
+def _held(design: Design, response: Response) -> list[tuple[str, Level]]:
     """The level at each place where the machine is held, of a velocity."""
     case = design.case
     places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
-    return [(name, _level_of(design, place)) for name, place in places]
+    return [(name, _level_of(design, response, place)) for name, place in places]
 
 
 def loudest(design: Design, response: Response) -> Level:
@@ -55,25 +53,26 @@ def loudest(design: Design, response: Response) -> Level:
 
     On a swing arm, where it is not, that on the axis.
     """
-    levels = [level for _, level in _held(design)] if response.scene in HELD else [level_from_velocity]
+    levels = [level for _, level in _held(design, response)] if response.scene in HELD else [level_from_velocity]
     return lambda velocity: max(level(velocity) for level in levels)
 
 
 def level_at(design: Design, response: Response, place: float) -> float:
     """The level [dB] at a place [m] from the centre of mass, as `levels_at_places`."""
-    return _level_of(design, place)(response.velocity_rms)
+    return _level_of(design, response, place)(response.velocity_rms)
 
 
-def _level_of(design: Design, place: float) -> Level:
-    case, added = design.case, design.autobalancer.mass
+def _level_of(design: Design, response: Response, place: float) -> Level:
+    """The level at a place [m] at the speed that the run ends with."""
+    case, added, speed = design.case, design.autobalancer.mass, abs(response.final.speed) or design.case.speed
     body, race = case.body, case.race_place
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
     held, at_race = body.inertance(race, race, added), body.inertance(place, race, added)
     beside = imbalance * body.inertance(place, body.wheel, added) - balls * at_race
 
     def level(velocity: float) -> float:
-        swing = math.sqrt(2) * velocity / case.speed / held
-        return displacement_level(math.hypot(swing * at_race, beside), case.speed, case.background_level)
+        swing = math.sqrt(2) * velocity / speed / held
+        return displacement_level(math.hypot(swing * at_race, beside), speed, case.background_level)
 
     return level
 
@@ -88,11 +87,10 @@ def one_run_checks(
     """
     if response.scene not in LIMITED:
         return ()
-    ramp = running_up(design) if response.scene == "run-up" else 0.0
-    limit, settled = design.case.table.limits.settling_time_s, response.settling_time
-    since = replace(response, settling_time=None if settled is None else max(0.0, settled - ramp))
+    ramp, limit = response.full_speed, design.case.table.limits.settling_time_s
     counted = f"{start}; counted from full speed, after {ramp:.3g} s" if ramp else start
-    checks = (*_balancing(design, since, f"from {counted}"), _level(design, response, error))
+    motor = (check for check in design.checks if check.code == "ABU104")
+    checks = (*motor, *_balancing(design, response, f"from {counted}"), _level(design, response, error))
     if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
         reason = f"the run ends after {response.duration:.3g} s, before the limit of the settling time"
         remedy = "A longer run (--duration, Python: duration_s=)."

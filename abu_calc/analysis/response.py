@@ -62,7 +62,11 @@ class FinalState:
 
 @dataclass(frozen=True)
 class Response:
-    """Results of one scene in SI; level [dB] None without any velocity, settling_time None if not settled in time."""
+    """Results of one scene in SI; level [dB] None without any velocity.
+
+    `settling_time` [s] counts from `full_speed` [s], see `Scene.full_speed`: 0 if the balls settled before, None if not
+    settled in time.
+    """
 
     scene: str
     duration: float
@@ -77,6 +81,7 @@ class Response:
     bearing_amplitudes: tuple[float, ...]
     """As `axis_amplitude`, at each bearing of a support that tilts."""
     final: FinalState
+    full_speed: float = 0.0
 
     @property
     def ball_angles(self) -> tuple[float, ...]:
@@ -136,10 +141,11 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, cr
     settled = float(_mean(np.abs(total_imbalance(scene, whole[balls])))[0])
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
+    time = settling_time(course.times, residuals, settled - creep + SETTLED * reference_imbalance(scene))
     return Response(
         scene=scene.name,
         duration=scene.duration,
-        settling_time=settling_time(course.times, residuals, settled - creep + SETTLED * reference_imbalance(scene)),
+        settling_time=None if time is None else max(time - scene.full_speed, 0.0),
         residual_imbalance=float(residuals[-1]),
         axis_amplitude=_largest_radius(place, mean),
         velocity_rms=rms,
@@ -149,6 +155,7 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, cr
         bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
         # The mean of a speed is the way made; exact, whatever the samples.
         final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
+        full_speed=scene.full_speed,
     )
 
 
@@ -183,7 +190,7 @@ def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[floa
 
 
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
-    """The earliest time [s] after which the residual stays below the limit; None if after 95 % of the run.
+    """The earliest time [s] of a run after which the residual stays below the limit; None if after 95 % of the run.
 
     Between two samples it is read from the quintic through the six about them.
     """

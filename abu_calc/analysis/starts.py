@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final
 
-from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, WORK, run_of_start
+from abu_calc.analysis.ensemble import TIGHTER, WORK, first_tolerance, run_of_start
 from abu_calc.analysis.outcomes import Ensemble, Outcome
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
@@ -53,11 +53,11 @@ def _slow(one: Outcome) -> tuple[bool, bool, float]:
 
 def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[Again]:
     """Those chosen, as far as the work allowed goes, each by the run that its outcome is from."""
-    left = MOST_WORK if installed() else MOST_PLAIN
+    left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
     for why, one in chosen_starts(ensemble):
         if one.work > left:
             continue
-        for tolerance in (TIGHTER * TOLERANCE, TOLERANCE) if one.confirmed else (TOLERANCE,):
+        for tolerance in (TIGHTER * first, first) if one.confirmed else (first,):
             try:
                 found, scene, trajectory = run_of_start(design, one.member, accuracy, tolerance)
             except NotTrustworthyError:

@@ -26,6 +26,12 @@ def simulate(
     set_: Overrides = None,
     scene: WhichScene = None,
     start: WhichStart = None,
+    race_centre_deg: Annotated[
+        float | None,
+        typer.Option(
+            "--race-centre", metavar="DEG", help="Of a machine: centre of the race from the imbalance; default 180."
+        ),
+    ] = None,
     accuracy: Accuracy = 0.01,
     integrator: Annotated[str, typer.Option("--integrator", help="auto, scipy, plain or compiled.")] = "auto",
     duration_s: Duration = None,
@@ -60,6 +66,7 @@ def simulate(
             read_any(file, set_ or ()),
             scene,
             start,
+            race_centre_deg=race_centre_deg,
             accuracy=accuracy,
             duration_s=duration_s,
             with_effects=with_effects or (),

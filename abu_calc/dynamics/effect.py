@@ -165,6 +165,11 @@ class Effect:
         return 0.0
 
     @property
+    def at_speed(self) -> float:
+        """Time at which the rotor is at full speed for good [s]."""
+        return 0.0
+
+    @property
     def offset(self) -> complex:
         """How far it moves the races' centres off the axis, x + iy in the rotor [m]."""
         return 0j

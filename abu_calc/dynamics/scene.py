@@ -35,6 +35,11 @@ class Scene(Circumstances):
         return 0.0 if any(effect.from_rest for effect in self.effects) else self.speed
 
     @property
+    def full_speed(self) -> float:
+        """Time from which settling counts [s]: the rotor is at full speed for good, after its run-up and any pause."""
+        return max((effect.at_speed for effect in self.effects), default=0.0)
+
+    @property
     def run_down(self) -> float:
         """The longest of any effect."""
         return max((effect.run_down for effect in self.effects), default=0.0)

@@ -33,11 +33,12 @@ EQUATIONS = register(Formula(
 
 SETTLING_TIME = register(Formula(
     "formulas.motion:settling_time",
-    "Earliest time after which the imbalance left stays near where it ends",
+    "Settling time: from full speed to the time after which the imbalance left stays near its final value",
     f"|U(t)| ≤ mean |U| of the last turns + {SETTLED:g}·max(m₀e, 1 % of Σ m·R_p)",
     "s",
-    where="None when that is in the last 5 % of the run. Between two samples, 16 per revolution, it is read from the "
-    "quintic through the six about them.",
+    where="Full speed is reached for good after the run-up and any pause below it; a start at full speed counts from "
+    "t = 0. Zero if the balls settle during the run-up. None if they settle in the last 5 % of the run. Between two "
+    "samples, 16 per revolution, the time is read from the quintic through the six about them.",
     source="own definition",
 ))  # fmt: skip
 

@@ -25,13 +25,20 @@ CONVENTIONS = (
     "Amplitudes are 0–peak over the last twentieth of the run, about the mean place; velocities rms, in the larger of "
     "x and y; levels 20 lg(v / 5e-8 m/s). Ball angles are measured in the rotor from its zero mark (of a machine: the "
     "imbalance) in the sense of rotation, ball speeds relative to the race. Settled: the imbalance left stays near its "
-    "final value."
+    "final value. The settling time counts from full speed."
 )
 UNJUDGED: Final = "The accuracy is reached; there are no limits for this scene"
 UNDER_LOAD: Final = "Under load the level is information, not a check: the limit of the file is for idling."
 
 MOTION = (
-    *("duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "unbalanced_amplitude_mm"),
+    *(
+        "duration_s",
+        "full_speed_s",
+        "settling_time_s",
+        "residual_imbalance_g_mm",
+        "axis_amplitude_mm",
+        "unbalanced_amplitude_mm",
+    ),
     *("largest_amplitude_mm", "bearing_amplitudes_mm", "velocity_rms_mm_per_s", "error_estimate"),
 )
 FINAL = (
@@ -101,13 +108,9 @@ def _numbers(result: SimulateResult) -> Grid:
 
 
 def _settling(result: SimulateResult) -> tuple[str, str, str]:
-    """After a run-up as it is judged, from full speed."""
-    if result.settling_time_s is None:
-        return ("settling time", "", "none")
-    since = next((check.value for check in result.checks if check.code == "ABU702"), None)
-    if result.scene == "run-up" and since is not None:
-        return ("settling, from full speed", "", f"{number(since, 3)} s")
-    return ("settling time", "", value_of(result, "settling_time_s"))
+    """The settling time, from full speed if that is reached later than at the start."""
+    label = "settling time" if result.full_speed_s is None else "settling, from full speed"
+    return (label, "", "none" if result.settling_time_s is None else value_of(result, "settling_time_s"))
 
 
 def _about(result: SimulateResult) -> list[Block]:
@@ -119,7 +122,12 @@ def _about(result: SimulateResult) -> list[Block]:
 
 def _sentence(result: SimulateResult) -> str:
     settled = result.settling_time_s is not None
-    when = f"settled in {value_of(result, 'settling_time_s')}" if settled else "not settled by the end"
+    when = "not settled by the end"
+    if settled and result.full_speed_s is not None:
+        reached = f"full speed, which is reached at {value_of(result, 'full_speed_s')}"
+        when = f"settled {value_of(result, 'settling_time_s')} after {reached}"
+    elif settled:
+        when = f"settled in {value_of(result, 'settling_time_s')}"
     before, after = (value_of(result, name) for name in ("unbalanced_amplitude_mm", "axis_amplitude_mm"))
     bare = "without balls and off the work" if _pressed(result) else "without balls"
     return f"The axis moves {after} in the end, {before} {bare}; {when}."

@@ -72,17 +72,22 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
     level = Spread(many.level_db.typical, max((one for one in told if one is not None), default=None))
     found = many.settling_time_s
     settling = Spread(found.typical, math.inf if found.worst is None else found.worst)
-    return [BLANK, _table(result, level, settling), Paragraph(_starts(many)), *measured]
+    return [BLANK, _table(result, level, settling), Paragraph(_starts(result, many)), *measured]
 
 
-def _starts(many: EnsembleResult) -> str:
+def _idle(result: SizeResult) -> str:
+    """The idle speed, if the file gives a motor."""
+    return "" if result.idle_speed_rpm is None else f" The motor idles at {result.idle_speed_rpm:.0f} rpm."
+
+
+def _starts(result: SizeResult, many: EnsembleResult) -> str:
     """How many starts there were, and which was worst."""
     text = f"Of {many.members} starts, with the drag given, a third and three times of it, {many.balanced} balance"
     worst = many.worst_member
     if worst is None:
-        return f"{text}."
+        return f"{text}.{_idle(result)}"
     speed = "" if worst.speed_rpm is None else f" ({worst.speed_rpm:.6g} rpm)"
-    return f"{text}; the worst of all: {worst.start}{speed}, drag {number(worst.drag_per_s, 3)} 1/s."
+    return f"{text}; the worst of all: {worst.start}{speed}, drag {number(worst.drag_per_s, 3)} 1/s.{_idle(result)}"
 
 
 def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:

@@ -21,14 +21,16 @@ CONVENTIONS = (
 )
 START = (
     "Every scene starts at full speed, the axis at rest at its place, balls at rest in the race, bunched side by side "
-    "20° ahead of the imbalance; rolling inertia and viscous drag are always in. A weight is what leaving the effect "
-    "out may change, `abu effects` tells more."
+    "20° ahead of the imbalance, the race's centre at 180° from it; rolling inertia and viscous drag are always in. A "
+    "weight is what leaving the effect out may change, `abu effects` tells more."
 )
 
 WAYS = (
     "Drag from a third to three times of the file's, as of hot and cold oil. Below the optimum drag small disturbances "
     "decay by h₀/2J whatever the balls, above it heavier balls are quicker: see the runners-up. From standstill they "
-    "take up the speed by h₀/J. The groove's radius plays no part in the plane."
+    "take up the speed by h₀/J. The groove's radius plays no part in the plane. Settling times count from full speed. "
+    "Each is that of the slower side of the race: its centre at 0° from the imbalance, or, at the drag given, at 180°. "
+    "`abu simulate --start … --race-centre 0` repeats one."
 )
 ROWS = 15
 """Of the section's picture."""
@@ -132,6 +134,7 @@ def _need(result: SizeResult) -> list[Block]:
         Heading("Frequencies and capacity"),
         facts(result, "system_mass_kg", "effective_mass_kg"),
         facts(result.frequency, "speed_hz", "natural_frequencies_hz", "region", "finite_mass_gap"),
+        facts(result, "idle_speed_rpm"),
         Paragraph(_stability(result.frequency)),
         Paragraph(_hanging(result)),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
@@ -220,7 +223,7 @@ def _scene(scene: SimulatedScene) -> list[Block]:
     cost, angles = scene.cost, ", ".join(f"{angle:.1f}°" for angle in scene.final.ball_angles_deg)
     work = f"{cost.integrator}, tolerance {cost.tolerance:g}, {cost.evaluations} evaluations"
     others = tuple(
-        (f"settling at a drag of {other.drag_per_s:g} 1/s", "about", value_of(other, "settling_time_s"))
+        (f"settling at a drag of {other.drag_per_s:g} 1/s, slower side", "", value_of(other, "settling_time_s"))
         for other in scene.settling_estimates or ()
         if other.settling_time_s is not None
     )

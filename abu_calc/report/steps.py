@@ -33,6 +33,8 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.frequency:zones",
             "sizing.frequency:finite_mass_gap",
             "formulas.suspension:natural_frequency",
+            "formulas.motor:idle_speed",
+            "formulas.motor:working_speed",
             "formulas.hanging:resonance_drag",
             "formulas.hanging:side_by_side",
             "formulas.hanging:damped_drag",

@@ -61,25 +61,31 @@ RESTITUTION = 0.5
 WORST = math.pi
 """Where the race's centre stands, from the imbalance: there it asks for M Δ more of the balls, as sizing takes it."""
 
+LAGS = 3.0
+"""Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
+
 TIME_CONSTANTS = 5.0
-"""Of a motor, after which its speed is within 1 % of the last."""
+"""After so many time constants the speed of a motor is within 1 % of its idle speed."""
 
 
-def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched") -> Scene:
+def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched", race_centre: float = WORST) -> Scene:
     """One scene of a machine, with every effect its file has data for.
 
     `idle`: at full speed, the axis at rest at its place, the balls as in `STARTS`, the mass that which is felt in
     the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
-    contact is that of a face, which does not press in the plane. `run-up`: from rest, by the motor where there is one.
-    `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the race's
-    eccentricity, the latter at its worst; on a horizontal spindle with gravity; a face wheel at work with transverse
-    motion, where its axial runout drives it. Left out: the motor at full speed, where it would change the speed. It
-    lasts seven decay times of what dies out last, within bounds.
+    contact is that of a face, which does not press in the plane. `run-up`: from rest; a motor brings it to its idle
+    speed. `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the
+    race's eccentricity, its centre at an angle [rad] from the imbalance; on a horizontal spindle with gravity; a face
+    wheel at work with transverse motion, where its axial runout drives it. Left out: the motor at full speed, where it
+    would change the speed. It lasts seven decay times of what dies out last, within bounds, and longer for balls that
+    have to take up the speed. An idle scene has the pause of its file.
     Raises InputError for a table that is missing, NotTrustworthyError for an arm that does not stand at the work.
     """
     _refuse_what_is_missing(design, which)
+    if which == "run-up" and design.case.idle_speed is not None:
+        design = replace(design, case=replace(design.case, speed=design.case.idle_speed))
     case, table = design.case, design.case.table
-    effects = tuple(_effects(design, which))
+    effects = tuple(_effects(design, which, race_centre))
     felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
     support: Support = _held(design)
     if table.swing_arm and which.startswith("swing-arm"):
@@ -105,7 +111,16 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         start_velocity=(0.0,) * len(support.names),
         effects=effects,
     )
-    return replace(scene, duration=settling + running_up(design)) if which == "run-up" else placed(scene)
+    longer = taking_up(design) if (which, start) == ("idle", "standstill") else 0.0
+    scene = replace(scene, duration=settling + scene.full_speed + longer)
+    return scene if which == "run-up" else placed(scene)
+
+
+def taking_up(design: Design) -> float:
+    """Time [s] in which balls that stand still take up the speed of the race: at most the settling time permitted."""
+    case = design.case
+    longest = case.table.limits.settling_time_s
+    return min(LAGS * case.inertia_factor / case.drag, longest) if case.drag else longest
 
 
 def grinding_without(design: Design) -> Scene:
@@ -204,14 +219,16 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
     return tuple(middle + (2 * k - count + 1) * beta for k in range(count))
 
 
-def _effects(design: Design, which: str) -> Iterator[Effect]:
+def _effects(design: Design, which: str, race_centre: float) -> Iterator[Effect]:
     """All that the file has data for, in the order of the registry."""
     case, table, radius = design.case, design.case.table, design.autobalancer.ball_diameter / 2
     if which == "run-up" and table.run_up:
-        yield guided(design, table.run_up.time_s)
+        yield guided(design, table.run_up.time_s) if table.motor is None else RunUp(running_up(design))
         if table.motor:
             yield _motor(table.motor)
-    yield RaceEccentricity(case.race_eccentricity, WORST)
+    if which == "idle" and (pace := guided(design, 0.0)).at_speed:
+        yield pace
+    yield RaceEccentricity(case.race_eccentricity, race_centre)
     yield from _across(design) if which == "grinding" else ()
     if table.machine.spindle_axis == "horizontal":
         yield Gravity()
@@ -261,13 +278,15 @@ def guided(design: Design, up: float) -> RunUp:
 
 
 def running_up(design: Design) -> float:
-    """Time [s] from rest to full speed for good; that of a motor is five of its time constants J Ω₀/M."""
+    """Time [s] from rest to full speed for good; that of a motor is five of its time constants J Ω₀/M.
+
+    A motor takes its own time, whatever [run_up] gives.
+    """
     table = design.case.table
-    given = table.run_up.time_s if table.run_up else 0.0
     if table.motor is None:
-        return guided(design, given).at_speed
+        return guided(design, table.run_up.time_s if table.run_up else 0.0).at_speed
     motor = _motor(table.motor)
-    return max(given, TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque)
+    return TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque
 
 
 def _motor(table: MotorTable) -> "Motor":

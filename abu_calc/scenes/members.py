@@ -4,11 +4,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.effects.run_up import RunUp as RunUpEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
-from abu_calc.scenes.from_design import Start, guided, running_up, scene_of_design
+from abu_calc.scenes.from_design import Start, running_up, scene_of_design, taking_up
+from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track
 from abu_calc.spec.duty import RunUp
@@ -27,16 +26,13 @@ OPPOSITE, ALIKE = math.pi, math.tau
 balls settle latest and friction leaves the loudest arrangements. A whole turn, since equations without an angle would
 be made and compiled once more."""
 
-LAGS = 3.0
-"""Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
-
 
 @dataclass(frozen=True)
 class Member:
     """One start: where from, the drag h₀ [1/s], and the time [s] from standstill to full speed, 0 at full speed.
 
     `eccentricity`: where the centre of the race stands, from the imbalance [rad]; `speed`: the full one [rad/s] where
-    it is not the rated one.
+    it is not the rated one; `by_motor`: the motor's torque runs it up, to its idle speed.
     """
 
     start: Start
@@ -44,10 +40,18 @@ class Member:
     run_up: float = 0.0
     eccentricity: float = OPPOSITE
     speed: float | None = None
+    by_motor: bool = False
+
+    @property
+    def race_centre_deg(self) -> float:
+        """Angle of the race's centre from the imbalance [deg], from 0 to 360."""
+        return round(from_si(self.eccentricity, "deg"), 9) % 360
 
     @property
     def way(self) -> str:
         """In words, without a speed."""
+        if self.by_motor:
+            return "run-up by the motor"
         return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
 
     @property
@@ -60,61 +64,52 @@ def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = D
     """All that are simulated, at these shares of the drag given; at that itself with the race off to either side.
 
     Below the drag `doubtful` [1/s] balls might hang, so that a slow run-up is tried, too. A speed range has its ends
-    tried after the rated speed: at the lowest balls hang first and settle latest, at the highest they are loudest.
+    tried after the rated speed: at the lowest balls hang first and settle latest, at the highest they are loudest. A
+    motor runs up to its idle speed alone.
     """
-    case, given = design.case, design.case.table.run_up
-    usual = given.time_s if given else RUN_UP
+    case, usual = design.case, usual_run_up(design)
     ends = (end for end in dict.fromkeys(case.speed_range) if not math.isclose(end, case.speed))
     for speed in (None, *ends):
         for drag in dict.fromkeys(share * case.drag for share in shares):
             both = speed is None and drag == case.drag and case.race_eccentricity > 0
             for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
                 yield from (Member(start, drag, 0.0, angle, speed=speed) for start in STARTS)
-                yield Member("bunched", drag, usual, angle, speed=speed)
-                if drag < doubtful and usual < SLOW:
+                if not usual.by_motor or speed is None:
+                    yield replace(usual, drag=drag, eccentricity=angle, speed=usual.speed or speed)
+                if drag < doubtful and usual.run_up < SLOW:
                     yield Member("bunched", drag, SLOW, angle, speed=speed)
 
 
+def usual_run_up(design: Design) -> Member:
+    """The run-up of the file: by its motor to the idle speed, or guided to the rated speed; 1 s if it gives neither."""
+    case, given = design.case, design.case.table.run_up
+    if case.idle_speed is not None:
+        return Member("bunched", case.drag, running_up(design), speed=idle_speed(case), by_motor=True)
+    return Member("bunched", case.drag, given.time_s if given else RUN_UP)
+
+
+def idle_speed(case: Case) -> float | None:
+    """The speed [rad/s] at which the motor idles; None without a motor, or if it is the rated speed."""
+    idle = case.idle_speed
+    return None if idle is None or math.isclose(idle, case.speed, rel_tol=EQUAL_SPEEDS) else idle
+
+
 def scene_of_member(design: Design, member: Member) -> Scene:
-    """The idle scene of a machine started so, with every effect its file has data for.
-
-    Long enough for balls that stand still to take up the speed, beside what the scene lasts in any case.
-    """
+    """The idle scene of a machine started so, with every effect its file has data for."""
     own = _with(design, member)
-    scene = scene_of_design(own, "run-up" if member.run_up else "idle", member.start)
-    turned = (replace(one, angle=member.eccentricity) if isinstance(one, RaceEccentricity) else one
-              for one in scene.effects)  # fmt: skip
-    scene = replace(scene, effects=tuple(turned))
     if not member.run_up:
-        scene = _paused(scene, guided(own, 0.0))
-        if member.start != "standstill":
-            return scene
-    longest = own.case.table.limits.settling_time_s
-    lag = LAGS * own.case.inertia_factor / member.drag if member.drag else longest
-    return replace(scene, duration=scene.duration + min(lag, longest))
-
-
-def full_speed_at(design: Design, member: Member) -> float:
-    """When a member is at full speed for good [s]; a motor sets its own pace."""
-    own = _with(design, member)
-    return running_up(own) if member.run_up else guided(own, 0.0).at_speed
-
-
-def _paused(scene: Scene, pace: RunUpEffect) -> Scene:
-    """A scene at full speed with the pause of its file, if there is one; longer by that."""
-    if not pace.at_speed:
-        return scene
-    return replace(scene, effects=(pace, *scene.effects), duration=scene.duration + pace.at_speed)
+        return scene_of_design(own, "idle", member.start, member.eccentricity)
+    scene = scene_of_design(own, "run-up", member.start, member.eccentricity)
+    return replace(scene, duration=scene.duration + taking_up(own))
 
 
 def _with(design: Design, member: Member) -> Design:
     """The design with the drag, the speed and the run-up of a member."""
     case, given = design.case, design.case.table.run_up
-    table, usual, speed = case.table, given.time_s if given else RUN_UP, member.speed or case.speed
-    if member.run_up and (given is None or member.run_up != usual or speed != case.speed):
-        # A slow run-up is a guided one, and one to another speed: a motor would set its own pace.
-        motor = table.motor if (member.run_up, speed) == (usual, case.speed) else None
-        slow = (given or RunUp()).model_copy(update={"time_s": member.run_up})
-        table = table.model_copy(update={"run_up": slow, "motor": motor})
-    case = replace(case, drag=member.drag, speed=speed, table=table)
+    table = case.table
+    if member.run_up:
+        run_up = (given or RunUp()).model_copy(update={"time_s": member.run_up})
+        table = table.model_copy(update={"run_up": run_up, "motor": table.motor if member.by_motor else None})
+    idle = case.idle_speed if member.by_motor else None
+    case = replace(case, drag=member.drag, speed=member.speed or case.speed, idle_speed=idle, table=table)
     return replace(design, case=case, track=track(case, design.autobalancer, design.frequency.natural_frequencies))

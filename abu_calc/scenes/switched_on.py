@@ -8,7 +8,7 @@ from typing import Final
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import AHEAD
-from abu_calc.scenes.members import OPPOSITE, RUN_UP, Member, scene_of_member
+from abu_calc.scenes.members import OPPOSITE, Member, idle_speed, scene_of_member, usual_run_up
 from abu_calc.sizing.design import Design
 
 KINDS: Final = ("bunched", "spread", "standstill", "run-up")
@@ -27,10 +27,10 @@ class SwitchedOn:
 
     def member(self, design: Design) -> Member:
         """The same as one of those that every design is tried with."""
-        given = design.case.table.run_up
-        up = (given.time_s if given else RUN_UP) if self.kind == "run-up" else 0.0
-        start = "bunched" if self.kind == "run-up" else next(one for one in KINDS if one == self.kind)
-        return Member(start, design.case.drag, up, self.eccentricity)  # type: ignore[arg-type]
+        if self.kind == "run-up":
+            return replace(usual_run_up(design), eccentricity=self.eccentricity)
+        start = next(kind for kind in KINDS if kind == self.kind)
+        return Member(start, design.case.drag, 0.0, self.eccentricity, idle_speed(design.case))  # type: ignore[arg-type]
 
 
 def scene_switched_on(design: Design, start: SwitchedOn, lighter: Sequence[float] = ()) -> Scene:

@@ -6,8 +6,9 @@ Steps that few files ask for (bearing seats, swing arm) are imported when they a
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from abu_calc.checks import Check
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
-from abu_calc.sizing.balls import Candidate, Choice, choose
+from abu_calc.sizing.balls import Candidate, Choice, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing import drawing
@@ -34,7 +35,7 @@ def size(machine: MachineFile) -> Design:
     """
     case = read_case(machine)
     imbalance = find_imbalance(case)
-    return _designed(case, imbalance, choose(case, imbalance.value))
+    return _designed(case, imbalance, choose_for_motor(case, imbalance.value))
 
 
 def instead(design: Design, one: Candidate, why: str) -> Design:
@@ -57,6 +58,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
     advice = drawing(case, best, race)
     checks = (
         frequency.check,
+        *_motor(case),
         *candidate_checks(case, imbalance.value, best),
         *track_checks(case, imbalance.value, best, race),
         *vibration_checks(case, imbalance.value, best, idle, levels, worst),
@@ -69,6 +71,14 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
         case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, seats, arm, advice, checks,
         warnings,
     )  # fmt: skip
+
+
+def _motor(case: Case) -> tuple[Check, ...]:
+    if case.idle_speed is None:
+        return ()
+    from abu_calc.sizing.motor import motor_checks
+
+    return motor_checks(case)
 
 
 def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":

@@ -1,6 +1,7 @@
 """Step 5: which balls, how many, on which race radius."""
 
 from bisect import bisect_left
+from dataclasses import replace
 
 from abu_calc.formula import formula
 from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
@@ -14,7 +15,7 @@ from abu_calc.sizing.budget import (
     permitted_displacement,
 )
 from abu_calc.sizing.capacity import Requirement, required_capacity
-from abu_calc.sizing.case import Case
+from abu_calc.sizing.case import Case, working_speeds
 from abu_calc.sizing.housing import Housing, housing
 from abu_calc.sizing.pins import ball_counts, ball_diameters, impossible, race_radii
 from abu_calc.sizing.roundness import Roundness, roundness
@@ -95,6 +96,28 @@ def choose(case: Case, imbalance: float) -> Choice:
     picked = sorted(others, key=lambda one: id(one) not in first)[:RUNNERS_UP]
     picked.sort(key=lambda one: _rank(case, one))
     return Choice(best, tuple((one, _why_not(case, one, best)) for one in picked), len(found))
+
+
+def choose_for_motor(case: Case, imbalance: float) -> Choice:
+    """The choice for all speeds judged, or, if none of these candidates is sound, that for the working speeds alone.
+
+    A motor may idle so far above the working speeds that no candidate holds there. Then the one that holds at the
+    working speeds is judged at the idle speed, so that its checks name what fails only there.
+    """
+    choice, working = choose(case, imbalance), working_speeds(case.table)
+    if case.speed_range == working or sound(case, choice.best):
+        return choice
+    rated = replace(case, speed_range=working)
+    other = choose(rated, imbalance)
+    if not sound(rated, other.best):
+        return choice
+
+    def judged(one: Candidate) -> Candidate:
+        return evaluate(case, imbalance, one.ball_count, one.ball_diameter, one.race_radius)
+
+    best = judged(other.best)
+    others = [judged(one) for one, _ in other.runners_up]
+    return Choice(best, tuple((one, _why_not(case, one, best)) for one in others), choice.examined + other.examined)
 
 
 def candidates(case: Case, imbalance: float) -> list[Candidate]:

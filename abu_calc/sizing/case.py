@@ -1,15 +1,18 @@
 """A machine file in SI. Elsewhere sizing asks the tables only which of several ways people have chosen."""
 
-from typing import Literal
+from typing import Final, Literal
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import INERTIA_FACTORS
 from abu_calc.formulas.suspension import Hands, Springs, Suspension
 from abu_calc.frozen import dataclass
 from abu_calc.sizing.body import Body
-from abu_calc.spec.machine import Autobalancer, Grinding, MachineFile
+from abu_calc.spec.machine import Autobalancer, Grinding, MachineFile, Motor
 from abu_calc.standards.hands import hand
 from abu_calc.units import to_si
+
+EQUAL_SPEEDS: Final = 1e-3
+"""Relative difference of two speeds that counts as none: 0.01 dB of a level, 0.2 % of a stress."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,7 @@ class Case:
     suspension: Suspension
     speed: float
     speed_range: tuple[float, float]
+    """Lowest and highest speed judged [rad/s]: the working speeds of the file, and the motor's idle speed."""
     runout: float
     contact: Contact | None
     handles: tuple[Handle, ...]
@@ -55,6 +59,8 @@ class Case:
     """Highest permitted velocity level [dB]."""
     background_level: float | None
     """Velocity level with a balanced wheel [dB]; None: not given."""
+    idle_speed: float | None = None
+    """Speed [rad/s] at which the motor's torque equals what the settled machine takes; None: no motor is given."""
 
     @property
     def race_place(self) -> float:
@@ -78,20 +84,21 @@ def read_case(machine: MachineFile) -> Case:
             place=Place(key="autobalancer.max_outer_diameter_mm"),
             remedy="Add a table [autobalancer] with max_outer_diameter_mm and max_width_mm.",
         )
-    body = _body(machine)
-    low, high = top.speed_range
+    body, eccentricity = _body(machine), to_si(abu.race_eccentricity_mm, "mm")
+    suspension = _suspension(machine, body.effective_mass())
+    idle = _idle_speed(machine.motor, suspension, eccentricity)
     return Case(
         table=machine,
         autobalancer=abu,
         machine_mass=top.mass_kg,
         body=body,
-        suspension=_suspension(machine, body.effective_mass()),
+        suspension=suspension,
         speed=to_si(top.speed_rpm, "rpm"),
-        speed_range=(to_si(low, "rpm"), to_si(high, "rpm")),
+        speed_range=_judged_range(working_speeds(machine), idle),
         runout=to_si(machine.wheel.runout, "mm"),
         contact=_contact(machine.grinding),
         handles=tuple(Handle(h.name, to_si(h.from_center_of_mass_mm, "mm")) for h in top.handle),
-        race_eccentricity=to_si(abu.race_eccentricity_mm, "mm"),
+        race_eccentricity=eccentricity,
         drag=abu.rolling_drag_per_s,
         friction_arm=to_si(abu.rolling_friction_mm, "mm"),
         inertia_factor=INERTIA_FACTORS[abu.corrector],
@@ -99,7 +106,34 @@ def read_case(machine: MachineFile) -> Case:
         wheel_radius=to_si(machine.wheel.diameter_mm, "mm") / 2,
         level_limit=machine.limits.vibration_level_db,
         background_level=top.background_level_db,
+        idle_speed=idle,
     )
+
+
+def working_speeds(machine: MachineFile) -> tuple[float, float]:
+    """Lowest and highest working speed [rad/s] that the file gives."""
+    low, high = machine.machine.speed_range
+    return to_si(low, "rpm"), to_si(high, "rpm")
+
+
+def _judged_range(working: tuple[float, float], idle: float | None) -> tuple[float, float]:
+    """The working speeds, extended to the idle speed [rad/s] if that lies outside by more than `EQUAL_SPEEDS`."""
+    low, high = working
+    if idle is None or low * (1 - EQUAL_SPEEDS) <= idle <= high * (1 + EQUAL_SPEEDS):
+        return working
+    return min(low, idle), max(high, idle)
+
+
+def _idle_speed(motor: Motor | None, suspension: Suspension, displacement: float) -> float | None:
+    """The idle speed [rad/s] of a machine whose settled balls leave a displacement [m]; None without a motor."""
+    if motor is None:
+        return None
+    from abu_calc.formulas.motor import idle_speed
+
+    def reaction(speed: float) -> complex:
+        return suspension.reaction(0, speed) + suspension.reaction(1, speed)
+
+    return idle_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), displacement, reaction)
 
 
 def _body(machine: MachineFile) -> Body:

@@ -70,7 +70,8 @@ class RunUp(Table):
 
     time_s: float = Field(
         default=1.0,
-        description="Time from standstill to the rated speed [s]; {range}. Default: {default}, assumed.",
+        description="Time from standstill to the rated speed [s]; {range}. A motor takes its own time. Default: "
+        "{default}, assumed.",
         gt=0,
         le=3600,
         json_schema_extra=usual(0.05, 30),
@@ -130,7 +131,8 @@ class Motor(Table):
     no_load_speed_rpm: float = Field(
         default=6000.0,
         description="Speed of the spindle at which the torque is zero [rpm]; {range}, not below machine.speed_rpm. "
-        "Default: {default}, an example.",
+        "Levels, stresses and stability are judged at the idle speed that follows from it, too. Default: {default}, "
+        "an example.",
         ge=1,
         le=300_000,
         json_schema_extra=usual(700, 80_000),

@@ -70,7 +70,7 @@ class MachineFile(Table):
         """An autobalancer larger than the wheel, a rim faster than wheels bear."""
         if self.autobalancer is not None:
             yield from larger_than_its_wheel(self.autobalancer, self.wheel)
-        yield from rim_too_fast(self.machine, self.wheel)
+        yield from rim_too_fast(self.machine, self.wheel, self.motor)
 
     @model_validator(mode="after")
     def _measured_at_a_handle(self) -> Self:

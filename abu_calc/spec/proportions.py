@@ -10,6 +10,7 @@ from abu_calc.validity import bounded
 if TYPE_CHECKING:
     from abu_calc.spec.autobalancer import Autobalancer
     from abu_calc.spec.body import MachineTable
+    from abu_calc.spec.duty import Motor
     from abu_calc.spec.wheel import Wheel
 
 FASTEST_RIM: Final = 160.0
@@ -35,14 +36,19 @@ def larger_than_its_wheel(abu: "Autobalancer", wheel: "Wheel") -> Iterator[tuple
     )
 
 
-def rim_too_fast(machine: "MachineTable", wheel: "Wheel") -> Iterator[tuple[tuple[str, ...], str]]:
-    """A rim that runs faster than wheels bear."""
-    rim = to_si(machine.speed_range[1], "rpm") * to_si(wheel.diameter_mm, "mm") / 2
+def rim_too_fast(
+    machine: "MachineTable", wheel: "Wheel", motor: "Motor | None"
+) -> Iterator[tuple[tuple[str, ...], str]]:
+    """A rim that runs faster than wheels bear, at the highest working speed or at the motor's no-load speed."""
+    key = "speed_rpm" if machine.speed_range_rpm is None else "speed_range_rpm"
+    path, speed = ("machine", key), machine.speed_range[1]
+    if motor is not None and motor.no_load_speed_rpm > speed:
+        path, speed = ("motor", "no_load_speed_rpm"), motor.no_load_speed_rpm
+    rim = to_si(speed, "rpm") * to_si(wheel.diameter_mm, "mm") / 2
     if rim <= FASTEST_RIM:
         return
-    key = "speed_rpm" if machine.speed_range_rpm is None else "speed_range_rpm"
     yield (
-        ("machine", key),
+        path,
         f"is unusual with wheel.diameter_mm = {bounded(wheel.diameter_mm)}: the rim would run at {rim:.0f} m/s, up to "
         f"{FASTEST_RIM:g} m/s is usual.",
     )

@@ -1,6 +1,7 @@
 """What many starts of one design showed, as results hold it."""
 
 from collections.abc import Callable
+from operator import attrgetter
 from typing import Annotated, Self
 
 from abu_calc.analysis.outcomes import Ensemble, Outcome
@@ -31,34 +32,44 @@ class WorstMember(Record):
     drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
     run_up_s: Annotated[float | None, Quantity("run-up", "", 3)]
     speed_rpm: Annotated[float | None, Quantity("speed", "", 6)]
+    race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
     @classmethod
     def of(cls, one: Outcome) -> Self:
         """A start at full speed has no run-up."""
         speed = None if one.member.speed is None else from_si(one.member.speed, "rpm")
         return cls(
-            start=one.member.way, drag_per_s=one.member.drag, run_up_s=one.member.run_up or None, speed_rpm=speed
-        )
+            start=one.member.way, drag_per_s=one.member.drag, run_up_s=one.member.run_up or None, speed_rpm=speed,
+            race_centre_deg=one.member.race_centre_deg,
+        )  # fmt: skip
 
 
 @record
 class SettlingOfStart(Record):
-    """How long balls take from one kind of start at one drag: the slower of a race off to either side; None: never."""
+    """Settling time of one kind of start at one drag, from full speed: with the race off to the slower side.
+
+    `race_centre_deg`: that side, the angle of the race's centre from the imbalance. None: it never settles.
+    """
 
     start: Annotated[str, Quantity("start")]
     drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
     settling_time_s: Annotated[float | None, Quantity("settling time", "t_s", 3)]
+    race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
     @classmethod
     def all_of(cls, ensemble: Ensemble) -> tuple[Self, ...]:
         """Each kind of start at each drag, in the order in which they ran."""
-        slowest: dict[tuple[str, float], float] = {}
-        for one in ensemble.outcomes:
-            key = one.member.name, one.member.drag
-            slowest[key] = max(one.time, slowest.get(key, 0.0))
+        slowest: dict[tuple[str, float], Outcome] = {}
+        for outcome in ensemble.outcomes:
+            key = outcome.member.name, outcome.member.drag
+            slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("time"))
         return tuple(
-            cls(start=start, drag_per_s=drag, settling_time_s=finite(time)) for (start, drag), time in slowest.items()
-        )
+            cls(
+                start=start, drag_per_s=drag, settling_time_s=finite(outcome.time),
+                race_centre_deg=outcome.member.race_centre_deg,
+            )
+            for (start, drag), outcome in slowest.items()
+        )  # fmt: skip
 
 
 @record

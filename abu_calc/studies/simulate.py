@@ -64,6 +64,7 @@ def simulate(
     scene: str | None = None,
     start: str | None = None,
     *,
+    race_centre_deg: float | None = None,
     accuracy: float = 0.01,
     duration_s: float | None = None,
     with_effects: Sequence[str] = (),
@@ -76,7 +77,8 @@ def simulate(
 ) -> SimulateResult:
     """Integrate one scene to `accuracy`: of amplitude and settling time relative, of ball angles in rad.
 
-    `scene` and `start` choose among those of a machine (idle; balls bunched). The effects there is data for are in as
+    `scene` and `start` choose among those of a machine (idle; balls bunched), `race_centre_deg` the side to which its
+    race is off (180 from the imbalance). The effects there is data for are in as
     far as their weights ask for it, and as `with_effects` and `without_effects` say; with `audit` all of them once
     more. `samples`: equally spaced times to keep the motion at. `most_evaluations` bounds the work, see WORK: by
     counting before it begins, and while it goes on. Raises InputError for what is wrong in file or arguments,
@@ -86,7 +88,7 @@ def simulate(
     EVALUATIONS.check(1 if most_evaluations is None else most_evaluations)
     refuse_removed(integrator)
     one_of("integrator", integrator, WANTED)
-    subject = subject_of(source, scene, start).lasting(duration_s)
+    subject = subject_of(source, scene, start, race_centre_deg=race_centre_deg).lasting(duration_s)
     times = equally_spaced(subject.scene, samples)
     ledger = subject.ledger(accuracy, with_effects, without_effects)
     try:

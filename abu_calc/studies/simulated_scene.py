@@ -137,7 +137,7 @@ class SimulatedLevel(Record):
 
 @record
 class SettlingEstimate(Record):
-    """Settling at another drag: the simulated time, scaled by the rates of the slow motion."""
+    """Settling at another drag: that of the same start in the ensemble, the slower of both sides of the race."""
 
     drag_per_s: Annotated[float, Quantity("rolling drag", "h₀", 3)]
     settling_time_s: Annotated[float | None, Quantity("settling time", "", 3)]
@@ -147,11 +147,15 @@ class SettlingEstimate(Record):
 class SimulatedScene(Record):
     """One scene: how it ended, when it settled, what was left out, what it cost, how far it may be off."""
 
-    optional: ClassVar[frozenset[str]] = frozenset({"bearing_amplitudes_mm", "settling_estimates", "audit"})
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"bearing_amplitudes_mm", "full_speed_s", "settling_estimates", "audit"}
+    )
 
     scene: Annotated[str, Quantity("scene")]
     duration_s: Annotated[float, Quantity("simulated time", "", 3)]
-    settling_time_s: Annotated[float | None, Quantity("settling time", "", 3, "None if later than 95 % of the run")]
+    settling_time_s: Annotated[
+        float | None, Quantity("settling time", "", 3, "from full speed; None if later than 95 % of the run")
+    ]
     residual_imbalance_g_mm: Annotated[float, Quantity("imbalance left", "", 3, "|m₀e + Σ m·R_p·e^{iθ}| at the end")]
     axis_amplitude_mm: Annotated[
         float, Quantity("axis amplitude 0–peak", "", 3, "largest √(x² + y²) about the mean place in the window")
@@ -169,6 +173,7 @@ class SimulatedScene(Record):
     rung: Annotated[str, Quantity("computed by", "", 4, "envelope: averaged slow motion; equations: of motion")]
     envelope: Envelope
     bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
+    full_speed_s: Annotated[float | None, Quantity("full speed reached after", "", 3, "None: at the start")] = None
     settling_estimates: tuple[SettlingEstimate, ...] | None = None
     audit: Audit | None = None
 
@@ -200,6 +205,7 @@ class SimulatedScene(Record):
             rung=simulation.rung,
             envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),
             bearing_amplitudes_mm=bearings or None,
+            full_speed_s=response.full_speed or None,
             settling_estimates=settling_estimates,
             audit=None if audit is None else Audit.of(audit),
         )

@@ -9,6 +9,7 @@ from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels, work_of
 from abu_calc.analysis.machine import Failure, Run, simulated
 from abu_calc.analysis.one_run import loudest
+from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.proven import Proven, proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
@@ -29,7 +30,7 @@ from abu_calc.studies.design_records import (
     Frequency,
     Vibration,
 )
-from abu_calc.studies.ensemble_records import EnsembleResult
+from abu_calc.studies.ensemble_records import EnsembleResult, SettlingOfStart
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.rotor_view import RotorView
@@ -46,18 +47,23 @@ if TYPE_CHECKING:
     from abu_calc.analysis.arm import ArmJudgement
 
 
+IDLE_START: Final = "bunched"
+"""Start of the idle scene."""
+
+
 @record
 class SizeResult(Result):
     """A design that can be made, its checks, and a simulation that shows it works."""
 
     command: ClassVar[str] = "size"
-    optional: ClassVar[frozenset[str]] = frozenset({"measured_after", "arm_motion"})
+    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion"})
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
     effective_mass_kg: Annotated[float, Quantity("mass felt at the wheel", "m_eff")]
     frequency: Frequency
+    idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
     required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
     required_capacity_limit_g_mm: Annotated[float, Quantity("as printed in the source", "m₀e + Mε")]
@@ -128,6 +134,7 @@ def size(
         system_mass_kg=design.system_mass,
         effective_mass_kg=need.effective_mass,
         frequency=Frequency.of(design, region),
+        idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
         imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
         required_capacity_g_mm=from_si(need.required, "g_mm"),
         required_capacity_limit_g_mm=from_si(need.printed_limit, "g_mm"),
@@ -145,7 +152,9 @@ def size(
             compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
         ),
         ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
-        simulation=tuple(SimulatedScene.of(run.simulation, run.ledger, _other_drags(design, run)) for run in runs),
+        simulation=tuple(
+            SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
+        ),
         fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
         swing_arm=None if arm is None else SwingArm.of(arm),
         arm_motion=moved,
@@ -245,15 +254,12 @@ def _on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Pro
     return () if check is None else (check,)
 
 
-def _other_drags(design: Design, run: Run) -> tuple[SettlingEstimate, ...] | None:
-    """Settling of the idle scene at a third and at three times the drag."""
-    if run.ledger.scene.name != "idle":
+def _other_drags(ensemble: Ensemble | None, run: Run) -> tuple[SettlingEstimate, ...] | None:
+    """Settling of the idle scene's start at the other drags of the ensemble; None for other scenes, or without one."""
+    if run.ledger.scene.name != "idle" or ensemble is None:
         return None
-    (_, rate), *others = design.track.decay_rates
-    time = run.simulation.response.settling_time
     return tuple(
-        SettlingEstimate(
-            drag_per_s=drag, settling_time_s=time * rate / other if time and other > 0 and rate > 0 else None
-        )
-        for drag, other in others
+        SettlingEstimate(drag_per_s=row.drag_per_s, settling_time_s=row.settling_time_s)
+        for row in SettlingOfStart.all_of(ensemble)
+        if row.start == IDLE_START and row.drag_per_s != ensemble.drag
     )

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
+from typing import Final
 
 from abu_calc.analysis.ledger import Ledger, chosen
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import InputError, Place
 from abu_calc.frozen import dataclass
 from abu_calc.scenes.durations import lasting
-from abu_calc.scenes.from_design import SCENES, STARTS, contact_half_angle, scene_of_design
+from abu_calc.scenes.from_design import SCENES, STARTS, WORST, contact_half_angle, scene_of_design
 from abu_calc.scenes.from_scene import scene_from
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
@@ -22,6 +23,10 @@ from abu_calc.spec.read import Machine
 from abu_calc.spec.read_scene import SceneDescription
 from abu_calc.studies.arguments import check_effects, one_of
 from abu_calc.studies.result import Provenance
+from abu_calc.units import from_si, to_si
+from abu_calc.validity import Range
+
+RACE_CENTRE: Final = Range("angle of the race's centre from the imbalance", -360, 360, "deg", key="race_centre_deg")
 
 Source = Machine | SceneDescription | Scene
 """A machine's file, a scene file, or a scene in SI."""
@@ -67,39 +72,43 @@ class Subject:
 
 
 def subject_of(
-    source: Source, scene: str | None = None, start: str | None = None, *, command: str = "simulate"
-) -> Subject:
+    source: Source, scene: str | None = None, start: str | None = None, *, race_centre_deg: float | None = None,
+    command: str = "simulate",
+) -> Subject:  # fmt: skip
     """What a source is about; which scene (by default `idle`) and how the balls start are asked of machines only.
 
+    `race_centre_deg`: angle of the race's centre from the imbalance, of machines only, by default 180.
     `command`: the study that asks, as its command is called.
     """
     one_of("scene", scene, SCENES)
     one_of("start", start, STARTS)
     if isinstance(source, Machine):
-        return _of_machine(source, scene or "idle", start or "bunched", command)
+        centre = WORST if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
+        return _of_machine(source, scene or "idle", start or "bunched", centre, command)
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
-    for argument, value in (("scene", scene), ("start", start)):
+    for argument, value in (("scene", scene), ("start", start), ("race_centre_deg", race_centre_deg)):
         if value is not None:
             raise InputError(
                 f"for machines only; {subject.title} is one scene, given outright",
                 place=Place(key=argument),
-                found=value,
+                found=str(value),
                 remedy="Leave it out.",
             )
     return subject
 
 
-def _of_machine(machine: Machine, scene: str, start: str, command: str) -> Subject:
+def _of_machine(machine: Machine, scene: str, start: str, race_centre: float, command: str) -> Subject:
     tables = machine.whole(command)
     chosen_start = next(each for each in STARTS if each == start)
     with machine.located():
         design = size(tables)
-        full = scene_of_design(design, scene, chosen_start)
+        full = scene_of_design(design, scene, chosen_start, race_centre)
+    off = f"; centre of the race {from_si(race_centre, 'deg'):.4g}° from the imbalance"
     return Subject(
         title=tables.machine.name,
         reading=machine,
         scene=full,
-        start=STARTS[chosen_start],
+        start=STARTS[chosen_start] + (off if design.case.race_eccentricity else ""),
         half_angle=contact_half_angle(design),
         warnings=(*machine.warnings, *design.warnings),
         design=design,

@@ -48,8 +48,9 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
 def _numbers(result: SimulateResult) -> tuple[str, ...]:
     """What settling and accuracy come to."""
     settled = result.settling_time_s
+    since = "" if result.full_speed_s is None else f", from full speed at {number(result.full_speed_s)} s"
     return (
-        f"settling time: {'none' if settled is None else f'{number(settled)} s'}, imbalance left "
+        f"settling time{since}: {'none' if settled is None else f'{number(settled)} s'}, imbalance left "
         f"{number(result.residual_imbalance_g_mm)} g·mm",
         f"error estimate {number(result.error_estimate, 2)}, by {result.cost.integrator} at tolerance "
         f"{result.cost.tolerance:g}",

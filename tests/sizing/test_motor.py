@@ -1,0 +1,120 @@
+"""A machine with a motor idles where torque and losses agree, and is judged there."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import abu_calc
+from abu_calc.analysis.simulate import simulate
+from abu_calc.scenes.from_design import TIME_CONSTANTS, running_up, scene_of_design
+from abu_calc.scenes.members import members
+from abu_calc.sizing import size
+from abu_calc.sizing.case import read_case
+from abu_calc.units import from_si, to_si
+from tests.sizing.machines import machine
+
+MACHINES = Path(__file__).resolve().parents[1] / "machines"
+
+
+def with_motor(*, stall: float = 3.0, no_load: float = 6200.0, inertia: float = 1e-3, **changes: Any) -> Any:
+    motor = {"stall_torque_N_m": stall, "no_load_speed_rpm": no_load, "rotor_inertia_kg_m2": inertia}
+    return machine(motor=motor, run_up={"time_s": 1.0}, **changes)
+
+
+VARIETY = [
+    with_motor(),
+    with_motor(stall=0.5),
+    with_motor(stall=10.0, inertia=3e-3),
+    with_motor(no_load=5801.0),
+    with_motor(no_load=6600.0, wheel__imbalance_g_mm=400.0),
+    with_motor(suspension={"model": "hands"}),
+    with_motor(suspension={"model": "springs", "natural_frequencies_hz": [6.0], "damping_ratios": [0.6]}),
+    with_motor(autobalancer__race_eccentricity_mm=0.02, stall=0.4),
+    with_motor(machine__spindle_axis="vertical", machine__mass_kg=15.0),
+    with_motor(machine__speed_rpm=3000.0, no_load=3400.0, autobalancer__rolling_drag_per_s=30.0),
+    with_motor(machine__speed_rpm=9000.0, no_load=9700.0, inertia=3e-4),
+    with_motor(machine__speed_range_rpm=[5000.0, 6500.0]),
+]
+
+
+@pytest.mark.parametrize("table", VARIETY)
+def test_a_motor_settles_at_the_idle_speed(table: Any) -> None:
+    """The speed against an equation of its own, by the simulated amplitude, and against the simulation itself."""
+    design = size(table)
+    case, scene = design.case, scene_of_design(design, "run-up")
+    assert case.idle_speed is not None
+    time_constant = running_up(design) / TIME_CONSTANTS
+    run = simulate(replace(scene, duration=max(scene.duration, 16 * time_constant)), 0.1)
+    motor, swing, speed = table.motor, run.response.axis_amplitude, case.idle_speed
+    damping = sum(case.suspension.reaction(axis, speed).imag / speed for axis in (0, 1))
+    no_load = to_si(motor.no_load_speed_rpm, "rpm")
+    # Power c·|v|² of both axes over the speed: T (1 − Ω/Ω₀) = ½ c Ω w², here solved for Ω.
+    balance = motor.stall_torque_N_m / (motor.stall_torque_N_m / no_load + damping * swing**2 / 2)
+    assert run.response.final.speed == pytest.approx(balance, rel=1e-4)
+    assert speed == pytest.approx(balance, rel=5e-4)
+
+
+def test_the_refuted_machine_fails_at_its_idle_speed() -> None:
+    """It passed at 13993 rpm; at 15107 rpm the level is 109.2 dB and the race goes oval."""
+    result = abu_calc.size(abu_calc.read(MACHINES / "motor-no-load-speed.toml"))
+    checks = {check.code: check for check in result.checks}
+    assert result.idle_speed_rpm == pytest.approx(15107, abs=1)
+    assert {check.code for check in result.checks if check.status == "fail"} == {"ABU304", "ABU401"}
+    assert checks["ABU401"].value == pytest.approx(109.2, abs=0.05)
+    assert checks["ABU104"].status == "warn"
+    assert checks["ABU104"].value == result.idle_speed_rpm
+    assert checks["ABU104"].limit == 13993
+
+
+def test_the_speeds_judged_hold_the_idle_speed() -> None:
+    low, high = read_case(with_motor(no_load=6200.0)).speed_range
+    assert (from_si(low, "rpm"), from_si(high, "rpm")) == pytest.approx((5800, 6200), rel=1e-5)
+    assert read_case(with_motor(no_load=5801.0)).speed_range == read_case(machine()).speed_range
+    within = read_case(with_motor(machine__speed_range_rpm=[5000.0, 6500.0]))
+    assert within.speed_range == read_case(machine(machine__speed_range_rpm=[5000.0, 6500.0])).speed_range
+
+
+def test_losses_pull_the_idle_speed_below_the_rated_one() -> None:
+    """A weak motor, a damped suspension and an eccentric race: the file's speed is not reached."""
+    table = with_motor(
+        stall=0.1, no_load=5800.0, autobalancer__race_eccentricity_mm=0.5,
+        suspension={"model": "springs", "natural_frequencies_hz": [20.0], "damping_ratios": [0.5]},
+    )  # fmt: skip
+    case = read_case(table)
+    assert case.idle_speed is not None
+    assert case.idle_speed < 0.9 * case.speed
+    assert case.speed_range == (case.idle_speed, case.speed)
+    (check,) = (one for one in size(table).checks if one.code == "ABU104")
+    assert (check.status, check.bound, check.limit) == ("warn", "least", 5800)
+
+
+def test_a_motor_runs_up_to_one_speed_in_its_own_time() -> None:
+    design = size(with_motor())
+    by_motor = [member for member in members(design) if member.by_motor]
+    assert by_motor
+    assert {member.speed for member in by_motor} == {design.case.idle_speed}
+    assert {member.run_up for member in by_motor} == {running_up(design)}
+    assert not [member for member in members(design) if member.run_up and not member.by_motor]
+    slow = size(with_motor().model_copy(update={"run_up": with_motor().run_up.model_copy(update={"time_s": 10.0})}))
+    assert running_up(slow) == running_up(design) == pytest.approx(5e-3 * math.pi / 30 * 6200 / 3)
+
+
+def test_cutting_slows_a_motor_or_stops_it() -> None:
+    grinding = {"press_force_N": 45.0, "cutting_coefficient": 0.35, "contact": "face"}
+    torque = 45 * 0.35 * 0.075
+    (slowed,) = (one for one in size(with_motor(grinding=grinding)).checks if one.code == "ABU104")
+    assert f"slows it to {6200 * (1 - torque / 3):.0f} rpm" in slowed.message
+    (stopped,) = (one for one in size(with_motor(stall=1.0, no_load=5800.0, grinding=grinding)).checks
+                  if one.code == "ABU104")  # fmt: skip
+    assert stopped.status == "warn"
+    assert "the cutting torque stops it" in stopped.message
+
+
+def test_a_rim_too_fast_at_the_no_load_speed_is_told() -> None:
+    table = with_motor(machine__speed_rpm=9000.0, no_load=22000.0)
+    ((path, text),) = table.contradictions()
+    assert path == ("motor", "no_load_speed_rpm")
+    assert "173 m/s" in text
