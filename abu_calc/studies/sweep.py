@@ -75,6 +75,7 @@ def sweep(
     WORKERS.check(1 if workers is None else workers)
     hands = Hands(workers, executor, WAIT.check(cluster_wait_s))
     path = None if store is None else _path(store, resume, force)
+    hands.refuse_other_software()
     ask = asked(
         machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
         sampling=sampling, seed=seed, time_limit_s=time_limit_s,
