@@ -58,13 +58,17 @@ def heed_signals() -> None:
             signal.signal(number, _end)
 
 
-def leave_signals() -> None:
-    """The command is over: from now on signals end the process as the system does, without a word."""
-    _Pending.number = None
+def leave_signals() -> int | None:
+    """Leave signals to the system, which ends the process without a word: the command is over.
+
+    Return the number of a signal that arrived last and was not heeded; None if there was none.
+    """
     for name in ENDING:
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) is _end:
             signal.signal(number, signal.SIG_DFL)
+    last, _Pending.number = _Pending.number, None
+    return last
 
 
 def raise_pending() -> None:

@@ -6,11 +6,14 @@ import signal
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from abu_calc import interruption
 from abu_calc.analysis.time_limit import Overtime, limited
 from abu_calc.cli import app
 from abu_calc.interruption import EndedBySignal, heed_signals, leave_signals, raise_pending, status_of
@@ -115,6 +118,22 @@ def test_an_error_after_a_signal_is_told_as_the_signal(monkeypatch: pytest.Monke
     monkeypatch.setattr(app, "build", build)
     seen = abu("presets")
     assert seen.status == 143 and seen.err == "Interrupted; nothing was written.\n"
+
+
+@pytest.mark.usefixtures("heeding")
+def test_a_signal_during_the_last_import_gives_the_status(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The command is over before the signal is raised again."""
+    (tmp_path / "last.py").write_text("import signal\nsignal.raise_signal(signal.SIGTERM)\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(interruption, "AGAIN_S", 10.0)
+    monkeypatch.setattr(warnings, "showwarning", warnings.showwarning)
+    monkeypatch.setattr(app, "make_safe", lambda: SimpleNamespace(fault=None))
+    monkeypatch.setattr(app, "run", lambda _: 0 if importlib.import_module("last") else 1)
+    with pytest.raises(SystemExit) as ended:
+        app.main(["presets"])
+    assert ended.value.code == 143 and "Interrupted at the end" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("error", [ImportError("libscipy.so: failed to map segment"), MemoryError()])

@@ -109,7 +109,9 @@ def main(arguments: list[str] | None = None) -> None:
             file=sys.stderr,
         )
         status = OutputError.exit_status
-    leave_signals()
+    if (signal_number := leave_signals()) is not None:  # it arrived during the last import
+        print("Interrupted at the end; everything was written.", file=sys.stderr)
+        status = 128 + signal_number
     sys.exit(status)
 
 

@@ -2,6 +2,7 @@
 
 import importlib
 import logging
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
@@ -41,7 +42,9 @@ def executor(address: str, patience: float) -> Iterator[Executor]:
 def _connected(distributed: Any, address: str, patience: float) -> Iterator[Any]:
     """A client of the cluster, once it has a worker."""
     try:
-        client = distributed.Client(address, timeout=min(CONNECT_S, patience))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a table of versions, of which the sweep refuses those that matter
+            client = distributed.Client(address, timeout=min(CONNECT_S, patience))
     except (OSError, TimeoutError, ValueError) as error:
         raise InputError(
             "no Dask scheduler answers there",

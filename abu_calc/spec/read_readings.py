@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from abu_calc.errors import InputError, Place
+from abu_calc.escapes import shortened
 from abu_calc.frozen import dataclass
 from abu_calc.spec import presets
 from abu_calc.spec.document import Document, Reading, named, open_document, parsed_overrides, validate
@@ -57,9 +58,17 @@ def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> R
     found = Readings(**vars(reading), tables=tables)
     with found.located():
         for index, run in enumerate(tables.run):
-            if run.file is not None and not (path := found.beside(run.file)).is_file():
+            if run.file is not None and not _is_file(path := found.beside(run.file)):
                 raise InputError(
-                    "the record is not there", place=Place(key=f"run[{index}].file"), found=str(path),
+                    "the record is not there", place=Place(key=f"run[{index}].file"), found=shortened(str(path)),
                     remedy="put the file beside this one, or write its whole path",
                 )  # fmt: skip
     return found
+
+
+def _is_file(path: Path) -> bool:
+    """Tell whether a file is there; a name that is too long for the system is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False

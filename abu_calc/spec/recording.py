@@ -59,12 +59,6 @@ def recording(
             "a place moves along three axes at most", place=Place(path), found=", ".join(names),
             remedy="Say which to take: --channels 1,2,3, or their names (Python: channels=).",
         )  # fmt: skip
-    still = [name for name, values in axes if float(np.ptp(values)) == 0]
-    if still:
-        raise InputError(
-            "the signal is the same number from start to end", place=Place(path, key=still[0]),
-            remedy="A sensor that is not connected? Leave the channel out: --channels (Python: channels=).",
-        )  # fmt: skip
     for name, values in axes:
         if (largest := float(np.abs(values).max())) > LARGEST:
             raise InputError(
@@ -72,6 +66,12 @@ def recording(
                 found=f"{largest:g} in SI units", allowed=f"at most {LARGEST:g}",
                 remedy="Correct the sample, the unit in the column's name or --scale (Python: scale=).",
             )  # fmt: skip
+    still = [name for name, values in axes if float(np.ptp(values)) == 0]
+    if still:
+        raise InputError(
+            "the signal is the same number from start to end", place=Place(path, key=still[0]),
+            remedy="A sensor that is not connected? Leave the channel out: --channels (Python: channels=).",
+        )  # fmt: skip
     digest = hashlib.sha256(content).hexdigest()
     return Recording(path, digest, quantity, names, samples, rate, tuple(told), simulated)
 

@@ -41,9 +41,11 @@ def csv_recording(path: str, content: bytes, asked: Asked) -> Recording:
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     picked = _picked(table, columns, time, asked, simulated=simulated)
     quantity = _quantity(path, [columns[k] for k in picked], asked, told)
-    axes = [(columns[k].name, table.values[:, k] * _unit(columns[k], quantity, asked, told)) for k in picked]
-    for name, values in axes:
-        if (cut := _clipped(values)) is not None:
+    with np.errstate(over="ignore", invalid="ignore"):  # samples that large are refused below
+        axes = [(columns[k].name, table.values[:, k] * _unit(columns[k], quantity, asked, told)) for k in picked]
+        clipped = [(name, _clipped(values)) for name, values in axes]
+    for name, cut in clipped:
+        if cut is not None:
             told.append(
                 f"{name} stays at its largest value again and again, first on line {table.numbers[cut]}: a recording "
                 "that is clipped reads too low."

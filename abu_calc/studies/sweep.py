@@ -75,6 +75,7 @@ def sweep(
     WORKERS.check(1 if workers is None else workers)
     hands = Hands(workers, executor, WAIT.check(cluster_wait_s))
     path = None if store is None else _path(store, resume, force)
+    hands.refuse_other_software()
     ask = asked(
         machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
         sampling=sampling, seed=seed, time_limit_s=time_limit_s,
@@ -109,19 +110,11 @@ def sweep(
 
 
 def _path(given: str | Path, resume: bool, force: bool) -> Path:
-    """The path of the store; refused if a file is there that nobody wants to go on with."""
+    """The path of the store; refused if a study is there that nobody asks to go on with, or a file of another kind."""
     path = checked_path(given)
-    if path.exists() and not (resume or force) and not _is_cold(path):
+    if not (resume or force) and study_of(path) is not None:
         raise fault(path, "exists already", "Go on with it by --resume, name another, or overwrite it with --force.")
     return path
-
-
-def _is_cold(path: Path) -> bool:
-    """Tell whether a store is there that another process has just begun, without a table in it."""
-    try:
-        return study_of(path) is None
-    except AbuError:
-        return False
 
 
 def _as_stored(

@@ -88,6 +88,11 @@ def test_no_home(monkeypatch: pytest.MonkeyPatch) -> None:
     done_without(folder, folder.folder)
 
 
+def test_the_home_of_nobody_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(cache.FOLDER, "~nosuchuser/x")
+    done_without(Cache.own(), Path("~nosuchuser/x"))
+
+
 def test_the_folder_may_be_chosen(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv(cache.FOLDER, str(tmp_path))
     assert Cache.own().folder == tmp_path

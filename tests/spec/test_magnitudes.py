@@ -65,10 +65,23 @@ def test_brackets_without_end_are_no_values(text: str) -> None:
     assert seen.status == 2 and "--vary wheel.mass_kg" in seen.err and "bug" not in seen.err
 
 
-@pytest.mark.parametrize("most", [1e300, 1e12, -1e300])
+@pytest.mark.parametrize("most", [1e300, 1e12, -1e300, 1.7e308])
 def test_samples_beyond_all_vibration_are_refused_by_their_column(most: float, tmp_path: Path) -> None:
     file = tmp_path / "signal.csv"
-    rows = "\n".join(f"{k / 1000},{most if k == 500 else k % 7}" for k in range(1000))
+    rows = "\n".join(f"{k / 1000},{most if k == 500 else -most if k == 501 else k % 7}" for k in range(1000))
     file.write_text(f"t_s,ax_m_per_s2\n{rows}\n", encoding="utf-8")
     seen = abu("levels", str(file))
     assert seen.status == 2 and "ax_m_per_s2: a sample is larger" in seen.err
+
+
+@pytest.mark.parametrize("length", [300, 5000])
+def test_names_that_are_too_long_for_the_system_are_refused_by_their_key(length: int, tmp_path: Path) -> None:
+    file = tmp_path / "roll.toml"
+    assert abu("init", "--readings", str(file)).status == 0
+    text = file.read_text(encoding="utf-8")
+    before, rest = text.split("[[run]]", 1)
+    run = f'[[run]]\nspeed_rpm = 3000.0\nquantity = "displacement"\nfile = "{"x" * length}"\n'
+    file.write_text(before + run + rest[rest.index("[tolerance]") :], encoding="utf-8")
+    for command in ("validate", "balance"):
+        seen = abu(command, str(file))
+        assert seen.status == 2 and "run[0].file" in seen.err and len(seen.err) < 900

@@ -187,7 +187,7 @@ class Store:
 
     def _stamped(self) -> tuple[tuple[int, int], ...]:
         """Device and number of the files: the database, and the log that SQLite writes first."""
-        beside = Path(f"{self.path}-wal")
+        beside = Path(f"{self.path.resolve()}-wal")
         stats = [path.stat() for path in (self.path, *([beside] if beside.exists() else []))]
         return tuple((each.st_dev, each.st_ino) for each in stats)
 

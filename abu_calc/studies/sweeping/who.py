@@ -43,6 +43,12 @@ class Hands:
     executor: Executor | None
     patience: float
 
+    def refuse_other_software(self) -> None:
+        """Raise InputError if workers of a cluster have other software than this process."""
+        client = None if self.executor is None else client_of(self.executor)
+        if client is not None:
+            refuse_other_software(client)
+
 
 def described(workers: int | None, executor: Executor | None) -> str:
     """Who computes, for the store."""
@@ -99,8 +105,6 @@ def _computed(study: Computed, missing: Iterator[int], counted: "_Counted", hand
     workers, executor, study = hands.workers, hands.executor, Attributed(study, software())
     if executor is not None:
         client = client_of(executor)
-        if client is not None:
-            refuse_other_software(client)
         count = getattr(executor, "_max_workers", None) or (threads_of(client) if client else os.cpu_count()) or 1
         alive = None if client is None else lambda: is_alive(client)
         ours = given(executor, count, ends=is_ours_to_end(executor), alive=alive, patience=hands.patience)

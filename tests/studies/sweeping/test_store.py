@@ -147,6 +147,27 @@ def test_a_store_tells_who_computed_which_members(sweeps: Sweeps) -> None:
     assert [k for *_, first, last in sorted(batches) for k in range(first, last + 1)] == list(range(12))
 
 
+@pytest.mark.parametrize("content", [b"Dear reader,\n" * 100, b"\xff" * 5000])
+def test_a_file_that_is_no_store_is_called_so(content: bytes, sweeps: Sweeps) -> None:
+    """--force does not overwrite it, so the error does not name --force."""
+    sweeps.store.write_bytes(content)
+    for options in ({}, {"resume": True}, {"force": True}):
+        with pytest.raises(abu_calc.OutputError, match="no store of a sweep\n  Name another file"):
+            sweeps.run(**options)
+    assert sweeps.store.read_bytes() == content
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows keeps files that are open")
+def test_the_log_of_a_store_behind_a_link_is_missed(
+    sweeps: Sweeps, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    link = tmp_path / "link.sqlite"
+    link.symlink_to(sweeps.store)
+    Meanwhile(monkeypatch, 5, Path(f"{sweeps.store}-wal").unlink)
+    with pytest.raises(abu_calc.OutputError, match="removed or replaced during the run"):
+        sweeps.run(link)
+
+
 NO_NAMES = {
     ":memory:": "outlives",
     "": "outlives",

@@ -14,6 +14,7 @@ import sys
 import warnings
 from pathlib import Path
 
+from abu_calc.escapes import shortened
 from abu_calc.frozen import dataclass
 
 FOLDER = "ABU_CALC_CACHE"
@@ -44,7 +45,7 @@ class Cache:
         try:
             return cls(Path(chosen).expanduser() if chosen else _base() / "abu-calc" / "compiled")
         except RuntimeError:  # ~somebody who is not known here
-            return cls(NOWHERE)
+            return cls(NOWHERE / str(chosen))
 
     def read(self, key: str) -> bytes | None:
         """What was written under a key, None where that is not there or not whole."""
@@ -100,7 +101,8 @@ class Cache:
         if str(self.folder) not in _told:
             _told.add(str(self.folder))
             reason = error.strerror or type(error).__name__
-            warnings.warn(f"compiled code is not kept: {self.folder}: {reason}", RuntimeWarning, stacklevel=2)
+            folder = shortened(str(self.folder))
+            warnings.warn(f"compiled code is not kept: {folder}: {reason}", RuntimeWarning, stacklevel=2)
 
 
 def _digest(key: str, content: bytes) -> bytes:
