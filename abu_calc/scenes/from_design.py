@@ -16,7 +16,7 @@ from abu_calc.dynamics.effects.grinding_contact import GrindingContact
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
 from abu_calc.dynamics.effects.run_up import RunUp
 from abu_calc.dynamics.race import Race
-from abu_calc.dynamics.scene import Scene, placed
+from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.hands import in_hands
 from abu_calc.dynamics.supports.planar import planar
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 AHEAD = math.radians(20)
 """The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
 
-Start = Literal["bunched", "behind", "spread", "standstill", "settled"]
+Start = Literal["bunched", "behind", "spread", "standstill", "settled", "placed"]
 
 STARTS: Final[dict[Start, str]] = {
     "bunched": "balls at rest in the race, neighbours touching, their middle 20° ahead of the imbalance",
@@ -44,6 +44,7 @@ STARTS: Final[dict[Start, str]] = {
     "spread": "balls at rest in the race, evenly round it, the first 20° ahead of the imbalance",
     "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
     "settled": "balls at rest in the race, evenly fanned where they balance at idle",
+    "placed": "balls at rest in the race, where start.angles_deg of the file has them",
 }
 
 SCENES: Final[dict[str, str | None]] = {
@@ -215,8 +216,26 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
     if start == "settled":
         return tuple(math.pi + angle for angle in design.autobalancer.budget.resting_angles)
     beta = contact_half_angle(design)
+    if start == "placed":
+        return parted_angles(_angles_of_file(design), 2 * beta)
     middle = -AHEAD if start == "behind" else AHEAD
     return tuple(middle + (2 * k - count + 1) * beta for k in range(count))
+
+
+def _angles_of_file(design: Design) -> tuple[float, ...]:
+    """Of as many balls as there are [rad]. Raises InputError."""
+    table, count = design.case.table.start, design.autobalancer.ball_count
+    if table is None:
+        raise InputError(
+            "the file does not say where the balls start", place=Place(key="start"), found="no table [start]",
+            remedy="Add start.angles_deg, or ask for another --start.",
+        )  # fmt: skip
+    if len(table.angles_deg) != count:
+        raise InputError(
+            "an angle for each ball", place=Place(key="start.angles_deg"), found=f"{len(table.angles_deg)} angles",
+            allowed=f"{count}, as many as the design has balls",
+        )  # fmt: skip
+    return tuple(to_si(angle, "deg") for angle in table.angles_deg)
 
 
 def _effects(design: Design, which: str, race_centre: float) -> Iterator[Effect]:

@@ -11,6 +11,7 @@ from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track
 from abu_calc.spec.duty import RunUp
+from abu_calc.spec.duty import Start as StartTable
 from abu_calc.units import from_si
 
 STARTS: tuple[Start, ...] = ("bunched", "behind", "spread", "standstill")
@@ -41,6 +42,8 @@ class Member:
     eccentricity: float = OPPOSITE
     speed: float | None = None
     by_motor: bool = False
+    angles: tuple[float, ...] = ()
+    """Of the balls from the imbalance [rad], where they are `placed`."""
 
     @property
     def race_centre_deg(self) -> float:
@@ -68,12 +71,13 @@ def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = D
     motor runs up to its idle speed alone.
     """
     case, usual = design.case, usual_run_up(design)
+    starts: tuple[Start, ...] = STARTS if case.table.start is None else (*STARTS, "placed")
     ends = (end for end in dict.fromkeys(case.speed_range) if not math.isclose(end, case.speed))
     for speed in (None, *ends):
         for drag in dict.fromkeys(share * case.drag for share in shares):
             both = speed is None and drag == case.drag and case.race_eccentricity > 0
             for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
-                yield from (Member(start, drag, 0.0, angle, speed=speed) for start in STARTS)
+                yield from (Member(start, drag, 0.0, angle, speed=speed) for start in starts)
                 if not usual.by_motor or speed is None:
                     yield replace(usual, drag=drag, eccentricity=angle, speed=usual.speed or speed)
                 if drag < doubtful and usual.run_up < SLOW:
@@ -107,6 +111,9 @@ def _with(design: Design, member: Member) -> Design:
     """The design with the drag, the speed and the run-up of a member."""
     case, given = design.case, design.case.table.run_up
     table = case.table
+    if member.angles:
+        angles = tuple(from_si(angle, "deg") % 360 for angle in member.angles)
+        table = table.model_copy(update={"start": StartTable(angles_deg=angles)})
     if member.run_up:
         run_up = (given or RunUp()).model_copy(update={"time_s": member.run_up})
         table = table.model_copy(update={"run_up": run_up, "motor": table.motor if member.by_motor else None})

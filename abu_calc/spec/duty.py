@@ -65,6 +65,18 @@ class Grinding(Table):
         return frozenset() if self.contact == "compliant" else frozenset({STIFFNESS})
 
 
+class Start(Table):
+    """Where the balls rest in their race when the machine is switched on."""
+
+    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-360, le=360)], ...], Field(strict=False)] = Field(
+        description="Angle of each ball from the wheel's imbalance [degrees]; as many as the design has balls, each "
+        "-360 … 360. Balls that would overlap are moved apart.",
+        examples=[[-30.0, 0.0, 30.0, 60.0]],
+        min_length=1,
+        max_length=200,
+    )
+
+
 class RunUp(Table):
     """Starting and stopping at a given pace."""
 

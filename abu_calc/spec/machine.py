@@ -17,7 +17,7 @@ from abu_calc.spec.bearing_file import (
     expected_values,
 )
 from abu_calc.spec.body import MachineTable, Suspension
-from abu_calc.spec.duty import Grinding, Motor, RunUp, SwingArm
+from abu_calc.spec.duty import Grinding, Motor, RunUp, Start, SwingArm
 from abu_calc.spec.measured import MeasuredAfter
 from abu_calc.spec.proportions import larger_than_its_wheel, rim_too_fast
 from abu_calc.spec.sweep import Sweep
@@ -57,6 +57,7 @@ class MachineFile(Table):
     autobalancer: Autobalancer | None = None
     grinding: Grinding | None = None
     run_up: RunUp | None = None
+    start: Start | None = None
     motor: Motor | None = None
     swing_arm: SwingArm | None = None
     bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(

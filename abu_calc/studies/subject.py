@@ -84,7 +84,7 @@ def subject_of(
     one_of("start", start, STARTS)
     if isinstance(source, Machine):
         centre = WORST if race_centre_deg is None else to_si(RACE_CENTRE.check(race_centre_deg), "deg")
-        return _of_machine(source, scene or "idle", start or "bunched", centre, command)
+        return _of_machine(source, scene or "idle", start, centre, command)
     subject = _of_file(source) if isinstance(source, SceneDescription) else _of_script(source)
     for argument, value in (("scene", scene), ("start", start), ("race_centre_deg", race_centre_deg)):
         if value is not None:
@@ -97,9 +97,10 @@ def subject_of(
     return subject
 
 
-def _of_machine(machine: Machine, scene: str, start: str, race_centre: float, command: str) -> Subject:
+def _of_machine(machine: Machine, scene: str, start: str | None, race_centre: float, command: str) -> Subject:
     tables = machine.whole(command)
-    chosen_start = next(each for each in STARTS if each == start)
+    usual = "bunched" if tables.start is None else "placed"
+    chosen_start = next(each for each in STARTS if each == (start or usual))
     with machine.located():
         design = size(tables)
         full = scene_of_design(design, scene, chosen_start, race_centre)

@@ -1,0 +1,144 @@
+"""Starts that nobody listed: a designed set over the whole race, then a search round the slowest and the loudest.
+
+The listed starts decide what fails. These find what they miss: balls that lie together at any angle to the imbalance,
+as they do at the bottom of a horizontal race, balls anywhere, each at full speed and in run-ups of several times.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+from abu_calc import patience
+from abu_calc.analysis.ensemble import WORK, first_tolerance, start_once
+from abu_calc.analysis.outcomes import Outcome
+from abu_calc.frozen import dataclass
+from abu_calc.parallel import side_by_side
+from abu_calc.progress import Progress, Stage, silent
+from abu_calc.scenes.from_design import contact_half_angle
+from abu_calc.scenes.members import ALIKE, OPPOSITE, Member, usual_run_up
+from abu_calc.sizing.design import Design
+from abu_calc.units import from_si
+
+PLACES: Final = 8
+"""Angles round the race at which balls lie together."""
+
+SPREADS: Final = 4
+"""Ways in which balls lie anywhere."""
+
+TIMES: Final = (1.0, 0.6, 1.6)
+"""Of the run-up of the file, in turn."""
+
+ROUNDS: Final = 2
+"""Of the search round the worst so far."""
+
+TURNED: Final = math.radians(15)
+"""By which a start is turned in the search."""
+
+GOLDEN: Final = (math.sqrt(5) - 1) / 2
+
+Angles = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Searched:
+    """What the starts came to that were searched, at the drag given; `lost`: how many gave no answer."""
+
+    outcomes: tuple[Outcome, ...]
+    lost: int = 0
+
+    @property
+    def slowest(self) -> Outcome | None:
+        """The one that settles last."""
+        return max(self.outcomes, key=lambda outcome: outcome.time, default=None)
+
+    @property
+    def loudest(self) -> Outcome | None:
+        """The one with the highest level."""
+        return max(self.outcomes, key=lambda outcome: outcome.loudest, default=None)
+
+
+def search(design: Design, accuracy: float, progress: Progress = silent, workers: int = 1) -> Searched:
+    """The designed starts, and those near the worst of them. The same whatever the number of workers."""
+    found, tried, lost = list[Outcome](), set[Member](), 0
+    round_of_starts = list(designed(design))
+    for _ in range(1 + ROUNDS):
+        tried.update(round_of_starts)
+        answers = _run(design, round_of_starts, accuracy, progress, workers)
+        lost += len(round_of_starts) - len(answers)
+        found += answers
+        if not found or patience.over():
+            break
+        worst = [max(found, key=order) for order in (_slowness, _loudness)]
+        near = (start for outcome in worst for start in neighbours(outcome.member))
+        round_of_starts = [start for start in dict.fromkeys(near) if start not in tried]
+    return Searched(tuple(found), lost)
+
+
+def _slowness(outcome: Outcome) -> float:
+    return outcome.time
+
+
+def _loudness(outcome: Outcome) -> float:
+    return outcome.loudest
+
+
+def designed(design: Design) -> Iterator[Member]:
+    """Balls together at angles round the race, then spread anywhere; at full speed and in run-ups, the race off to
+    either side in turn.
+    """
+    usual = usual_run_up(design)
+    for k, angles in enumerate((*bunches(design), *spreads(design))):
+        sides = (ALIKE, OPPOSITE) if k % 2 else (OPPOSITE, ALIKE)
+        yield Member("placed", design.case.drag, 0.0, sides[0], angles=angles)
+        run_up = usual.run_up if usual.by_motor else usual.run_up * TIMES[k % len(TIMES)]
+        yield replace(usual, start="placed", run_up=run_up, eccentricity=sides[1], angles=angles)
+
+
+def bunches(design: Design) -> Iterator[Angles]:
+    """Neighbours touching, their middle at equal angles round the race."""
+    count, step = design.autobalancer.ball_count, 2 * contact_half_angle(design)
+    for place in range(PLACES):
+        middle = math.tau * (place + 0.25) / PLACES  # neither on the imbalance nor opposite
+        yield tuple((middle + (ball - (count - 1) / 2) * step) % math.tau for ball in range(count))
+
+
+def spreads(design: Design) -> Iterator[Angles]:
+    """Anywhere, without overlap: a low-discrepancy sequence shares the free way out among the gaps."""
+    count, step = design.autobalancer.ball_count, 2 * contact_half_angle(design)
+    free = max(math.tau - count * step, 0.0)
+    for way in range(SPREADS):
+        shares = [-math.log(1 - (((way * count + ball + 1) * GOLDEN) % 1.0)) for ball in range(count)]
+        place, angles = math.tau * (way * GOLDEN % 1.0), list[float]()
+        for share in shares:
+            place += step + free * share / sum(shares)
+            angles.append(place % math.tau)
+        yield tuple(angles)
+
+
+def neighbours(member: Member) -> Iterator[Member]:
+    """Turned either way, with one ball elsewhere, with the race off to the other side, in other times."""
+    for turned in (TURNED, -TURNED):
+        yield replace(member, angles=tuple((angle + turned) % math.tau for angle in member.angles))
+    first, *others = member.angles
+    yield replace(member, angles=((first + 2 * TURNED) % math.tau, *others))
+    yield replace(member, eccentricity=OPPOSITE if member.eccentricity == ALIKE else ALIKE)
+    if member.run_up and not member.by_motor:
+        yield replace(member, run_up=1.15 * member.run_up)
+        yield replace(member, run_up=member.run_up / 1.15)
+
+
+def _run(design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int) -> list[Outcome]:
+    tasks = [(design, start, accuracy, first_tolerance(design), WORK, True) for start in starts]
+
+    def told(done: int) -> None:
+        progress(Stage(f"further starts: {done} of {len(tasks)}", done / len(tasks)))
+
+    return [outcome for outcome in side_by_side(start_once, tasks, workers, told) if isinstance(outcome, Outcome)]
+
+
+def repeated(member: Member) -> str:
+    """The options of `abu simulate` that repeat a start."""
+    angles = ", ".join(f"{from_si(angle, 'deg'):.4g}" for angle in member.angles)
+    run_up = f"--scene run-up --set run_up.time_s={member.run_up:.6g} " if member.run_up else ""
+    return f"{run_up}--race-centre {member.race_centre_deg:g} --set start.angles_deg=[{angles}]"
