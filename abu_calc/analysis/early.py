@@ -24,6 +24,9 @@ SEEN: Final = 0.25
 CREEP: Final = 0.05
 """Of the imbalance, or of what it is small against: the way that what is left may still go, at the pace of late."""
 
+ALIKE: Final = 0.02
+"""Relative difference of the settling times that what is left may still make."""
+
 RISE, FALL = 0.3, 0.1
 """By how much [dB] the second half of what is looked at may be louder than the first, or less loud."""
 
@@ -72,7 +75,16 @@ class Early:
         creep, rise = self.moving(samples)
         if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
             return False
-        return self.decided(self.response(samples, creep), creep, self.rising(samples))
+        latest, earliest = self.response(samples, creep), self.response(samples, -creep)
+        if not self._alike(earliest.settling_time, latest.settling_time):
+            return False
+        return self.decided(latest, creep, self.rising(samples))
+
+    def _alike(self, earliest: float | None, latest: float | None) -> bool:
+        """Whether two settling times [s] are one, or both never."""
+        if earliest is None or latest is None:
+            return earliest is latest
+        return latest - earliest <= max(ALIKE * latest, self.scene.revolution)
 
     def rising(self, samples: Samples) -> float:
         """By how much [dB] the level may rise until the run's time is over; 0 where it is."""

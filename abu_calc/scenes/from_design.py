@@ -112,12 +112,12 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         start_velocity=(0.0,) * len(support.names),
         effects=effects,
     )
-    longer = taking_up(design) if (which, start) == ("idle", "standstill") else 0.0
+    longer = _taking_up(design) if which == "run-up" or (which, start) == ("idle", "standstill") else 0.0
     scene = replace(scene, duration=settling + scene.full_speed + longer)
     return scene if which == "run-up" else placed(scene)
 
 
-def taking_up(design: Design) -> float:
+def _taking_up(design: Design) -> float:
     """Time [s] in which balls that stand still take up the speed of the race: at most the settling time permitted."""
     case = design.case
     longest = case.table.limits.settling_time_s

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
-from abu_calc.scenes.from_design import Start, running_up, scene_of_design, taking_up
+from abu_calc.scenes.from_design import Start, running_up, scene_of_design
 from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.track import track
@@ -100,11 +100,8 @@ def idle_speed(case: Case) -> float | None:
 
 def scene_of_member(design: Design, member: Member) -> Scene:
     """The idle scene of a machine started so, with every effect its file has data for."""
-    own = _with(design, member)
-    if not member.run_up:
-        return scene_of_design(own, "idle", member.start, member.eccentricity)
-    scene = scene_of_design(own, "run-up", member.start, member.eccentricity)
-    return replace(scene, duration=scene.duration + taking_up(own))
+    scene = "run-up" if member.run_up else "idle"
+    return scene_of_design(_with(design, member), scene, member.start, member.eccentricity)
 
 
 def _with(design: Design, member: Member) -> Design:
