@@ -1,6 +1,6 @@
 """2 000 trials: `python -m tests.faults [--trials N] [--first K] [--record FILE]`; exit status 1 if any went wrong.
 
-They take eleven minutes on two processors. The record beside this file is that of the last whole run.
+They take a quarter of an hour on two processors. The record beside this file is that of the last whole run.
 """
 
 import argparse
