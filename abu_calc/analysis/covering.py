@@ -5,13 +5,14 @@ as they do at the bottom of a horizontal race, balls anywhere, each at full spee
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
 from abu_calc import patience
 from abu_calc.analysis.ensemble import WORK, first_tolerance, start_once
 from abu_calc.analysis.outcomes import Outcome
+from abu_calc.checks import Check
 from abu_calc.frozen import dataclass
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent
@@ -34,6 +35,9 @@ ROUNDS: Final = 2
 
 TURNED: Final = math.radians(15)
 """By which a start is turned in the search."""
+
+NEAR: Final = 0.8
+"""Of the settling time permitted: where some start of so few takes longer, one of many takes longer than permitted."""
 
 GOLDEN: Final = (math.sqrt(5) - 1) / 2
 
@@ -142,3 +146,41 @@ def repeated(member: Member) -> str:
     angles = ", ".join(f"{from_si(angle, 'deg'):.4g}" for angle in member.angles)
     run_up = f"--scene run-up --set run_up.time_s={member.run_up:.6g} " if member.run_up else ""
     return f"{run_up}--race-centre {member.race_centre_deg:g} --set start.angles_deg=[{angles}]"
+
+
+def with_searched(check: Check, searched: Searched | None, design: Design) -> Check:
+    """A check of the listed starts that passes, with what a searched one breaks of it: that warns."""
+    if searched is None or check.status not in ("pass", "warn") or check.code not in BROKEN:
+        return check
+    breaks, order, words = BROKEN[check.code]
+    broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
+    if not broken:
+        return check
+    worst = max(broken, key=order)
+    share = f"{len(broken)} of {len(searched.outcomes)} further starts {words(worst)}"
+    again = f"The worst again: abu simulate FILE {repeated(worst.member)}"
+    remedy = f"{check.remedy} {again}" if check.remedy else again
+    return replace(check, status="warn", message=f"{check.message}; {share}", remedy=remedy)
+
+
+def _late(outcome: Outcome, design: Design) -> bool:
+    return outcome.time > NEAR * design.case.table.limits.settling_time_s
+
+
+def _loud(outcome: Outcome, design: Design) -> bool:
+    return outcome.loudest > design.case.level_limit
+
+
+def _time_in_words(outcome: Outcome) -> str:
+    return "never settle" if math.isinf(outcome.time) else f"settle near the limit or later, in {outcome.time:.3g} s"
+
+
+Broken = tuple[Callable[[Outcome, Design], bool], Callable[[Outcome], float], Callable[[Outcome], str]]
+
+BROKEN: Final[dict[str, Broken]] = {
+    "ABU401": (_loud, _loudness, lambda outcome: f"are too loud, the worst with {outcome.loudest:.1f} dB"),
+    "ABU701": (lambda outcome, _: not outcome.balanced, lambda outcome: outcome.imbalance, lambda _: "do not balance"),
+    "ABU702": (_late, _slowness, _time_in_words),
+    "ABU704": (lambda outcome, _: outcome.hanging, lambda outcome: outcome.slip, lambda _: "leave balls hanging"),
+}
+"""Of each check that starts decide: which break it, which is worst, and what they do."""

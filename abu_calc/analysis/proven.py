@@ -1,6 +1,7 @@
 """The design whose starts all balance: the first of the candidates that does, and remedies that were tried."""
 
 from abu_calc import patience
+from abu_calc.analysis.covering import Searched, search
 from abu_calc.analysis.ensemble import simulate_members
 from abu_calc.analysis.outcomes import Ensemble
 from abu_calc.analysis.remedies import passes, remedy
@@ -23,6 +24,8 @@ class Proven:
     ensemble: Ensemble | None
     remedy: str | None = None
     warnings: tuple[str, ...] = ()
+    searched: Searched | None = None
+    """What further starts came to, where all those listed pass."""
 
 
 def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1) -> Proven:
@@ -33,7 +36,9 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
     if not _carries(design):
         return Proven(design, None)
     first = simulate_members(design, accuracy, progress, workers)
-    if passes(design, first) or not design.frequency.balancing_possible or patience.over():
+    if passes(design, first):
+        return Proven(design, first, searched=search(design, accuracy, progress, workers))
+    if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
     spent = first.work
     for one in [each for each, _ in design.choice.runners_up if sound(design.case, each)][:MOST_OTHERS]:
@@ -44,7 +49,7 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         spent += found.work
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
-            return Proven(other, found, warnings=(text,))
+            return Proven(other, found, None, (text,), search(other, accuracy, progress, workers))
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, remedy(design, first, left, accuracy, progress, workers))
 

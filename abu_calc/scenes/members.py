@@ -109,7 +109,7 @@ def _with(design: Design, member: Member) -> Design:
     case, given = design.case, design.case.table.run_up
     table = case.table
     if member.angles:
-        angles = tuple(from_si(angle, "deg") % 360 for angle in member.angles)
+        angles = tuple(round(from_si(angle, "deg"), 6) % 360 for angle in member.angles)
         table = table.model_copy(update={"start": StartTable(angles_deg=angles)})
     if member.run_up:
         run_up = (given or RunUp()).model_copy(update={"time_s": member.run_up})

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final
 
+from abu_calc.analysis.covering import with_searched
 from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels, work_of
@@ -125,7 +126,10 @@ def size(
             *_checks(tried, arm),
             *stays,
             region.check,
-            *ensemble_checks(design, tried.ensemble, tried.remedy),
+            *(
+                with_searched(check, tried.searched, design)
+                for check in ensemble_checks(design, tried.ensemble, tried.remedy)
+            ),
             *lost,
         ),
         warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work)),
@@ -172,7 +176,10 @@ def _checks(tried: Proven, arm: "ArmJudgement | None") -> Iterator[Check]:
     """Those of the sizing, the level by its worst start and the arm's as it was judged."""
     held = {one.code: one for one in arm.checks} if arm else {}
     for one in tried.design.checks:
-        yield level_check(one, tried.ensemble, tried.remedy) if one.code == "ABU401" else held.pop(one.code, one)
+        if one.code == "ABU401":
+            yield with_searched(level_check(one, tried.ensemble, tried.remedy), tried.searched, tried.design)
+        else:
+            yield held.pop(one.code, one)
     yield from held.values()
 
 
