@@ -105,7 +105,7 @@ def size(
         design = tried.design
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
-        region = true_region(design)
+        region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
     lost = (not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
