@@ -129,13 +129,13 @@ def neighbours(races: Sequence[Race], angles: Array, step: float) -> Iterator[Ar
         first += len(masses)
     for direction in diagonal(*free).T:
         for way in (step, -step):
-            found = _closed(races, angles + way * direction)
+            found = closed(races, angles + way * direction)
             if found is not None:
                 yield found
 
 
-def _closed(races: Sequence[Race], angles: Array) -> Array | None:
-    """The angles moved so that the balls of each race balance; None if they cannot, or overlap."""
+def closed(races: Sequence[Race], angles: Array) -> Array | None:
+    """The angles [rad] moved so that the balls of each race balance; None if they cannot, or overlap."""
     parts, first = [], 0
     for masses, resultant, gap in races:
         own = moved_to(masses, angles[first : first + len(masses)], resultant)

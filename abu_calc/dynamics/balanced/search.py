@@ -67,7 +67,7 @@ class Search:
     @property
     def trials(self) -> int:
         """About how many arrangements are compared."""
-        return len(self.listed) + (GRID + 2 * SECTIONS if self.in_plane else TRIALS)
+        return len(self.listed) + (GRID + SECTIONS + 1 if self.in_plane else TRIALS)
 
     def growth(self, speed: float) -> float:
         """The largest growth rate [1/s] that was found at a speed [rad/s]."""
@@ -101,7 +101,7 @@ class Search:
         return self.listed[0].scene.ball_masses
 
     @cached_property
-    def _races(self) -> list[Race]:
+    def races(self) -> list[Race]:
         """What the balls of each race keep."""
         scene, angles = self.listed[0].scene, self.listed[0].angles
         return [
@@ -112,7 +112,7 @@ class Search:
 
     @cached_property
     def _family(self) -> Family:
-        ((_, _, gap),) = self._races
+        ((_, _, gap),) = self.races
         return Family.of(self._masses, self.listed[0].angles, gap)
 
     @cached_property
@@ -146,7 +146,7 @@ class Search:
             better = True
             while better and left > 0:
                 better = False
-                for angles in neighbours(self._races, best, step):
+                for angles in neighbours(self.races, best, step):
                     rate, left = growth(angles), left - 1
                     if rate > most + MARGIN * speed:
                         most, best, better = rate, angles, True
