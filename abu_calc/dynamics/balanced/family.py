@@ -24,11 +24,11 @@ NEWTON: Final = 30
 LONGEST: Final = 0.3
 """Step of an angle in one of them [rad]."""
 
-HALVINGS: Final = 6
-"""Of the interval between a χ that is reached and one that is not."""
-
 NEAREST: Final = 8
-"""Candidates from which a χ is tried."""
+"""Rows from which a χ is tried."""
+
+STARTS, TRIALS = 3, 12
+"""Rows from which χ is led towards 0 and 1, and the steps that are tried from each."""
 
 
 def moved_to(masses: Array, angles: Array, resultant: complex, chi: float | None = None) -> Array | None:
@@ -83,27 +83,31 @@ class Family:
         return self.rows[int(np.abs(self.chi - chi).argmin())] if found is None else found
 
     def _reached(self, chi: float) -> Array | None:
-        for k in np.argsort(np.abs(self.chi - chi), kind="stable")[:NEAREST]:
-            found = moved_to(self.masses, self.rows[k], self.resultant, chi)
-            if found is not None and narrowest_gap(tuple(found)) >= self.gap - TOUCHING:
-                return found
-        return None
+        """An arrangement of this χ from the rows whose χ are nearest."""
+        near = np.argsort(np.abs(self.chi - chi), kind="stable")[:NEAREST]
+        return next((found for k in near if (found := self._moved(self.rows[k], chi)) is not None), None)
+
+    def _moved(self, angles: Array, chi: float) -> Array | None:
+        """One near the angles; None if none is, or balls overlap there."""
+        found = moved_to(self.masses, angles, self.resultant, chi)
+        return found if found is not None and narrowest_gap(tuple(found)) >= self.gap - TOUCHING else None
 
     def _beyond(self, end: float) -> Iterator[Array]:
-        """An arrangement whose χ is nearer to 0 or 1 than that of all rows, by halving what is not reached."""
-        last = float(self.chi[0] if end < self.chi[0] else self.chi[-1])
-        best, wanted = None, end
-        for _ in range(HALVINGS):
-            found = self._reached(wanted)
-            if found is None:
-                wanted = (last + wanted) / 2
-                continue
-            best, last = found, wanted
-            if wanted == end:
-                break
-            wanted = (last + end) / 2
-        if best is not None:
+        """Arrangements whose χ are nearer to 0 or 1 than those of the rows, by steps, halved where one fails."""
+        for angles in self.rows[:STARTS] if end == 0 else self.rows[-STARTS:]:
+            best, chi, share = angles, likeness(self.masses.tolist(), angles.tolist()), 1.0
+            for _ in range(TRIALS):
+                wanted = chi + share * (end - chi)
+                found = self._moved(best, wanted)
+                if found is None:
+                    share /= 2
+                    continue
+                best, chi, share = found, wanted, min(1.0, 2 * share)
+                if chi == end:
+                    break
             yield best
+            if chi == end:
+                break
 
 
 def _sorted(masses: Array, rows: Array) -> tuple[Array, Array]:
