@@ -39,9 +39,9 @@ CLOSED: Final = 1e-13
 def rests(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "worst") -> tuple[Rest, ...]:
     """States of rest of a scene to be judged, none where there is none; the even fan of `resting_state` comes first.
 
-    "worst": some that stand for all, see `spread`; races change together, from the most even to the least. Where the
-    axis moves only the fan. "start": where the balls go from their start angles. `half_angle` β [rad] of touching
-    balls. Raises NotKnownError where no formula gives them.
+    "worst": some that stand for all, see `spread`; on an anisotropic support `Search` starts from them. Races change
+    together, from the most even to the least. Where the axis moves only the fan. "start": where the balls go from their
+    start angles. `half_angle` β [rad] of touching balls. Raises NotKnownError where no formula gives them.
     """
     fan = resting_state(scene, half_angle)
     if fan is None or arrangement == "fan":
