@@ -20,7 +20,7 @@ from abu_calc.errors import NotTrustworthyError
 from abu_calc.frozen import dataclass
 
 Array = NDArray[np.float64]
-Kind = Literal["drift", "growth", "not told"]
+Kind = Literal["drift", "growth", "undecided"]
 
 DISTURBANCE: Final = 0.02
 """The largest displacement of a ball at the start [rad]."""
@@ -43,7 +43,7 @@ SETTLED, LEFT = 0.1, 10.0
 @dataclass(frozen=True)
 class Consequence:
     """The end of a run of `duration` [s]: balls in a stable arrangement ("drift"), away from balance ("growth"), or
-    neither within the work allowed ("not told").
+    neither within the work allowed ("undecided").
 
     `angles` [rad] of the arrangement they end in and its `growth_rate` [1/s], None unless they drift. `residual`: the
     largest residual imbalance at the end over that at the start, None without a run.
@@ -72,7 +72,7 @@ def consequence(scene: Scene, worst: Stability, half_angle: float = 0.0) -> Cons
     try:
         return _followed(disturbed, duration, search)
     except NotTrustworthyError:
-        return Consequence("not told", 0.0)
+        return Consequence("undecided", 0.0)
 
 
 def _disturbed(scene: Scene, angles: tuple[float, ...]) -> Scene:
@@ -125,7 +125,7 @@ def _followed(scene: Scene, duration: float, search: Search) -> Consequence:
         rate = decided(motion, scene.speed)[1]
         if rate < -MARGIN * scene.speed:
             return Consequence("drift", duration, ratio, motion.angles, rate)
-    return Consequence("not told", duration, ratio)
+    return Consequence("undecided", duration, ratio)
 
 
 def _residual(search: Search, angles: Array) -> Array:

@@ -96,10 +96,10 @@ def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange 
     """
     scene, half = idle_scene(design), contact_half_angle(design)
     low, high = design.case.speed_range
-    found = judged(scene, half)[1]
-    if not found:
+    listed = judged(scene, half)[1]
+    if not listed:
         return None
-    motions, search, rated = quick(found), searched(found, half), design.case.speed
+    motions, search, rated = quick(listed), searched(listed, half), design.case.speed
     ends = tuple(dict.fromkeys((low, rated, high)))
     scanned = _scanned(motions, search, ends)
     limits: tuple[Boundary, ...] = ()
@@ -169,17 +169,17 @@ def _action(design: Design, speeds: SpeedRange) -> str:
         return f"Keep all speeds above {_rpm(last.speed)}."
     case = design.case
     for drag in other_drags(case.drag, only_more=False):
-        found = _speed_range(replace(design, case=replace(case, drag=drag)), with_boundaries=False)
-        if found and found.stable:
+        changed = _speed_range(replace(design, case=replace(case, drag=drag)), with_boundaries=False)
+        if changed and changed.stable:
             return _calculated(
-                f"autobalancer.rolling_drag_per_s = {drag:.3g} (instead of {case.drag:.3g})", speeds, found
+                f"autobalancer.rolling_drag_per_s = {drag:.3g} (instead of {case.drag:.3g})", speeds, changed
             )
     if isinstance(case.suspension, Springs):
         x, y = (DAMPED * damping for damping in case.suspension.damping)
         held = replace(design, case=replace(case, suspension=replace(case.suspension, damping=(x, y))))
-        found = _speed_range(held, with_boundaries=False)
-        if found and found.stable:
-            return _calculated("suspension.damping_ratios twice as large", speeds, found)
+        changed = _speed_range(held, with_boundaries=False)
+        if changed and changed.stable:
+            return _calculated("suspension.damping_ratios twice as large", speeds, changed)
     above = f"Keep all speeds above {_rpm(last.speed)}, beyond this range. " if last else ""
     return (
         f"{above}No other drag makes it stable: change the damping, use lighter balls, or hold the machine more softly."
@@ -200,5 +200,5 @@ def _rpm(speed: float) -> str:
 def _modes(scene: Scene) -> tuple[Mode, ...]:
     rates = np.linalg.eigvals(scene.small_motion.motion)
     swinging = rates[rates.imag > 0]
-    found = (Mode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
-    return tuple(sorted(found, key=lambda mode: mode.frequency))
+    modes = (Mode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
+    return tuple(sorted(modes, key=lambda mode: mode.frequency))

@@ -45,13 +45,13 @@ def test_the_arrangement_that_a_list_missed(refuted: Scene) -> None:
 
 
 def test_the_growth_told_is_that_of_the_arrangement_told(refuted: Scene) -> None:
-    found = stability(refuted)
-    assert found.angles is not None
-    total = sum(m * np.exp(1j * a) for m, a in zip(refuted.ball_masses, found.angles, strict=True))
+    worst = stability(refuted)
+    assert worst.angles is not None
+    total = sum(m * np.exp(1j * a) for m, a in zip(refuted.ball_masses, worst.angles, strict=True))
     assert abs(total + refuted.imbalance / refuted.races[0].pitch_radius) < 1e-9 * refuted.imbalance
-    assert BalancedMotion(refuted, found.angles).growth(refuted.speed) == pytest.approx(found.growth_rate, rel=1e-6)
+    assert BalancedMotion(refuted, worst.angles).growth(refuted.speed) == pytest.approx(worst.growth_rate, rel=1e-6)
     ((_, rate),) = growth_over(refuted, [refuted.speed])
-    assert rate == pytest.approx(found.growth_rate, rel=1e-3)
+    assert rate == pytest.approx(worst.growth_rate, rel=1e-3)
     assert any(change.growing_below for change in crossings_of(refuted, 2.0, 4.0))
 
 
@@ -65,9 +65,9 @@ def test_balls_drift_from_it_to_a_stable_neighbour(refuted: Scene) -> None:
 
 
 def test_the_command_tells_the_worst_and_its_consequence() -> None:
-    found = abu("stability", str(REFUTED), "--json").document["result"]
-    assert found["stable"] is False and found["growth_rate_per_s"] > 2.53e-4
-    assert found["consequence"]["kind"] == "drift"
+    result = abu("stability", str(REFUTED), "--json").document["result"]
+    assert result["stable"] is False and result["growth_rate_per_s"] > 2.53e-4
+    assert result["consequence"]["kind"] == "drift"
     screen = " ".join(abu("stability", str(REFUTED)).out.split())
     assert "NOT STABLE" in screen and "the balls drift to a stable arrangement nearby" in screen
     other = abu("stability", str(REFUTED), "--arrangement", "start", "--json").document["result"]
@@ -122,14 +122,14 @@ def test_balls_of_several_races_are_moved() -> None:
     listed = judged(scene)[1]
     search = searched(listed, 0.0)
     assert search is not None and not search.in_plane
-    found = search.worst(1.5).growth(1.5)
+    searched_growth = search.worst(1.5).growth(1.5)
     rng, rates = np.random.default_rng(0), []
     for _ in range(60):
         angles = closed(search.races, rng.uniform(0, 2 * math.pi, 7))
         if angles is not None:
             rates.append(BalancedMotion(scene, tuple(angles.tolist())).growth(1.5))
-    assert found > max(motion.growth(1.5) for motion in listed) + 1e-3
-    assert found > max(rates) - 1e-4
+    assert searched_growth > max(motion.growth(1.5) for motion in listed) + 1e-3
+    assert searched_growth > max(rates) - 1e-4
 
 
 def test_isotropic_supports_keep_their_list() -> None:

@@ -106,7 +106,7 @@ def case_of(seed: int) -> Case:
 def arrangements(case: Case, count: int = ARRANGEMENTS) -> Array:
     """Random sets of angles that balance, a row each: n − 2 at random, two close the sum; none overlap."""
     rng, m = np.random.default_rng(case.seed + 10_000), np.array(case.masses)
-    found: list[Array] = []
+    rows_kept: list[Array] = []
     for _ in range(DRAWS // 4000):
         free = rng.uniform(0, 2 * math.pi, (4000, len(m) - 2))
         rest = -case.imbalance - np.exp(1j * free) @ m[2:]
@@ -119,10 +119,10 @@ def arrangements(case: Case, count: int = ARRANGEMENTS) -> Array:
         rows = np.column_stack([first, second, free])
         places = np.sort(rows % (2 * math.pi), axis=1)
         gaps = np.diff(np.column_stack([places, places[:, 0] + 2 * math.pi]), axis=1).min(axis=1)
-        found.append(rows[gaps >= 2 * case.half_angle])
-        if sum(map(len, found)) >= count:
+        rows_kept.append(rows[gaps >= 2 * case.half_angle])
+        if sum(map(len, rows_kept)) >= count:
             break
-    return np.concatenate(found)[:count]
+    return np.concatenate(rows_kept)[:count]
 
 
 def growth(case: Case, angles: Array, speed: float) -> Array:
@@ -147,19 +147,19 @@ def growth(case: Case, angles: Array, speed: float) -> Array:
         force[:, :2, :2], force[:, :2, 4:6] = -K, -C
         force[:, :2, 2:4], force[:, :2, 6:] = speed**2 * B, -2 * slope
         force[:, 2:, 6:] = -h * np.eye(2)
-        found = np.zeros((len(angles), 8, 8))
-        found[:, :4, 4:] = np.eye(4)
-        found[:, 4:] = np.linalg.solve(inertia, force)
-        return found
+        whole = np.zeros((len(angles), 8, 8))
+        whole[:, :4, 4:] = np.eye(4)
+        whole[:, 4:] = np.linalg.solve(inertia, force)
+        return whole
 
     state, after = np.broadcast_to(np.eye(8), (len(angles), 8, 8)), matrix(0.0)
     for k in range(STEPS):
         before, middle, after = after, matrix((k + 0.5) * step), matrix((k + 1) * step)
-        one = before @ state
-        two = middle @ (state + step / 2 * one)
+        first = before @ state
+        two = middle @ (state + step / 2 * first)
         three = middle @ (state + step / 2 * two)
         four = after @ (state + step * three)
-        state = state + step / 6 * (one + 2 * two + 2 * three + four)
+        state = state + step / 6 * (first + 2 * two + 2 * three + four)
     mirrored = np.diag((1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0)) @ state
     largest = np.abs(np.linalg.eigvals(mirrored)).max(axis=1)
     return np.asarray(np.log(largest) / math.pi, dtype=float)
@@ -184,14 +184,14 @@ def compared(seed: int, count: int = ARRANGEMENTS) -> Comparison:
     case = case_of(seed)
     low, high = case.speeds
     started = time.perf_counter()
-    found = boundaries(case.scene, low, high, case.half_angle)
+    limits = boundaries(case.scene, low, high, case.half_angle)
     seconds, rows = time.perf_counter() - started, arrangements(case, count)
     grid = np.geomspace(low, high, SPEEDS).tolist()
     rates = [growth(case, rows, speed) for speed in grid]
     unstable = [k for k, rate in enumerate(rates) if rate.max() > GROWS]
-    missed = sum(grows_unseen(found, grid[k], low, case) for k in unstable)
+    missed = sum(grows_unseen(limits, grid[k], low, case) for k in unstable)
     top = _highest(case, rows, grid, rates, unstable)
-    own = _unstable_up_to(found, low, high, case)
+    own = _unstable_up_to(limits, low, high, case)
     lack = 0.0 if top is None else (1.0 if own is None else max(0.0, top / own - 1))
     return Comparison(seed, len(case.masses), len(rows), top, own, lack, missed, seconds)
 
@@ -211,30 +211,30 @@ def _highest(case: Case, rows: Array, grid: list[float], rates: list[Array], uns
     return low
 
 
-def stable_at(found: tuple[Boundary, ...], speed: float, first: bool) -> bool:
+def stable_at(limits: tuple[Boundary, ...], speed: float, first: bool) -> bool:
     """Whether abu-calc calls a speed stable; `first`: whether the lowest speed is."""
-    below = [limit for limit in found if limit.speed <= speed]
+    below = [limit for limit in limits if limit.speed <= speed]
     return below[-1].stable_above if below else first
 
 
-def _first(found: tuple[Boundary, ...], case: Case) -> bool:
-    if found:
-        return not found[0].stable_above
+def _first(limits: tuple[Boundary, ...], case: Case) -> bool:
+    if limits:
+        return not limits[0].stable_above
     from abu_calc.dynamics.balanced.stability import stability
 
     return bool(stability(case.scene, case.half_angle).stable)
 
 
-def grows_unseen(found: tuple[Boundary, ...], speed: float, low: float, case: Case) -> bool:
+def grows_unseen(limits: tuple[Boundary, ...], speed: float, low: float, case: Case) -> bool:
     """Whether abu-calc calls a speed stable, and none of its boundaries is near."""
-    near = any(abs(limit.speed / speed - 1) <= ALLOWED for limit in found)
-    return stable_at(found, speed, _first(found, case)) and not near and speed > low
+    near = any(abs(limit.speed / speed - 1) <= ALLOWED for limit in limits)
+    return stable_at(limits, speed, _first(limits, case)) and not near and speed > low
 
 
-def _unstable_up_to(found: tuple[Boundary, ...], low: float, high: float, case: Case) -> float | None:
-    if not stable_at(found, high, _first(found, case)):
+def _unstable_up_to(limits: tuple[Boundary, ...], low: float, high: float, case: Case) -> float | None:
+    if not stable_at(limits, high, _first(limits, case)):
         return high
-    return found[-1].speed if found else None
+    return limits[-1].speed if limits else None
 
 
 def summary(comparisons: list[Comparison]) -> dict[str, Any]:

@@ -9,5 +9,5 @@ QUICK = (5, 9, 23)
 
 @pytest.mark.parametrize("seed", [*QUICK, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(30, 36))])
 def test_no_arrangement_is_missed(seed: int) -> None:
-    found = compared(seed, 60)
-    assert found.tried > 20 and found.missed <= ALLOWED and found.speeds_missed == 0
+    comparison = compared(seed, 60)
+    assert comparison.tried > 20 and comparison.missed <= ALLOWED and comparison.speeds_missed == 0

@@ -97,9 +97,9 @@ def spread(masses: Array, resultant: complex, gap: float, fan_gap: float) -> lis
 def candidates(masses: Array, resultant: complex, gap: float, fan_gap: float) -> Array:
     """Arrangements with Σ m e^{iθ} = resultant [kg], a row each: some hundreds, in up to three groups of neighbours."""
     wider = np.linspace(gap, max(gap, fan_gap), SPACINGS)[1:].tolist()
-    found = [*_grouped(masses, resultant, gap, AROUND)]
-    found += [rows for spacing in wider for rows in _grouped(masses, resultant, spacing, AROUND // 5)]
-    angles = np.concatenate(found)
+    groups = [*_grouped(masses, resultant, gap, AROUND)]
+    groups += [rows for spacing in wider for rows in _grouped(masses, resultant, spacing, AROUND // 5)]
+    angles = np.concatenate(groups)
     places = np.sort(angles % (2 * math.pi), axis=1)
     gaps = np.diff(np.concatenate([places, places[:, :1] + 2 * math.pi], axis=1), axis=1)
     return np.asarray(angles[gaps.min(axis=1) >= gap - TOUCHING], dtype=float)

@@ -73,24 +73,24 @@ class Family:
         weights = np.array(masses)
         resultant = complex(weights @ np.exp(1j * np.array(angles)))
         rows = np.concatenate([np.array([angles]), candidates(weights, resultant, gap, narrowest_gap(tuple(angles)))])
-        found = cls(weights, resultant, gap, *_sorted(weights, rows))
-        ends = np.array([*rows, *found._beyond(0.0), *found._beyond(1.0)])
+        family = cls(weights, resultant, gap, *_sorted(weights, rows))
+        ends = np.array([*rows, *family._beyond(0.0), *family._beyond(1.0)])
         return cls(weights, resultant, gap, *_sorted(weights, ends))
 
     def nearest(self, chi: float) -> Array:
         """An arrangement of this χ; if none is reached, the row whose χ is nearest."""
-        found = self._reached(chi)
-        return self.rows[int(np.abs(self.chi - chi).argmin())] if found is None else found
+        reached = self._reached(chi)
+        return self.rows[int(np.abs(self.chi - chi).argmin())] if reached is None else reached
 
     def _reached(self, chi: float) -> Array | None:
         """An arrangement of this χ from the rows whose χ are nearest."""
         near = np.argsort(np.abs(self.chi - chi), kind="stable")[:NEAREST]
-        return next((found for k in near if (found := self._moved(self.rows[k], chi)) is not None), None)
+        return next((moved for k in near if (moved := self._moved(self.rows[k], chi)) is not None), None)
 
     def _moved(self, angles: Array, chi: float) -> Array | None:
         """One near the angles; None if none is, or balls overlap there."""
-        found = moved_to(self.masses, angles, self.resultant, chi)
-        return found if found is not None and narrowest_gap(tuple(found)) >= self.gap - TOUCHING else None
+        moved = moved_to(self.masses, angles, self.resultant, chi)
+        return moved if moved is not None and narrowest_gap(tuple(moved)) >= self.gap - TOUCHING else None
 
     def _beyond(self, end: float) -> Iterator[Array]:
         """Arrangements whose χ are nearer to 0 or 1 than those of the rows, by steps, halved where one fails."""
@@ -98,11 +98,11 @@ class Family:
             best, chi, share = angles, likeness(self.masses.tolist(), angles.tolist()), 1.0
             for _ in range(TRIALS):
                 wanted = chi + share * (end - chi)
-                found = self._moved(best, wanted)
-                if found is None:
+                moved = self._moved(best, wanted)
+                if moved is None:
                     share /= 2
                     continue
-                best, chi, share = found, wanted, min(1.0, 2 * share)
+                best, chi, share = moved, wanted, min(1.0, 2 * share)
                 if chi == end:
                     break
             yield best
@@ -133,9 +133,9 @@ def neighbours(races: Sequence[Race], angles: Array, step: float) -> Iterator[Ar
         first += len(masses)
     for direction in diagonal(*free).T:
         for way in (step, -step):
-            found = closed(races, angles + way * direction)
-            if found is not None:
-                yield found
+            neighbour = closed(races, angles + way * direction)
+            if neighbour is not None:
+                yield neighbour
 
 
 def closed(races: Sequence[Race], angles: Array) -> Array | None:
@@ -159,18 +159,18 @@ def largest(function: Callable[[float], float], points: Sequence[float], section
     >>> round(largest(lambda x: -((x - 0.3) ** 2), (0.0, 0.5, 1.0), 20), 4)
     0.3
     """
-    found = {x: function(x) for x in points}
-    k = max(range(len(points)), key=lambda k: found[points[k]])
+    values = {x: function(x) for x in points}
+    k = max(range(len(points)), key=lambda k: values[points[k]])
     low, high = points[max(0, k - 1)], points[min(len(points) - 1, k + 1)]
     left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     for _ in range(sections if low < high else 0):
         for x in (left, right):
-            if x not in found:
-                found[x] = function(x)
-        if found[left] >= found[right]:
+            if x not in values:
+                values[x] = function(x)
+        if values[left] >= values[right]:
             high, right = right, left
             left = high - GOLDEN * (high - low)
         else:
             low, left = left, right
             right = low + GOLDEN * (high - low)
-    return max(found, key=lambda x: found[x])
+    return max(values, key=lambda x: values[x])

@@ -34,9 +34,9 @@ def worst(motions: tuple[BalancedMotion, ...], speed: float) -> BalancedMotion:
         return decided(motions[0], speed)[0]
     best, most = motions[0], -math.inf
     for motion in motions:
-        one, growth = decided(motion, speed)
+        looked_at, growth = decided(motion, speed)
         if growth > most + MARGIN * speed:
-            best, most = one, growth
+            best, most = looked_at, growth
     return best
 
 
