@@ -1,18 +1,24 @@
 """The frequency region of a machine without approximations: where its idle balanced state is stable."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from abu_calc.analysis.hanging import hanging_bounds
-from abu_calc.checks import Check, coded, verdict
-from abu_calc.dynamics.balanced.boundaries import Boundary, excess_of, limits_of, quick
-from abu_calc.dynamics.balanced.crossings import Motion
+from abu_calc.analysis.remedies import DAMPED, other_drags
+from abu_calc.analysis.stuck_balls import StuckBalls, stuck_balls
+from abu_calc.checks import Check, coded
+from abu_calc.dynamics.balanced.boundaries import Boundary, excess_of, limits_of_all, quick
+from abu_calc.dynamics.balanced.growth import MARGIN
 from abu_calc.dynamics.balanced.hanging import HangingBounds
-from abu_calc.dynamics.balanced.stability import MARGIN, judged
+from abu_calc.dynamics.balanced.search import Search, searched
+from abu_calc.dynamics.balanced.stability import judged
+from abu_calc.dynamics.balanced.two_modes import Motion
 from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.formulas.suspension import Springs
 from abu_calc.frozen import dataclass
 from abu_calc.scenes.from_design import contact_half_angle, idle_scene
 from abu_calc.sizing.design import Design
@@ -20,6 +26,9 @@ from abu_calc.units import from_si
 
 PLACES: Final = 9
 """Speeds of a range at which the growth rate is compared."""
+
+NAMED: Final = 3
+"""Boundaries that the check names, those nearest to the worst speed."""
 
 
 @dataclass(frozen=True)
@@ -45,63 +54,151 @@ class TrueRegion:
     check: Check
 
 
-def true_region(design: Design) -> TrueRegion:
-    """By the eigenvalues of the idle scene, with the drag and the damping of the file."""
-    scene, half = idle_scene(design), contact_half_angle(design)
-    low, high = design.case.speed_range
-    modes, hanging = _modes(scene), hanging_bounds(design)
+@dataclass(frozen=True)
+class SpeedRange:
+    """The idle balanced state over the speeds of a design; `worst_speed` [rad/s] and the `growth` rate [1/s] there.
+
+    `rated`: the growth rate at the rated speed.
+    """
+
+    boundaries: tuple[Boundary, ...]
+    worst_speed: float
+    growth: float
+    rated: float
+    stable: bool
+
+
+def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
+    """By the eigenvalues of the idle scene, with the drag and the damping of the file.
+
+    Where a disturbance grows, starts are simulated to see whether dry friction holds the balls: see `stuck_balls`.
+    """
+    modes, hanging = _modes(idle_scene(design)), hanging_bounds(design)
     try:
-        motions = quick(judged(scene, half)[1])
-        if not motions:
+        speeds = _speed_range(design)
+        if speeds is None:
             reason = "there is no balanced state: the balls cannot carry the imbalance"
             remedy = "Heavier or more balls, a larger race, or a better balanced wheel."
             check = coded("ABU103", "fail", reason, unit="1/s", remedy=remedy)
             return TrueRegion(False, (), modes, hanging, check)
-        first = min(low, *design.frequency.natural_frequencies) / 2
-        limits = limits_of(_scanned(motions), scene, first, 2 * high, coarse=True)
-        stable = excess_of(motions, scene.speed) < 0
-        return TrueRegion(stable, limits, modes, hanging, _check(design, motions, limits))
+        check = _stable(design, speeds) if speeds.stable else _unstable(design, speeds, hanging, accuracy)
+        return TrueRegion(speeds.rated < -MARGIN * design.case.speed, speeds.boundaries, modes, hanging, check)
     except NotTrustworthyError as error:
         reason = f"not known: {str(error).splitlines()[0]}"
         check = coded("ABU103", "not-done", reason, unit="1/s", remedy="Another drag, or springs in place of hands.")
         return TrueRegion(None, None, modes, hanging, check)
 
 
-def _scanned(motions: Sequence[Motion]) -> Sequence[Motion]:
-    """All where that is quick; on an anisotropic support the least even one, which needs the highest speed."""
-    return motions if all(motion.isotropic for motion in motions) else motions[-1:]
+def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange | None:
+    """Every speed of the range: its ends, the rated one, those of a grid, and no boundary between; None: no balance.
 
-
-def _check(design: Design, motions: Sequence[Motion], limits: Sequence[Boundary]) -> Check:
-    """Every speed of the range: its ends, the rated one, those of a grid, and no boundary between."""
+    `with_boundaries`: also those outside the range.
+    """
+    scene, half = idle_scene(design), contact_half_angle(design)
     low, high = design.case.speed_range
+    listed = judged(scene, half)[1]
+    if not listed:
+        return None
+    motions, search, rated = quick(listed), searched(listed, half), design.case.speed
+    ends = tuple(dict.fromkeys((low, rated, high)))
+    scanned = _scanned(motions, search, ends)
+    limits: tuple[Boundary, ...] = ()
+    if with_boundaries or low < high:
+        first = min(low, *design.frequency.natural_frequencies) / 2
+        scanned, limits = limits_of_all(scanned, search, scene, first, 2 * high, coarse=True)
     grid = np.geomspace(low, high, PLACES).tolist() if low < high else ()
-    speeds = {**dict.fromkeys(grid, _scanned(motions)), **dict.fromkeys((low, design.case.speed, high), motions)}
-    rates = {speed: (excess_of(each, speed) - MARGIN) * speed for speed, each in speeds.items()}
+    rates = {speed: _rate(scanned, speed) for speed in grid}
+    # Elsewhere the search says it all; an arm is looked at in all the arrangements listed.
+    rates |= {speed: search.growth(speed) if search else _rate(motions, speed) for speed in ends}
     worst = max(rates, key=lambda speed: rates[speed])
-    stable = rates[worst] < -MARGIN * worst and not any(low < one.speed < high for one in limits)
-    rpm = f"{from_si(worst, 'rpm'):.6g} rpm"
-    if stable:
-        where = f"the slowest at {rpm}" if low < high else f"at {rpm}"
-        message = f"every small disturbance dies out, {where}, in the worst arrangement that balances"
+    stable = rates[worst] < -MARGIN * worst and not any(low < limit.speed < high for limit in limits)
+    return SpeedRange(limits, worst, rates[worst], rates[rated], stable)
+
+
+def _scanned(motions: tuple[Motion, ...], search: Search | None, speeds: Sequence[float]) -> tuple[Motion, ...]:
+    """Motions to look for boundaries with: all where that is quick.
+
+    Elsewhere the least even one, which mostly needs the highest speed; of a search also those that grow at the speeds.
+    """
+    if all(motion.isotropic for motion in motions):
+        return motions
+    return search.added(motions[-1:], speeds) if search else motions[-1:]
+
+
+def _rate(motions: Sequence[Motion], speed: float) -> float:
+    """The largest growth rate [1/s]."""
+    return (excess_of(motions, speed) - MARGIN) * speed
+
+
+def _stable(design: Design, speeds: SpeedRange) -> Check:
+    low, high = design.case.speed_range
+    where = f"the slowest at {_rpm(speeds.worst_speed)}" if low < high else f"at {_rpm(speeds.worst_speed)}"
+    message = f"every small disturbance dies out, {where}, in the worst arrangement that balances"
+    return coded("ABU103", "pass", message, speeds.growth, 0.0, "1/s")
+
+
+def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accuracy: float) -> Check:
+    """A failure, or a warning where dry friction holds the balls in every start that was simulated."""
+    low, high = design.case.speed_range
+    message = (
+        f"not every small disturbance dies out at {_rpm(speeds.worst_speed)}, in the worst arrangement that balances"
+    )
+    nearest = sorted(speeds.boundaries, key=lambda limit: abs(limit.speed - speeds.worst_speed))[:NAMED]
+    if nearest:
+        named = (f"{_rpm(limit.speed)} ({'stable' if limit.stable_above else 'unstable'} above)" for limit in nearest)
+        message += f"; stability changes at {', '.join(named)}"
+    held = StuckBalls(0, 0)
+    if low < high:
+        message += "; starts prove nothing for a range of speeds"
     else:
-        message = f"not every small disturbance dies out at {rpm}, in the worst arrangement that balances"
+        held = stuck_balls(design, hanging.largest or 0.0, accuracy)
+        message += f"; {held.words}"
     return coded(
-        "ABU103", verdict(stable), message, rates[worst], 0.0, "1/s", None if stable else _remedy(limits, high)
+        "ABU103", "warn" if held.proves else "fail", message, speeds.growth, 0.0, "1/s", _action(design, speeds)
+    )  # fmt: skip
+
+
+def _action(design: Design, speeds: SpeedRange) -> str:
+    """Speeds above the last boundary where it is inside the range; else the first change that makes the range stable.
+
+    Changes are other drags, the nearest first, and more damping of springs; each is judged as the design was.
+    """
+    low, high = design.case.speed_range
+    last = speeds.boundaries[-1] if speeds.boundaries and speeds.boundaries[-1].stable_above else None
+    if last and low < last.speed < high:
+        return f"Keep all speeds above {_rpm(last.speed)}."
+    case = design.case
+    for drag in other_drags(case.drag, only_more=False):
+        changed = _speed_range(replace(design, case=replace(case, drag=drag)), with_boundaries=False)
+        if changed and changed.stable:
+            return _calculated(
+                f"autobalancer.rolling_drag_per_s = {drag:.3g} (instead of {case.drag:.3g})", speeds, changed
+            )
+    if isinstance(case.suspension, Springs):
+        x, y = (DAMPED * damping for damping in case.suspension.damping)
+        held = replace(design, case=replace(case, suspension=replace(case.suspension, damping=(x, y))))
+        changed = _speed_range(held, with_boundaries=False)
+        if changed and changed.stable:
+            return _calculated("suspension.damping_ratios twice as large", speeds, changed)
+    above = f"Keep all speeds above {_rpm(last.speed)}, beyond this range. " if last else ""
+    return (
+        f"{above}No other drag makes it stable: change the damping, use lighter balls, or hold the machine more softly."
     )
 
 
-def _remedy(limits: Sequence[Boundary], high: float) -> str:
-    """The speed above which all is stable, where it is within reach."""
-    last = limits[-1] if limits and limits[-1].stable_above else None
-    if last is None:
-        return "More drag or damping, lighter balls, or a softer suspension."
-    above = "" if last.speed < high else ", beyond this range; or hold the machine more softly"
-    return f"Keep all speeds above {from_si(last.speed, 'rpm'):.6g} rpm{above}."
+def _calculated(change: str, before: SpeedRange, after: SpeedRange) -> str:
+    return (
+        f"Set {change}: the growth rate falls from {before.growth:.3g} to {after.growth:.3g} 1/s (calculated, in the "
+        "worst arrangement)."
+    )
+
+
+def _rpm(speed: float) -> str:
+    return f"{from_si(speed, 'rpm'):.6g} rpm"
 
 
 def _modes(scene: Scene) -> tuple[Mode, ...]:
     rates = np.linalg.eigvals(scene.small_motion.motion)
     swinging = rates[rates.imag > 0]
-    found = (Mode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
-    return tuple(sorted(found, key=lambda one: one.frequency))
+    modes = (Mode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
+    return tuple(sorted(modes, key=lambda mode: mode.frequency))

@@ -36,6 +36,7 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
     return (
         Heading(f"{result.title}: stability of the balanced state"),
         Paragraph(f"{word} at {value_of(result, 'speed_rpm')}: {check.message}.", check.status),
+        *([Paragraph(result.consequence.text)] if result.consequence else []),
         *arm_line(result.arm_advice),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
         *((Heading(BOUNDS), arm_bounds(result.swing_arm)) if result.swing_arm else ()),

@@ -17,7 +17,7 @@ def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
     more: tuple[str, ...] = () if asked else ("--speeds LOW:HIGH, where stability changes",)
     blocks = stability_blocks(result)
     if result.arm_motion is None:
-        return shortened(result, blocks, *LEFT_OUT, head=3 if result.arm_advice else 2, more=more)
+        return shortened(result, blocks, *LEFT_OUT, head=3 if result.arm_advice or result.consequence else 2, more=more)
     if result.swing_arm:
         more = (*more, "`abu size`, the bounds of the arm")
     if result.hanging:

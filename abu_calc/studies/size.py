@@ -112,7 +112,7 @@ def size(
         design = tried.design
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
-        region = true_region(design)
+        region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
     stays = _on_work(design, runs, accuracy, progress)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)

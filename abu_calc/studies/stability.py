@@ -14,6 +14,7 @@ from abu_calc.errors import InputError, Place
 from abu_calc.progress import Progress, silent
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.arm_records import ArmMotion, SwingArm
+from abu_calc.studies.consequence import ArrangementEnd
 from abu_calc.studies.design_records import StabilityBoundary, stability_boundaries
 from abu_calc.studies.hanging import Hanging
 from abu_calc.studies.quantity import Quantity, Record, record
@@ -63,7 +64,9 @@ class StabilityResult(Result):
 
     command: ClassVar[str] = "stability"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
-    optional: ClassVar[frozenset[str]] = frozenset({"arm_advice", "swing_arm", "arm_motion", "growth_by_speed"})
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"arm_advice", "swing_arm", "arm_motion", "growth_by_speed", "consequence"}
+    )
 
     model: SceneModel
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
@@ -85,6 +88,8 @@ class StabilityResult(Result):
     arm_motion: ArmMotion | None = None
     growth_by_speed: tuple[GrowthAt, ...] | None = None
     """Over the speeds asked for, of the arrangement that is worst at each."""
+    consequence: ArrangementEnd | None = None
+    """Of balls in the worst arrangement, where it grows and others do not."""
     searched_rpm: tuple[float, float] | None
     """The range of speeds that boundaries were looked for in."""
 
@@ -144,8 +149,20 @@ def stability(
         swing_arm=arm.bounds,
         arm_motion=arm.motion,
         growth_by_speed=None if limits is None or speeds_rpm is None else _growth(subject, speeds_rpm, limits, way),
+        consequence=_consequence(subject, found, way, progress),
         searched_rpm=speeds_rpm,
     )
+
+
+def _consequence(subject: Subject, found: Stability, way: Arrangement, progress: Progress) -> ArrangementEnd | None:
+    """Where the worst arrangement grows and others do not, on an anisotropic support."""
+    if way != "worst" or found.stable is not False or found.multipliers is None:
+        return None
+    from abu_calc.analysis.disturbed import consequence
+
+    progress("the worst arrangement, disturbed")
+    end = consequence(subject.scene, found, subject.half_angle)
+    return None if end is None else ArrangementEnd.of(end)
 
 
 class ArmAnswer(NamedTuple):

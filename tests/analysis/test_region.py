@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+import abu_calc
 from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.analysis.region import true_region
 from abu_calc.dynamics.balanced.stability import stability
@@ -114,6 +115,43 @@ def test_hands_that_let_the_balls_flutter_fail() -> None:
     hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
     region = true_region(design_of("msh-230", *hands))
     assert region.stable is False and region.check.status == "fail"
+
+
+HANDS = str(Path(__file__).parents[1] / "machines" / "angle-grinder-hands.toml")
+
+
+def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
+    """An angle grinder in hands at 11 000 rpm: 167 rpm is no action; another drag is, and the command agrees."""
+    design = design_of(HANDS)
+    region = true_region(design)
+    check = region.check
+    assert region.stable is False and region.boundaries is not None
+    first, last = region.boundaries
+    assert first.stable_above and not last.stable_above
+    # 10 882 rpm for arrangements listed; the worst one that a search finds flutters from a little less on.
+    assert 10500 < from_si(last.speed, "rpm") < 10890
+    assert f"{from_si(last.speed, 'rpm'):.6g} rpm (unstable above)" in check.message
+    assert check.remedy is not None and "above 167" not in check.remedy
+    drag = float(check.remedy.split("rolling_drag_per_s = ")[1].split(" ")[0])
+    assert 20 <= drag <= 30
+    assert true_region(design_of(HANDS, f"autobalancer.rolling_drag_per_s={drag}")).check.status == "pass"
+    found = abu_calc.stability(abu_calc.read(HANDS), speeds_rpm=(9000.0, 12000.0))
+    assert found.boundaries_rpm is not None and not found.stable
+    (limit,) = found.boundaries_rpm
+    assert limit.speed_rpm == pytest.approx(from_si(last.speed, "rpm"), rel=1e-4)
+
+
+def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
+    held = true_region(design_of(HANDS)).check
+    assert held.status == "warn" and "dry friction holds all balls at rest in 12 of 12 simulated starts" in held.message
+    rolling = true_region(design_of(HANDS, "autobalancer.rolling_friction_mm=0")).check
+    assert rolling.status == "fail" and "no dry friction" in rolling.message
+
+
+def test_friction_that_does_not_hold_every_start_fails() -> None:
+    hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
+    check = true_region(design_of("msh-230", *hands)).check
+    assert check.status == "fail" and " simulated starts" in check.message
 
 
 def test_bounds_over_the_range_and_at_rest() -> None:

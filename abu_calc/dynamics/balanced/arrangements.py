@@ -39,9 +39,9 @@ CLOSED: Final = 1e-13
 def rests(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "worst") -> tuple[Rest, ...]:
     """States of rest of a scene to be judged, none where there is none; the even fan of `resting_state` comes first.
 
-    "worst": some that stand for all, see `spread`; races change together, from the most even to the least. Where the
-    axis moves only the fan. "start": where the balls go from their start angles. `half_angle` β [rad] of touching
-    balls. Raises NotKnownError where no formula gives them.
+    "worst": some that stand for all, see `spread`; on an anisotropic support `Search` starts from them. Races change
+    together, from the most even to the least. Where the axis moves only the fan. "start": where the balls go from their
+    start angles. `half_angle` β [rad] of touching balls. Raises NotKnownError where no formula gives them.
     """
     fan = resting_state(scene, half_angle)
     if fan is None or arrangement == "fan":
@@ -50,7 +50,7 @@ def rests(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "wor
         return (_from_start(scene, fan, half_angle),)
     if fan.motion:
         return (fan,)
-    choices = [_choices(race, own, needed_gap(scene, race, half_angle)) for race, own in _by_race(scene, fan.angles)]
+    choices = [_choices(race, own, needed_gap(scene, race, half_angle)) for race, own in by_race(scene, fan.angles)]
     count = max((len(choice) for choice in choices), default=1)
     found = [
         Rest(tuple(angle for choice in choices for angle in choice[min(k, len(choice) - 1)])) for k in range(count)
@@ -84,13 +84,7 @@ def spread(masses: Array, resultant: complex, gap: float, fan_gap: float) -> lis
     that of such groups, touching: 40 searches each of 11 sets with 3–12 balls found no larger one. Of unequal balls
     neighbours are those of the file.
     """
-    wider = np.linspace(gap, max(gap, fan_gap), SPACINGS)[1:].tolist()
-    found = [*_grouped(masses, resultant, gap, AROUND)]
-    found += [one for spacing in wider for one in _grouped(masses, resultant, spacing, AROUND // 5)]
-    angles = np.concatenate(found)
-    places = np.sort(angles % (2 * math.pi), axis=1)
-    gaps = np.diff(np.concatenate([places, places[:, :1] + 2 * math.pi], axis=1), axis=1)
-    angles = angles[gaps.min(axis=1) >= gap - TOUCHING]
+    angles = candidates(masses, resultant, gap, fan_gap)
     if not len(angles):
         return []
     chi = np.abs(np.exp(2j * angles) @ masses) / masses.sum()
@@ -98,6 +92,17 @@ def spread(masses: Array, resultant: complex, gap: float, fan_gap: float) -> lis
     nearest = [int(np.abs(chi - one).argmin()) for one in wanted]
     picked = {round(float(chi[k]), 6): k for k in nearest}
     return [tuple(angles[k].tolist()) for k in picked.values()]
+
+
+def candidates(masses: Array, resultant: complex, gap: float, fan_gap: float) -> Array:
+    """Arrangements with Σ m e^{iθ} = resultant [kg], a row each: some hundreds, in up to three groups of neighbours."""
+    wider = np.linspace(gap, max(gap, fan_gap), SPACINGS)[1:].tolist()
+    groups = [*_grouped(masses, resultant, gap, AROUND)]
+    groups += [rows for spacing in wider for rows in _grouped(masses, resultant, spacing, AROUND // 5)]
+    angles = np.concatenate(groups)
+    places = np.sort(angles % (2 * math.pi), axis=1)
+    gaps = np.diff(np.concatenate([places, places[:, :1] + 2 * math.pi], axis=1), axis=1)
+    return np.asarray(angles[gaps.min(axis=1) >= gap - TOUCHING], dtype=float)
 
 
 def _grouped(masses: Array, resultant: complex, spacing: float, around: int) -> Iterator[Array]:
@@ -143,7 +148,7 @@ def _from_start(scene: Scene, fan: Rest, half_angle: float) -> Rest:
     if fan.motion:
         raise NotKnownError("the axis keeps moving: only the even fan is known there, --arrangement fan judges it")
     found: list[float] = []
-    for race, own in _by_race(scene, fan.angles):
+    for race, own in by_race(scene, fan.angles):
         masses, start = np.array(race.ball_masses), np.array(race.start_angles)
         angles = _downhill(masses / max(masses.sum(), 1e-300), start, np.array(own)) if len(own) else start
         if angles is None or narrowest_gap(tuple(angles)) < needed_gap(scene, race, half_angle) - TOUCHING:
@@ -172,7 +177,8 @@ def _downhill(shares: Array, start: Array, fan: Array) -> Array | None:
     return None
 
 
-def _by_race(scene: Scene, angles: tuple[float, ...]) -> Iterator[tuple[Race, tuple[float, ...]]]:
+def by_race(scene: Scene, angles: tuple[float, ...]) -> Iterator[tuple[Race, tuple[float, ...]]]:
+    """Each race of a scene with the angles of its own balls."""
     first = 0
     for race in scene.races:
         count = len(race.ball_masses)

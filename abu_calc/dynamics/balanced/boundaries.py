@@ -1,18 +1,22 @@
 """Speeds at which the balanced state of a scene gains or loses its stability."""
 
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from typing import Final
 
 from abu_calc.dynamics.balanced.arrangements import Arrangement
-from abu_calc.dynamics.balanced.crossings import Motion, between, crossings, solvable
+from abu_calc.dynamics.balanced.crossings import between, crossings, solvable
+from abu_calc.dynamics.balanced.growth import MARGIN, decided
 from abu_calc.dynamics.balanced.linearised import BalancedMotion
+from abu_calc.dynamics.balanced.search import Search, at_speed, searched
 from abu_calc.dynamics.balanced.speeds import COARSE, FEW, GRID, MANY, ROUGH, changes, check_range, grid_of, refined
-from abu_calc.dynamics.balanced.stability import MARGIN, decided, judged
+from abu_calc.dynamics.balanced.stability import judged
 from abu_calc.dynamics.balanced.stationary import still_axis
-from abu_calc.dynamics.balanced.two_modes import two_modes
+from abu_calc.dynamics.balanced.two_modes import Motion, two_modes
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
+
+ROUNDS: Final = 6
+"""How often arrangements that are worse at a boundary are added."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +36,14 @@ def boundaries(
     Isotropic support, axis still, up to 16 states: all of them, see `crossings`. Elsewhere the changes of sign of the
     growth rate on a grid that is refined where the rate bends, comes near zero or turns back before it, at up to some
     five hundred speeds; `coarse`: at some twenty, not refined. Without a state of rest at a speed nothing is stable
-    there. `arrangement`: "worst" asks for all of them to be stable, see `arrangements.rests`. Raises NotKnownError
+    there. `arrangement`: "worst" asks for all of them to be stable, see `arrangements.rests`; on an anisotropic
+    support those that `Search` finds worse at some twenty speeds and at each boundary are added. Raises NotKnownError
     where `stability` knows no answer.
     """
     check_range(low, high)
-    excess, still = _excess_of_scene(scene, half_angle, arrangement)
+    excess, still, search = _excess_of_scene(scene, half_angle, arrangement)
     if still:
-        return limits_of(still, scene, low, high, coarse=coarse)
+        return limits_of_all(still, search, scene, low, high, coarse=coarse)[1]
     return () if excess is None else _on_grid(excess, scene, low, high, coarse=coarse)
 
 
@@ -47,10 +52,14 @@ def growth_over(
 ) -> tuple[tuple[float, float], ...]:
     """The growth rate [1/s] of the slowest-dying disturbance at each of these speeds [rad/s] at which there is a state
     of rest, of the arrangement that is worst there; none where `boundaries` looks for none. Raises as that does.
+
+    Several races, or a support that tilts: of those listed and of the one that is worst at the scene's speed.
     """
-    excess, still = _excess_of_scene(scene, half_angle, arrangement)
+    excess, still, search = _excess_of_scene(scene, half_angle, arrangement)
     if excess is None:
         return ()
+    if search and search.in_plane:
+        return tuple((speed, search.growth(speed)) for speed in speeds)
     rates = ((speed, (excess(speed) - MARGIN) * speed) for speed in speeds)
     nowhere = 1.0 - MARGIN
     return tuple(one for one in rates if still or one[1] != nowhere * one[0])
@@ -58,26 +67,50 @@ def growth_over(
 
 def _excess_of_scene(
     scene: Scene, half_angle: float, arrangement: Arrangement
-) -> tuple[Callable[[float], float] | None, tuple[Motion, ...]]:
-    """Of a speed: the largest growth rate per radian beyond what is taken for none; and the motions about a still axis.
+) -> tuple[Callable[[float], float] | None, tuple[Motion, ...], Search | None]:
+    """Of a speed: the largest growth rate per radian beyond what is taken for none; the motions about a still axis, and
+    a search for worse ones.
 
     Without a state of rest at a speed 1; none where nothing is looked for.
     """
     state, found = judged(scene, half_angle, arrangement)
     if state == "arm alone" and scene.ball_masses:
-        return None, ()
+        return None, (), None
     moves = bool(found[0].motion) if found else bool(scene.ball_masses) and not still_axis(scene)
     if not found and not moves:
-        return None, ()
+        return None, (), None
     if moves:
 
         def excess(speed: float) -> float:
-            there = judged(_at(scene, speed), half_angle, arrangement)[1]
+            there = judged(at_speed(scene, speed), half_angle, arrangement)[1]
             return excess_of(there, speed) if there else 1.0
 
-        return excess, ()
-    still = quick(found)
-    return lambda speed: excess_of(still, speed), still
+        return excess, (), None
+    still, search = quick(found), searched(found, half_angle)
+    if search and not search.in_plane:
+        still = search.added(still, (scene.speed,))
+    return lambda speed: excess_of(still, speed), still, search
+
+
+def limits_of_all(
+    motions: tuple[Motion, ...], search: Search | None, scene: Scene, low: float, high: float, *, coarse: bool = False
+) -> tuple[tuple[Motion, ...], tuple[Boundary, ...]]:
+    """Motions that decide where all arrangements are stable, and every speed at which that changes.
+
+    Added to those given: some that grow where these do not, by a grid of speeds unless `coarse`, then the worst at each
+    boundary until none is worse. Range: an arrangement that grows only between these speeds is missed.
+    """
+    if search is None:
+        return motions, limits_of(motions, scene, low, high, coarse=coarse)
+    if not coarse:
+        motions = search.screened(motions, grid_of(scene, low, high, COARSE, FEW))
+    for _ in range(ROUNDS):
+        limits = limits_of(motions, scene, low, high, coarse=coarse)
+        worse = search.added(motions, (limit.speed for limit in limits))
+        if worse == motions:
+            break
+        motions = worse
+    return motions, limits
 
 
 def limits_of(
@@ -118,8 +151,3 @@ def quick(motions: Sequence[BalancedMotion]) -> tuple[Motion, ...]:
 def excess_of(motions: Sequence[Motion], speed: float) -> float:
     """The largest growth rate per radian, beyond what is taken for none."""
     return max(decided(motion, speed)[1] for motion in motions) / speed + MARGIN
-
-
-def _at(scene: Scene, speed: float) -> Scene:
-    """The scene at another speed, without effects."""
-    return replace(scene, speed=speed, duration=4 * math.pi / speed, effects=())

@@ -8,10 +8,12 @@ from typing import Final
 import numpy as np
 
 from abu_calc.dynamics.balanced.arrangements import Arrangement
-from abu_calc.dynamics.balanced.linearised import Array, BalancedMotion
+from abu_calc.dynamics.balanced.growth import MARGIN, worst
+from abu_calc.dynamics.balanced.linearised import Array
+from abu_calc.dynamics.balanced.search import searched
 from abu_calc.dynamics.balanced.speeds import GRID, MANY, check_range, grid_of
-from abu_calc.dynamics.balanced.stability import MARGIN, judged, worst
-from abu_calc.dynamics.balanced.two_modes import TwoModes, two_modes
+from abu_calc.dynamics.balanced.stability import judged
+from abu_calc.dynamics.balanced.two_modes import Motion, two_modes
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
 
@@ -29,8 +31,6 @@ REGULAR: Final = 1e12
 
 NARROW: Final = 1e-9
 """Relative; speeds as near as this are one."""
-
-Motion = BalancedMotion | TwoModes
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,10 @@ def crossings_of(
     found = judged(scene, half_angle, arrangement)[1]
     if not found or found[0].motion:
         return ()
-    one = worst(found, scene.speed)
-    motion: Motion = two_modes(one) or one
+    least_stable, search = worst(found, scene.speed), searched(found, half_angle)
+    if search:
+        least_stable = worst((least_stable, search.worst(scene.speed)), scene.speed)
+    motion: Motion = two_modes(least_stable) or least_stable
 
     def growing(speed: float) -> int:
         return motion.growing(speed, MARGIN * speed)

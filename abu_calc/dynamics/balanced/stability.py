@@ -5,38 +5,18 @@ support; Kovalenko 2010, (17)–(24), for a swing arm. Printed: Kladiev 1996, (7
 frequency; that does not suffice.
 """
 
-import math
 from dataclasses import replace
-from typing import Final, Literal, Protocol, Self, TypeVar
+from typing import Literal
 
 from abu_calc.dynamics.balanced.arrangements import Arrangement, rests
+from abu_calc.dynamics.balanced.growth import MARGIN, worst
 from abu_calc.dynamics.balanced.linearised import BalancedMotion, growth_of
 from abu_calc.dynamics.balanced.resting import Rest, resting_state
+from abu_calc.dynamics.balanced.search import searched
 from abu_calc.dynamics.balanced.stationary import NotKnownError
 from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
 
-MARGIN: Final = 1e-9
-"""Growth per radian of rotation that is taken for none: below, rounding decides."""
-
-UNDECIDED: Final = 10 * MARGIN
-"""Within this of none, balls that stand all but on one line are taken to stand on it."""
-
-
-class Linear(Protocol):
-    """What is asked of a linear motion: see `BalancedMotion` and `TwoModes`."""
-
-    @property
-    def on_one_line(self) -> Self:
-        """With balls that are all but on one line taken as if they were."""
-        ...
-
-    def growth(self, speed: float) -> float:
-        """Growth rate of the slowest-dying disturbance [1/s]."""
-        ...
-
-
-Motion = TypeVar("Motion", bound=Linear)
 State = Literal["balanced", "race still", "arm alone"]
 
 
@@ -68,9 +48,10 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
     """Whether every disturbance of the balanced state of a scene dies out, at its speed, by the worst arrangement.
 
     Growth rate: the largest Re λ, or ln|μ|/T over a revolution T [1/s]; stable below −1e-9·Ω. `half_angle` [rad] of
-    touching balls, 0 for balls without size; `arrangement`: see `arrangements.rests`. A swing arm whose balls are none,
-    or cannot balance, is judged alone; with balls that cannot balance it is not called stable. Range: constant speed,
-    small motions, no effects. Raises NotTrustworthyError when multipliers do not settle.
+    touching balls, 0 for balls without size; `arrangement`: see `arrangements.rests`; on an anisotropic support, other
+    than a swing arm, the worst is searched, see `Search`. A swing arm whose balls are none, or cannot balance, is
+    judged alone; with balls that cannot balance it is not called stable. Range: constant speed, small motions, no
+    effects. Raises NotTrustworthyError when multipliers do not settle.
     """
     left_out = tuple(effect.name for effect in scene.effects)
     unknown = Stability(scene.speed, None, None, None, None, None, None, None, left_out)
@@ -80,38 +61,17 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
         return replace(unknown, reason=str(error))
     if not found:
         return replace(unknown, stable=False)
-    motion = worst(found, scene.speed)
+    motion, search = worst(found, scene.speed), searched(found, half_angle)
+    count = len(found)
+    if search:
+        motion, count = worst((motion, search.worst(scene.speed)), scene.speed), search.trials
     eigenvalues = motion.eigenvalues(scene.speed)
     multipliers = motion.multipliers(scene.speed) if eigenvalues is None else None
     growth = growth_of(multipliers, scene.speed) if multipliers else motion.growth(scene.speed)
     carried = state != "arm alone" or not scene.ball_masses
     stable = carried and growth < -MARGIN * scene.speed
     angles = motion.angles if carried else None
-    return Stability(scene.speed, state, angles, eigenvalues, multipliers, growth, stable, None, left_out, len(found))
-
-
-def worst(motions: tuple[BalancedMotion, ...], speed: float) -> BalancedMotion:
-    """The one that dies out most slowly; of those alike the first."""
-    if len(motions) == 1:
-        return decided(motions[0], speed)[0]
-    best, most = motions[0], -math.inf
-    for motion in motions:
-        one, growth = decided(motion, speed)
-        if growth > most + MARGIN * speed:
-            best, most = one, growth
-    return best
-
-
-def decided(motion: Motion, speed: float) -> tuple[Motion, float]:
-    """The motion itself, or where rounding would decide that of balls on one line; and its growth rate [1/s].
-
-    Balls that stand all but on one line come back along it next to not at all, by the square of what they lack: less
-    than rounding. As the support pushes them back exactly where it pushes back those on the line, these decide.
-    """
-    growth = motion.growth(speed)
-    if abs(growth) > UNDECIDED * speed or motion.on_one_line is motion:
-        return motion, growth
-    return motion.on_one_line, motion.on_one_line.growth(speed)
+    return Stability(scene.speed, state, angles, eigenvalues, multipliers, growth, stable, None, left_out, count)
 
 
 def critical_damping(scene: Scene) -> float | None:

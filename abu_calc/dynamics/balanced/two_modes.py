@@ -1,4 +1,4 @@
-"""Small motions about equal balls that balance in one race: of all they can do, the support feels two modes.
+"""Small motions about balls that balance in one race: of all they can do, the support feels two modes.
 
     α = Σ δ cos θ,  β = Σ δ sin θ,  counted from the axis of Σ e^{2iθ},  of which  χ = |Σ e^{2iθ}|/n  is all that counts
     support   M D²q + C D q + K q + m Pᵀ D²(B η) = 0,     D = d/dt + Ω × (seen from the rotor),  η = R_p (α, β)
@@ -103,7 +103,14 @@ class TwoModes:
 
     def growth(self, speed: float) -> float:
         """Growth rate of the slowest-dying disturbance at Ω [1/s]: the largest Re λ, or ln|μ|/T over a revolution T."""
-        return float(self._rates(speed).max())
+        if speed not in self._growths:
+            self._growths[speed] = float(self._rates(speed).max())
+        return self._growths[speed]
+
+    @cached_property
+    def _growths(self) -> dict[float, float]:
+        """Growth rates that are known, by speed."""
+        return {}
 
     def growing(self, speed: float, least: float) -> int:
         """How many eigenvalues or multipliers grow by more than `least` [1/s]."""
@@ -152,6 +159,9 @@ class TwoModes:
         return np.asarray(np.concatenate([upper, lower], axis=1), dtype=float)
 
 
+Motion = BalancedMotion | TwoModes
+
+
 def _turned(matrix: Array, spin: Array, phases: Array) -> Array:
     """RᵀAR of a matrix of pairs along x and y, R = cos φ + spin · sin φ."""
     c, s = np.cos(phases)[:, None, None], np.sin(phases)[:, None, None]
@@ -161,14 +171,14 @@ def _turned(matrix: Array, spin: Array, phases: Array) -> Array:
 
 
 def two_modes(motion: BalancedMotion) -> TwoModes | None:
-    """Those of a motion of any scene; None but for equal balls in one race, whose support moves it in its plane by
+    """Those of a motion of any scene; None but for balls of one race, whose support moves it in its plane by
     pairs of coordinates along x and y, the axis still."""
     scene, angles = motion.scene, motion.angles
     if motion.motion:
         return None
     support = scene.support.small_motion(scene.speed).carrying(scene.balls)
     masses, size = scene.ball_masses, len(support.mass)
-    if len(scene.races) != 1 or not masses or min(masses) < max(masses) or not scene.support.straight:
+    if len(scene.races) != 1 or not masses or not scene.support.straight:
         return None
     spin = np.kron(np.eye(size // 2), QUARTER)
     if size % 2 or np.any(support.frame @ spin != QUARTER @ support.frame):
@@ -176,7 +186,7 @@ def two_modes(motion: BalancedMotion) -> TwoModes | None:
     (race,) = scene.races
     return TwoModes(
         support=support,
-        ball_mass=masses[0],
+        ball_mass=sum(masses) / len(masses),
         drag=race.drag,
         inertia_factor=race.inertia_factor,
         count=len(angles),

@@ -1,0 +1,50 @@
+"""Starts of a design at whose end dry friction holds every ball at rest in its race."""
+
+from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, run_of_start
+from abu_calc.dynamics.switching.sticking import AT_REST
+from abu_calc.errors import NotTrustworthyError
+from abu_calc.frozen import dataclass
+from abu_calc.scenes.members import Member, members
+from abu_calc.sizing.design import Design
+
+
+@dataclass(frozen=True)
+class StuckBalls:
+    """How many starts were simulated at the drag given, and in how many of them all balls balance and end stuck."""
+
+    starts: int
+    held: int
+
+    @property
+    def proves(self) -> bool:
+        """Whether friction held the balls in every start."""
+        return 0 < self.starts == self.held
+
+    @property
+    def words(self) -> str:
+        """The proof, or why there is none."""
+        if not self.starts:
+            return "no dry friction is given that could hold the balls"
+        proof = "dry friction holds all balls at rest" if self.proves else "dry friction holds the balls"
+        return f"{proof} in {self.held} of {self.starts} simulated starts"
+
+
+def stuck_balls(design: Design, doubtful: float, accuracy: float = 0.01) -> StuckBalls:
+    """Simulate every start at the drag given to its end, and count those whose balls stick and balance.
+
+    A ball sticks when its mean speed in the last twentieth of the run is below 1e-9 of the rotor's: a disturbance that
+    friction can carry then moves nothing. Runs that give no trustworthy number count as not held. `doubtful` [1/s]: see
+    `members`. Range: one speed; a disturbance beyond what friction carries may still free the balls.
+    """
+    if not design.case.friction_arm:
+        return StuckBalls(0, 0)
+    starts = list(members(design, doubtful, (1.0,)))
+    return StuckBalls(len(starts), sum(_sticks(design, member, accuracy) for member in starts))
+
+
+def _sticks(design: Design, member: Member, accuracy: float) -> bool:
+    try:
+        run = run_of_start(design, member, accuracy, TIGHTER * TOLERANCE)
+    except NotTrustworthyError:
+        return False
+    return run.outcome.balanced and run.outcome.slip <= AT_REST

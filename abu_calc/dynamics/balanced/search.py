@@ -1,0 +1,176 @@
+"""The worst arrangement on an anisotropic support, searched in the family of all that balance."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from abu_calc.dynamics.balanced.arrangements import by_race, likeness
+from abu_calc.dynamics.balanced.family import Array, Family, Race, largest, neighbours
+from abu_calc.dynamics.balanced.growth import MARGIN, UNDECIDED, decided
+from abu_calc.dynamics.balanced.linearised import BalancedMotion
+from abu_calc.dynamics.balanced.resting import needed_gap
+from abu_calc.dynamics.balanced.two_modes import Motion, TwoModes, two_modes
+from abu_calc.dynamics.scene import Scene
+from abu_calc.frozen import dataclass
+
+GRID: Final = 11
+"""Values of χ at which the growth rate is compared first."""
+
+SECTIONS: Final = 7
+"""Golden sections about the best of them."""
+
+ALIKE: Final = 1e-6
+"""Arrangements whose χ differ by less are one."""
+
+SCREEN: Final = 5
+"""Values of χ that are looked at where many speeds are."""
+
+STEPS: Final = (0.4, 0.2, 0.1, 0.05)
+"""Steps of a search that moves the balls themselves [rad]."""
+
+TRIALS: Final = 80
+"""Growth rates that such a search may take."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """A search of all arrangements, started from those listed; `half_angle` β [rad] of touching balls.
+
+    Balls of one race whose support moves in its plane: their χ alone decides, since turning all balls together only
+    shifts the time at which the support is felt. χ is searched by a grid and golden sections. Several races, or a
+    support that tilts: the balls are moved one free direction at a time, from the worst of the list, with up to 80
+    growth rates; a local maximum may remain then, and the share of each race stays that of the list.
+    """
+
+    listed: tuple[BalancedMotion, ...]
+    half_angle: float = 0.0
+
+    @cached_property
+    def motions(self) -> tuple[Motion, ...]:
+        """The listed ones, by their two modes where these are all."""
+        return tuple(two_modes(motion) or motion for motion in self.listed)
+
+    @property
+    def in_plane(self) -> bool:
+        """Whether χ alone decides."""
+        return isinstance(self.motions[0], TwoModes)
+
+    def worst(self, speed: float) -> BalancedMotion:
+        """The motion about the arrangement with the largest growth rate that was found at a speed [rad/s]."""
+        angles = self._by_likeness(speed) if self.in_plane else self._by_moving(speed)
+        return replace(self.listed[0], angles=tuple((np.remainder(angles + np.pi, 2 * np.pi) - np.pi).tolist()))
+
+    @property
+    def trials(self) -> int:
+        """About how many arrangements are compared."""
+        return len(self.listed) + (GRID + SECTIONS + 1 if self.in_plane else TRIALS)
+
+    def growth(self, speed: float) -> float:
+        """The largest growth rate [1/s] that was found at a speed [rad/s]."""
+        return decided(self._quick(self.worst(speed)), speed)[1]
+
+    def added(self, motions: tuple[Motion, ...], speeds: Iterable[float]) -> tuple[Motion, ...]:
+        """The motions, and one more for each of these speeds at which none of them grows although another does."""
+        for speed in speeds:
+            if _grow(motions, speed):
+                continue
+            motion = self._quick(self.worst(speed))
+            if _grow((motion,), speed):
+                motions = (*motions, motion)
+        return motions
+
+    def screened(self, motions: tuple[Motion, ...], speeds: Iterable[float]) -> tuple[Motion, ...]:
+        """The same of some evenly spaced χ alone; none where χ does not decide alone."""
+        if not self.in_plane:
+            return motions
+        others = [self._shape(float(chi)) for chi in np.linspace(self._family.chi[0], self._family.chi[-1], SCREEN)]
+        for speed in speeds:
+            if not _grow(motions, speed):
+                motions = (*motions, *[motion for motion in others if _grow((motion,), speed)])
+        return motions
+
+    def _quick(self, motion: BalancedMotion) -> Motion:
+        return self._shape(likeness(self._masses, motion.angles)) if self.in_plane else motion
+
+    @property
+    def _masses(self) -> tuple[float, ...]:
+        return self.listed[0].scene.ball_masses
+
+    @cached_property
+    def races(self) -> list[Race]:
+        """What the balls of each race keep."""
+        scene, angles = self.listed[0].scene, self.listed[0].angles
+        return [
+            (masses, complex(masses @ np.exp(1j * np.array(own))), needed_gap(scene, race, self.half_angle))
+            for race, own in by_race(scene, angles)
+            for masses in [np.array(race.ball_masses)]
+        ]
+
+    @cached_property
+    def _family(self) -> Family:
+        ((_, _, gap),) = self.races
+        return Family.of(self._masses, self.listed[0].angles, gap)
+
+    @cached_property
+    def _shapes(self) -> dict[float, TwoModes]:
+        return {}
+
+    def _shape(self, chi: float) -> TwoModes:
+        """The two modes of an arrangement of this χ."""
+        if chi not in self._shapes:
+            first = self.motions[0]
+            assert isinstance(first, TwoModes)
+            self._shapes[chi] = replace(first, likeness=chi)
+        return self._shapes[chi]
+
+    def _by_likeness(self, speed: float) -> Array:
+        low, high = float(self._family.chi[0]), float(self._family.chi[-1])
+        grid = np.linspace(low, high, GRID).tolist() if high - low > ALIKE else [low]
+        return self._family.nearest(largest(lambda chi: decided(self._shape(chi), speed)[1], grid, SECTIONS))
+
+    def _by_moving(self, speed: float) -> Array:
+        """Every neighbour that is worse is taken; where none is, the step is halved."""
+        scene = at_speed(self.listed[0].scene, speed)
+
+        def growth(angles: Array) -> float:
+            return decided(replace(self.listed[0], scene=scene, angles=tuple(angles.tolist())), speed)[1]
+
+        starts = [(growth(np.array(motion.angles)), np.array(motion.angles)) for motion in self.listed]
+        most, best = max(starts, key=lambda pair: pair[0])
+        left = TRIALS
+        for step in STEPS:
+            better = True
+            while better and left > 0:
+                better = False
+                for angles in neighbours(self.races, best, step):
+                    rate, left = growth(angles), left - 1
+                    if rate > most + MARGIN * speed:
+                        most, best, better = rate, angles, True
+                        break
+        return best
+
+
+def searched(listed: tuple[BalancedMotion, ...], half_angle: float) -> Search | None:
+    """A search where it may find a worse arrangement than the list has.
+
+    None on an isotropic support, where the list stands for all; where all arrangements are one; where the axis moves;
+    and on a support that turns with the rotor, such as a swing arm.
+    """
+    if len(listed) < 2 or listed[0].motion or listed[0].scene.support.turns:
+        return None
+    search = Search(listed, half_angle)
+    return None if search.motions[0].isotropic else search
+
+
+def _grow(motions: Iterable[Motion], speed: float) -> bool:
+    """Whether any of them grows beyond what rounding decides."""
+    return any(decided(motion, speed)[1] > UNDECIDED * speed for motion in motions)
+
+
+def at_speed(scene: Scene, speed: float) -> Scene:
+    """The scene at another speed [rad/s], without effects."""
+    return replace(scene, speed=speed, duration=4 * math.pi / speed, effects=())
