@@ -141,11 +141,18 @@ def _run(design: Design, starts: Sequence[Member], accuracy: float, progress: Pr
     return [outcome for outcome in side_by_side(start_once, tasks, workers, told) if isinstance(outcome, Outcome)]
 
 
-def repeated(member: Member) -> str:
-    """The options of `abu simulate` that repeat a start."""
-    angles = ", ".join(f"{from_si(angle, 'deg'):.4g}" for angle in member.angles)
-    run_up = f"--scene run-up --set run_up.time_s={member.run_up:.6g} " if member.run_up else ""
-    return f"{run_up}--race-centre {member.race_centre_deg:g} --set start.angles_deg=[{angles}]"
+def repeated(member: Member, design: Design) -> str:
+    """The options of `abu simulate` that repeat a start of a design, which they pin."""
+    angles = ",".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
+    balls = design.autobalancer
+    sets = [
+        f"autobalancer.ball_count={balls.ball_count}",
+        f"autobalancer.ball_diameter_mm={from_si(balls.ball_diameter, 'mm'):.10g}",
+        *([f"run_up.time_s={member.run_up:.10g}"] if member.run_up and not member.by_motor else []),
+        f"start.angles_deg=[{angles}]",
+    ]
+    scene = "--scene run-up " if member.run_up else ""
+    return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {entry}' for entry in sets)}"
 
 
 def with_searched(check: Check, searched: Searched | None, design: Design) -> Check:
@@ -158,7 +165,7 @@ def with_searched(check: Check, searched: Searched | None, design: Design) -> Ch
         return check
     worst = max(broken, key=order)
     share = f"{len(broken)} of {len(searched.outcomes)} further starts {words(worst)}"
-    again = f"The worst again: abu simulate FILE {repeated(worst.member)}"
+    again = f"The worst again: abu simulate FILE {repeated(worst.member, design)}"
     remedy = f"{check.remedy} {again}" if check.remedy else again
     return replace(check, status="warn", message=f"{check.message}; {share}", remedy=remedy)
 
