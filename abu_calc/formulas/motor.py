@@ -33,15 +33,15 @@ def idle_speed(
 
 @formula(
     "Speed under load of a machine with a motor",
-    "Ω₀·(1 − f·N·D_w/(2·T_s))",
+    "Ω₀·(1 − f·N·R_w/T_s)",
     "rad/s",
-    where="Zero if the cutting torque f·N·D_w/2 exceeds the stall torque.",
+    where="Zero if the cutting torque f·N·R_w exceeds the stall torque.",
     assumed="no torque but the motor's and the cutting torque",
     source="torque balance at constant speed",
 )
 def working_speed(stall_torque: float, no_load_speed: float, cutting_torque: float) -> float:
     """
-    >>> working_speed(3.0, 600.0, 1.0)
-    400.0
+    >>> working_speed(4.0, 600.0, 1.0)
+    450.0
     """
     return no_load_speed * max(1 - cutting_torque / stall_torque, 0.0)

@@ -36,7 +36,19 @@ DYNAMICS = Path(abu_calc.dynamics.__file__).parent
 PACKAGE = DYNAMICS.parent
 ROOMS = ("", "supports", "equations", "switching", "effects", "tracing", "integrators", "slow", "balanced")
 """Of dynamics, in order; the first are its own files."""
-BELOW = {"version", "frozen", "patience", "errors", "progress", "roots", "units", "validity", "standards", "formulas"}
+BELOW = {
+    "version",
+    "frozen",
+    "patience",
+    "escapes",
+    "errors",
+    "progress",
+    "roots",
+    "units",
+    "validity",
+    "standards",
+    "formulas",
+}
 
 
 def imports(path: Path) -> set[str]:

@@ -22,6 +22,7 @@ from tests.spec import scenes
 from tests.spec.samples import BASIC, read, refused
 
 FREE = {
+    "Start.angles_deg",  # wherever they lie
     "Wheel.runout_angle_deg", "Wheel.measured_axes", "MeasuredAfter.measured_axes",
     "Grinding.rotation_sense", "Tilting.ball_tilt_inertia",
     "Sweep.least_share", "Sweep.runs", "Sweep.seed", "Sweep.time_limit_s",

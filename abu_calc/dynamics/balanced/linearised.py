@@ -91,7 +91,7 @@ class BalancedMotion:
         for race in self.scene.races:
             masses = np.array(race.ball_masses)
             theta = np.array(self.angles[first : first + len(masses)])
-            rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self._turns else [])]
+            rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self.on_arm else [])]
             found.append(np.eye(len(masses)) if self.motion else span_of(np.array(rows), self.span))
             first += len(masses)
         return tuple(found)
@@ -162,7 +162,7 @@ class BalancedMotion:
             waves = np.concatenate([np.cos(turned), np.sin(turned[:, 1:])], axis=1)
             return np.asarray(np.einsum("tk,kij->tij", waves, parts), dtype=float)
 
-        turns = 1 if self._turns else 2
+        turns = 1 if self.on_arm else 2
         own = floquet.multipliers(matrices, 2 * math.pi / turns, self._half_turn) ** turns
         free = [complex(math.exp(rate * 2 * math.pi / speed)) for rate in self._free]
         return tuple(sorted([*own.tolist(), *free], key=lambda value: (-abs(value), value.real, value.imag)))
@@ -200,19 +200,20 @@ class BalancedMotion:
         return len(self.scene.support.names)
 
     @property
-    def _turns(self) -> bool:
+    def on_arm(self) -> bool:
+        """Whether the support turns with the rotor's axis, as a swing arm does."""
         return self.scene.support.turns
 
     @property
     def _turned(self) -> bool:
         """Whether the support is seen from the rotor."""
-        return not self._turns and self._size % 2 == 0
+        return not self.on_arm and self._size % 2 == 0
 
     @property
     def _half_turn(self) -> Array:
         """What stands upside down after half a turn, unless it turns with the rotor."""
         signs = np.ones(self.states)
-        if not self._turns and not self._turned:
+        if not self.on_arm and not self._turned:
             signs[: 2 * self._size] = -1
         return np.diag(signs)
 

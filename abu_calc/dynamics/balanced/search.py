@@ -160,7 +160,7 @@ def searched(listed: tuple[BalancedMotion, ...], half_angle: float) -> Search | 
     None on an isotropic support, where the list stands for all; where all arrangements are one; where the axis moves;
     and on a support that turns with the rotor, such as a swing arm.
     """
-    if len(listed) < 2 or listed[0].motion or listed[0].scene.support.turns:
+    if len(listed) < 2 or listed[0].motion or listed[0].on_arm:
         return None
     search = Search(listed, half_angle)
     return None if search.motions[0].isotropic else search
