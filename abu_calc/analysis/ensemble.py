@@ -88,11 +88,17 @@ def first_tolerance(design: Design) -> float:
 
 
 def start_once(
-    design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = True
+    design: Design,
+    member: Member,
+    accuracy: float,
+    tolerance: float,
+    work: int = WORK,
+    early_end: bool = True,
+    wanted: str = "auto",
 ) -> Outcome | Lost:
     """One start, by one run; `work`: evaluations it may take, in SciPy's; `early_end`: whether it may end early."""
     try:
-        return run_of_start(design, member, accuracy, tolerance, work, early_end).outcome
+        return run_of_start(design, member, accuracy, tolerance, work, early_end, wanted).outcome
     except NotTrustworthyError as error:
         reason = str(error).splitlines()[0]
         if not isinstance(error, TooMuchWorkError) or patience.over():
@@ -109,13 +115,29 @@ def _would_do(design: Design, member: Member, error: TooMuchWorkError) -> str:
     return f"; {patience.would_do(evaluations, scene.state_count)} would do, in seconds"
 
 
+def integrator_for(design: Design, member: Member, accuracy: float, tolerance: float) -> str:
+    """What to ask of `choose` for all starts of a design, by one of them: they differ in where the balls are.
+
+    To find for each how fast its motion dies out takes as long as many a run.
+    """
+    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    name = choose(assemble(scene), "auto", tolerance).name
+    return "compiled" if name.startswith("compiled") else "auto"
+
+
 def run_of_start(
-    design: Design, member: Member, accuracy: float, tolerance: float, work: int = WORK, early_end: bool = False
+    design: Design,
+    member: Member,
+    accuracy: float,
+    tolerance: float,
+    work: int = WORK,
+    early_end: bool = False,
+    wanted: str = "auto",
 ) -> StartRun:
     """The same with the run itself; raises NotTrustworthyError."""
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     equations = assemble(scene)
-    choice = choose(equations, "auto", tolerance)
+    choice = choose(equations, wanted, tolerance)
     early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
@@ -171,7 +193,8 @@ def _all(
     workers: int, work: int = WORK,
 ) -> Generator[Outcome | Lost, None, None]:  # fmt: skip
     """Each start once, and whether it may end early."""
-    tasks = [(design, one, accuracy, tolerance, work, early_end) for one, early_end in starts]
+    wanted = integrator_for(design, starts[0][0], accuracy, tolerance) if starts else "auto"
+    tasks = [(design, one, accuracy, tolerance, work, early_end, wanted) for one, early_end in starts]
 
     def told(done: int) -> None:
         progress(Stage(f"idle: {done} of {len(tasks)} starts", done / len(tasks)))
