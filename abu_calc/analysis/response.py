@@ -42,7 +42,7 @@ class Window:
 
 @dataclass(frozen=True)
 class FinalState:
-    """Where the run ended: axis [m, m/s], ball angles [rad] unwrapped, their mean speeds in the window.
+    """Where the run ended: axis [m, m/s], ball angles [rad] unwrapped, their mean speeds in the window, and at the end.
 
     `tilt` [rad]: θ_y, −θ_x on a support that tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s]
     of the rotor.
@@ -55,6 +55,7 @@ class FinalState:
     vy: float
     ball_angles: tuple[float, ...]
     ball_speeds: tuple[float, ...]
+    ball_rates: tuple[float, ...]
     tilt: tuple[float, float] | None
     arm_angle: float | None
     speed: float
@@ -163,15 +164,16 @@ def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalSta
     first = 2 * len(scene.support.names)
     x, y = axis_place(scene, end[:, None])[:, 0].tolist()
     vx, vy = axis_velocity(scene, end[:, None])[:, 0].tolist()
-    q, turned = end[: first // 2], scene.support.turned(end)
+    q, turned, count = end[: first // 2], scene.support.turned(end), len(scene.ball_masses)
     return FinalState(
         t=scene.duration,
         x=x,
         y=y,
         vx=vx,
         vy=vy,
-        ball_angles=tuple(end[first : first + len(scene.ball_masses)].tolist()),
+        ball_angles=tuple(end[first : first + count].tolist()),
         ball_speeds=ball_speeds,
+        ball_rates=tuple(end[first + count : first + 2 * count].tolist()),
         tilt=scene.support.tilt(q),
         arm_angle=None if turned is None else float(turned),
         speed=float(scene.rotor.turning(scene.duration, end, scene.speed)[1]),

@@ -35,6 +35,9 @@ class End(Record):
     ball_speeds_rpm: Annotated[
         tuple[float, ...], Quantity("ball speeds", "θ'", 3, "relative to the race, mean over the amplitude window")
     ]
+    ball_rates_rpm: Annotated[
+        tuple[float, ...], Quantity("ball speeds at the end", "θ'", 6, "relative to the race, at that very moment")
+    ]
     rotor_speed_rpm: Annotated[float, Quantity("speed of the rotor", "", 6)]
     tilt_x_mrad: Annotated[float | None, Quantity("tilt about x", "θ_x", 3)] = None
     tilt_y_mrad: Annotated[float | None, Quantity("tilt about y", "θ_y", 3)] = None
@@ -53,6 +56,7 @@ class End(Record):
             vy_mm_per_s=from_si(final.vy, "mm_per_s"),
             ball_angles_deg=tuple(wrapped_deg(angle) for angle in final.ball_angles),
             ball_speeds_rpm=tuple(from_si(speed, "rpm") for speed in final.ball_speeds),
+            ball_rates_rpm=tuple(from_si(rate, "rpm") for rate in final.ball_rates),
             rotor_speed_rpm=from_si(final.speed, "rpm"),
             tilt_x_mrad=None if final.tilt is None else -1000 * about_minus_x,
             tilt_y_mrad=None if final.tilt is None else 1000 * about_y,

@@ -39,7 +39,8 @@ def test_the_envelope(scene: str) -> None:
     result, model = document["result"], document["model"]
     assert result.keys() >= KEYS and document["abu"]["command"] == "simulate"
     assert result["final"].keys() == {
-        "t_s", "x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "ball_angles_deg", "ball_speeds_rpm", "rotor_speed_rpm",
+        "t_s", "x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "ball_angles_deg", "ball_speeds_rpm", "ball_rates_rpm",
+        "rotor_speed_rpm",
     }  # fmt: skip
     (check,) = document["checks"]
     assert (check["code"], check["name"], check["status"]) == ("ABU801", "accuracy reached", "pass")

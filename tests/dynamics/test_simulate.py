@@ -276,3 +276,12 @@ def test_no_imbalance_and_no_balls_leave_no_level():
     assert response.level is None
     assert response.axis_amplitude == 0.0
     assert response.settling_time == 0.0
+
+
+def test_the_end_has_the_speeds_of_that_moment() -> None:
+    """Beside the means: those of the last sample, by which energy can be checked from outside."""
+    scene = straight_grinder()
+    run = simulate(replace(scene, duration=0.1), 1e-3)
+    count = len(scene.ball_masses)
+    assert run.response.final.ball_rates == tuple(run.trajectory.y[-count:, -1].tolist())
+    assert run.response.final.ball_rates != run.response.final.ball_speeds
