@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.analysis.machine import WORK
+from abu_calc.analysis.machine import MORE, WORK
 from abu_calc.dynamics.integrators.choice import LOOP, LOOP_WORK
 from tests.cli.runner import Seen, abu, once, without_extras
 
