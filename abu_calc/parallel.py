@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-LONG = 0.05
+LONG = 0.01
 """Processor time [s] of a task that is worth threads: most of a shorter one holds the interpreter."""
 
 

@@ -34,11 +34,11 @@ TOLERANCE, TIGHTER = 2e-4, 0.1
 MARGIN = 1.0
 """Below the level allowed [dB]: a run that may come nearer does not end early."""
 
-WORK, MOST_LOST = 150_000, 3
-"""Evaluations of one run, in SciPy's: some tenths of a second in compiled code. Machines that balance take a tenth.
+WORK, MOST_LOST = 400_000, 3
+"""Evaluations of one run, in SciPy's: half a second in compiled code. Machines that balance take a twentieth of that.
 And how many starts at the drag given may be without an answer until no others are tried."""
 
-MORE, MOST_MORE = 20, 24_000_000
+MORE, MOST_MORE = 10, 24_000_000
 """Times the work that a start may take in a second run, where that of the first did not suffice, and the work of all
 second runs together: about half a minute of compiled code."""
 

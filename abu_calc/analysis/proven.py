@@ -1,5 +1,7 @@
 """The design whose starts all balance: the first of the candidates that does, and remedies that were tried."""
 
+from dataclasses import replace
+
 from abu_calc import patience
 from abu_calc.analysis.covering import Searched, search
 from abu_calc.analysis.ensemble import simulate_members
@@ -14,6 +16,15 @@ from abu_calc.sizing.design import Design
 MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5
 """Candidates that are tried when the best one does not pass, evaluations beyond which nothing more is tried, and the
 share of these that remedies may take in any case."""
+
+
+NOT_SEARCHED = (
+    "Further starts were not tried, since each takes long: --patience 300 tries them, in seconds. The starts that are "
+    "listed all pass."
+)
+
+MOST_SEARCHED = 2_000_000
+"""Work of the listed starts, in SciPy's evaluations, beyond which no further ones are tried."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +48,7 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         return Proven(design, None)
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first):
-        return Proven(design, first, searched=search(design, accuracy, progress, workers))
+        return _with_search(Proven(design, first), accuracy, progress, workers)
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
     spent = first.work
@@ -49,9 +60,16 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         spent += found.work
         if passes(other, found):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
-            return Proven(other, found, None, (text,), search(other, accuracy, progress, workers))
+            return _with_search(Proven(other, found, warnings=(text,)), accuracy, progress, workers)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, remedy(design, first, left, accuracy, progress, workers))
+
+
+def _with_search(found: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:
+    """With further starts, unless these would take too long: then it says so."""
+    if found.ensemble is not None and found.ensemble.work > MOST_SEARCHED and not patience.given():
+        return replace(found, warnings=(*found.warnings, NOT_SEARCHED))
+    return replace(found, searched=search(found.design, accuracy, progress, workers))
 
 
 def _carries(design: Design) -> bool:

@@ -20,4 +20,4 @@ def factory(how: Delivery) -> Outcome:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "factory", factory)
+    add_command(app, "factory", factory, simulates=True)
