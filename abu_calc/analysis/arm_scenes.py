@@ -28,7 +28,7 @@ FIRMER: Final = (1.5, 2.0, 3.0, 5.0, 10.0)
 def on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress = silent) -> Check | None:
     """Whether the disk stays on its work in the simulated scene at the work; None where the work has no stiffness.
 
-    Where it bounces, the least pressing moment of some that were tried with which it stays, and the balls balance.
+    Where it bounces, the remedy is the least pressing moment of some that were tried with which it stays there.
     """
     run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
     effect = None if run is None else run.simulation.scene.effect("lift_off")

@@ -50,20 +50,13 @@ Angles = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Searched:
-    """What the starts came to that were searched, at the drag given; `lost`: how many gave no answer."""
+    """Outcomes of the searched starts at the drag given; `lost`: how many gave no answer; `hurried`: whether the
+    patience that was asked for ended the search.
+    """
 
     outcomes: tuple[Outcome, ...]
     lost: int = 0
-
-    @property
-    def slowest(self) -> Outcome | None:
-        """The one that settles last."""
-        return max(self.outcomes, key=lambda outcome: outcome.time, default=None)
-
-    @property
-    def loudest(self) -> Outcome | None:
-        """The one with the highest level."""
-        return max(self.outcomes, key=lambda outcome: outcome.loudest, default=None)
+    hurried: bool = False
 
 
 def search(design: Design, accuracy: float, progress: Progress = silent, workers: int = 1) -> Searched:
@@ -80,7 +73,7 @@ def search(design: Design, accuracy: float, progress: Progress = silent, workers
         worst = [max(found, key=order) for order in (_slowness, _loudness)]
         near = (start for outcome in worst if _doubtful(outcome, design) for start in neighbours(outcome.member))
         round_of_starts = [start for start in dict.fromkeys(near) if start not in tried]
-    return Searched(tuple(found), lost)
+    return Searched(tuple(found), lost, hurried=patience.over())
 
 
 def _doubtful(outcome: Outcome, design: Design) -> bool:
@@ -175,6 +168,12 @@ def with_searched(check: Check, searched: Searched | None, design: Design) -> Ch
         return check
     breaks, order, words = BROKEN[check.code]
     broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
+    if not broken and searched.hurried:
+        return replace(
+            check, status="not-done", message=f"{check.message}; --patience ended the search of further starts"
+        )
+    if not broken and searched.lost:
+        return replace(check, status="warn", message=f"{check.message}; {searched.lost} further starts gave no answer")
     if not broken:
         return check
     worst = max(broken, key=order)

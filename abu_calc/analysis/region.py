@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from abu_calc import patience
 from abu_calc.analysis.hanging import hanging_bounds
 from abu_calc.analysis.remedies import DAMPED, other_drags
 from abu_calc.analysis.stuck_balls import StuckBalls, stuck_balls
@@ -153,6 +154,9 @@ def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accura
     else:
         held = stuck_balls(design, hanging.largest or 0.0, accuracy)
         message += f"; {held.words}"
+        if not held.proves and patience.over():
+            message += ", the others were not simulated in the time of --patience"
+            return coded("ABU103", "not-done", message, speeds.growth, 0.0, "1/s")
     return coded(
         "ABU103", "warn" if held.proves else "fail", message, speeds.growth, 0.0, "1/s", _action(design, speeds)
     )  # fmt: skip

@@ -1,6 +1,6 @@
 """Starts of a design at whose end dry friction holds every ball at rest in its race."""
 
-from abu_calc.analysis.ensemble import TIGHTER, TOLERANCE, run_of_start
+from abu_calc.analysis.ensemble import TIGHTER, first_tolerance, run_of_start
 from abu_calc.dynamics.switching.sticking import AT_REST
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.frozen import dataclass
@@ -44,7 +44,7 @@ def stuck_balls(design: Design, doubtful: float, accuracy: float = 0.01) -> Stuc
 
 def _sticks(design: Design, member: Member, accuracy: float) -> bool:
     try:
-        run = run_of_start(design, member, accuracy, TIGHTER * TOLERANCE)
+        run = run_of_start(design, member, accuracy, TIGHTER * first_tolerance(design))
     except NotTrustworthyError:
         return False
     return run.outcome.balanced and run.outcome.slip <= AT_REST

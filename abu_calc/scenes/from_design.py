@@ -90,8 +90,9 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
     felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
     support: Support = _held(design)
     if table.swing_arm and which.startswith("swing-arm"):
+        from abu_calc.dynamics.effects.lift_off import lift_off
         from abu_calc.scenes.from_tables import in_order
-        from abu_calc.scenes.on_arm import arm_of_design, ball_rate_on_arm, lift_off
+        from abu_calc.scenes.on_arm import arm_of_design, ball_rate_on_arm
 
         support = arm = arm_of_design(design, table.swing_arm, cutting=which.endswith("cutting"))
         felt, ball_rate = 1.0, ball_rate_on_arm(design, arm)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Final, TypeVar, cast
 
-from abu_calc.dynamics.effects.lift_off import LiftOff
+from abu_calc.dynamics.effects.lift_off import LiftOff, lift_off
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene, parted_angles, placed
 from abu_calc.dynamics.support import Support
@@ -16,7 +16,6 @@ from abu_calc.dynamics.supports.tilting import tilting
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import INERTIA_FACTORS, half_angle
 from abu_calc.scenes.from_tables import effects_from, in_order
-from abu_calc.scenes.on_arm import lift_off
 from abu_calc.spec.scene import SceneRace, SceneSwingArm, SceneTable
 from abu_calc.units import from_si, to_si
 

@@ -1,9 +1,7 @@
 """The swing arm of a design as the support of its scenes."""
 
 import math
-from typing import Final
 
-from abu_calc.dynamics.effects.lift_off import LiftOff
 from abu_calc.dynamics.supports.swing_arm import SwingArm, cutting_arm, idle_arm
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
@@ -11,9 +9,6 @@ from abu_calc.formulas.swing_arm import pressed_angle
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import read_arm
 from abu_calc.spec.machine import SwingArm as SwingArmTable
-
-LEAST_DEPTH: Final = 1e-9
-"""How far [rad] an arm is pressed in at least: one that hangs on its work just touches it."""
 
 
 def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArm:
@@ -33,15 +28,6 @@ def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> Swi
         *joint, arm.contact_stiffness, arm.friction, arm.contact_angle, arm.touch_angle, arm.pressing_moment,
         arm.disk_radius,
     )  # fmt: skip
-
-
-def lift_off(arm: SwingArm, joint_stiffness: float, touch_angle: float) -> tuple[LiftOff, ...]:
-    """Of an arm at its work, whose own joint has a stiffness [N/m]; none where the work has no stiffness."""
-    work = arm.stiffness - joint_stiffness
-    if not work:
-        return ()
-    (angle,) = arm.resting_position()
-    return (LiftOff(work, arm.length, touch_angle, max(angle - touch_angle, LEAST_DEPTH)),)
 
 
 def ball_rate_on_arm(design: Design, arm: SwingArm) -> float:

@@ -48,7 +48,7 @@ def _remedy(low: float, high: float, idle: float) -> str:
 
 
 def _speed_under_load(case: Case) -> float | None:
-    """Speed [rad/s] at which the motor gives the cutting torque f·N·D_w/2; None without motor or [grinding]."""
+    """Speed [rad/s] at which the motor gives the cutting torque f·N·R_w; None without motor or [grinding]."""
     motor, contact = case.table.motor, case.contact
     if motor is None or contact is None:
         return None

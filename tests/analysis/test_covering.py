@@ -98,6 +98,9 @@ def test_each_check_is_broken_by_its_own(code: str, bad: Outcome) -> None:
         else:
             assert told.status == "warn" and told.message.startswith("as listed; 1 of 2 further starts")
             assert told.remedy and "--set start.angles_deg=[" in told.remedy
+    passed = Check(code, "", "pass", "as listed", 1.0, 2.0, "s", None)
+    assert with_searched(passed, Searched((good,), lost=1), found).status == "warn"
+    assert with_searched(passed, Searched((good,), lost=1, hurried=True), found).status == "not-done"
     other = Check("ABU201", "", "pass", "capacity", 1.0, 2.0, "s", None)
     assert with_searched(other, Searched((bad,)), found) == other
 

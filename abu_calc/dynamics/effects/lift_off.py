@@ -11,7 +11,7 @@ the contact but the joint. Source: derived; Kovalenko 2010, (3), takes a contact
 """
 
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from abu_calc.dynamics.circumstances import Circumstances
 from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.supports.swing_arm import SwingArm
 from abu_calc.dynamics.switching.cutting import inside
 from abu_calc.dynamics.trajectory import Samples
 from abu_calc.errors import InputError
@@ -33,6 +34,9 @@ NEAR = 1e-9
 
 LATE = 0.95
 """Of the duration: what happens afterwards is what remains."""
+
+LEAST_DEPTH: Final = 1e-9
+"""How far [rad] an arm is pressed in at least: one that hangs on its work just touches it."""
 
 
 @dataclass(frozen=True)
@@ -123,3 +127,12 @@ class LiftOff(Effect):
     def weight(self, scene: Circumstances) -> Weight:
         """It decides whether a disk bounces, which no closed estimate tells."""
         return Weight(None, "the disk leaves its work where the arm swings farther than it is pressed in")
+
+
+def lift_off(arm: SwingArm, joint_stiffness: float, touch_angle: float) -> tuple[LiftOff, ...]:
+    """Of an arm at its work, whose own joint has a stiffness [N/m]; none where the work has no stiffness."""
+    work = arm.stiffness - joint_stiffness
+    if not work:
+        return ()
+    (angle,) = arm.resting_position()
+    return (LiftOff(work, arm.length, touch_angle, max(angle - touch_angle, LEAST_DEPTH)),)
