@@ -10,12 +10,11 @@ from dataclasses import replace
 from typing import Final
 
 from abu_calc import patience
-from abu_calc.analysis.ensemble import WORK, first_tolerance, integrator_for, start_once
+from abu_calc.analysis.ensemble import every_start, first_tolerance
 from abu_calc.analysis.outcomes import Outcome
 from abu_calc.checks import Check
 from abu_calc.frozen import dataclass
-from abu_calc.parallel import side_by_side
-from abu_calc.progress import Progress, Stage, silent
+from abu_calc.progress import Progress, silent, within
 from abu_calc.scenes.from_design import contact_half_angle
 from abu_calc.scenes.members import ALIKE, OPPOSITE, Member, usual_run_up
 from abu_calc.sizing.design import Design
@@ -138,14 +137,10 @@ def neighbours(member: Member) -> Iterator[Member]:
 
 
 def _run(design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int) -> list[Outcome]:
-    tolerance = first_tolerance(design)
-    wanted = integrator_for(design, starts[0], accuracy, tolerance) if starts else "auto"
-    tasks = [(design, start, accuracy, tolerance, WORK, True, wanted) for start in starts]
-
-    def told(done: int) -> None:
-        progress(Stage(f"further starts: {done} of {len(tasks)}", done / len(tasks)))
-
-    return [outcome for outcome in side_by_side(start_once, tasks, workers, told) if isinstance(outcome, Outcome)]
+    """Those that gave an answer."""
+    early = [(start, True) for start in starts]
+    answers = every_start(design, early, accuracy, first_tolerance(design), within(progress, "further"), workers)
+    return [outcome for outcome in answers if isinstance(outcome, Outcome)]
 
 
 def repeated(member: Member, design: Design) -> str:

@@ -74,7 +74,7 @@ def simulate_members(
     while undecided := deciding(found, design.case.drag):
         again = [(found[k].member, early_end) for k, early_end in undecided.items()]
         closer = within(progress, "closer")
-        runs = list(_all(design, again, accuracy, TIGHTER * tolerance, closer, workers))
+        runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers))
         runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers)
         for k, one in zip(undecided, runs, strict=True):
             found[k] = worse(found[k], one)
@@ -165,7 +165,7 @@ def _found(
     """All starts, those at the drag given first; the others only where these have answers."""
     first = [(one, True) for one in starts if one.drag == design.case.drag]
     others = [(one, True) for one in starts if one.drag != design.case.drag]
-    with closing(_all(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
+    with closing(every_start(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
         found = list(islice(runs, len(first)))
         found = _with_more(design, found, first, accuracy, tolerance, progress, workers)
         if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
@@ -183,12 +183,14 @@ def _with_more(
     if not short:
         return found
     work = min(MORE * WORK, MOST_MORE // len(short))
-    runs = _all(design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work)
+    runs = every_start(
+        design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work
+    )
     longer = dict(zip(short, runs, strict=True))
     return [longer.get(k, outcome) for k, outcome in enumerate(found)]
 
 
-def _all(
+def every_start(
     design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
     workers: int, work: int = WORK,
 ) -> Generator[Outcome | Lost, None, None]:  # fmt: skip
