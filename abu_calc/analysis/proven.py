@@ -1,6 +1,7 @@
 """The design whose starts all balance: the first of the candidates that does, and remedies that were tried."""
 
 from dataclasses import replace
+from itertools import islice
 
 from abu_calc import patience
 from abu_calc.analysis.covering import Searched, search
@@ -51,8 +52,14 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         return _with_search(Proven(design, first), accuracy, progress, workers)
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
-    spent = first.work
-    for one in [each for each, _ in design.choice.runners_up if sound(design.case, each)][:MOST_OTHERS]:
+    spent, placed = first.work, design.case.table.start
+    others = (
+        candidate
+        for candidate, _ in design.choice.runners_up
+        # A file that places its balls has an angle for each.
+        if sound(design.case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count)
+    )
+    for one in islice(others, MOST_OTHERS):
         if spent > MOST_WORK:
             break
         other = instead(design, one, "does not balance from every start")

@@ -28,7 +28,7 @@ What is coupled by physics, and where:
 ORDER: that of the registry. What moves the rotor and the races comes before what acts on the balls, what opens a
 direction before what rubs in it, and what decides by all forces comes last.
 
-A new effect is a file here, its line in `registry.py`, its table in `spec.scene_effects` (or `table`, that of the support it
-comes with), its line in
-`scenes.from_tables`, and its example in `tests/dynamics/examples.py`.
+A new effect is a file here, its line in `registry.py`, its table in `spec.scene_effects`, its line in
+`scenes.from_tables`, and its example in `tests/dynamics/examples.py`. One that comes with its support names the
+support's table instead, as `table`.
 """
