@@ -216,4 +216,5 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, scene.imbalance),
+        ball_angles=response.final.ball_angles,
     )

@@ -1,7 +1,7 @@
 """A machine at its work, with and without its autobalancer: levels, and remedies that were tried."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final, Literal
 
@@ -84,6 +84,8 @@ class Work:
     hasty: Vibration
     moved: float | None
     rest: float
+    moved_without: float | None = None
+    """Displacement 0–peak [m] without the autobalancer."""
 
     @property
     def levels(self) -> Levels:
@@ -104,18 +106,21 @@ class Work:
     @property
     def lowered(self) -> bool | None:
         """Whether the autobalancer lowers the level when balls have settled; None where that is not known."""
-        return _below(self.levels.after, self.levels.before, self.fitted.scatter + self.without.scatter)
+        return below(self.levels.after, self.levels.before, self.fitted.scatter + self.without.scatter)
 
     @property
     def always(self) -> bool | None:
         """Whether it does so when pressed at once, too."""
         doubt = self.at_once.scatter + self.without.scatter
-        both = self.lowered, _below(self.level_at_once, self.levels.before, doubt)
+        both = self.lowered, below(self.level_at_once, self.levels.before, doubt)
         return None if None in both else all(both)
 
 
-def _below(after: float | None, before: float | None, doubt: float) -> bool | None:
-    """None also where they are no further apart than chaotic runs scatter [dB]."""
+def below(after: float | None, before: float | None, doubt: float) -> bool | None:
+    """Whether a level [dB] is below another.
+
+    None where one is not known, or where they are no further apart than chaotic runs scatter, by the `doubt` [dB].
+    """
     if before is None or after is None or (doubt and abs(before - after) <= doubt):
         return None
     return after < before
@@ -152,7 +157,7 @@ def at_work(design: Design, accuracy: float, progress: Progress = silent, hard: 
             at_once = _still(design, at_once, accuracy, progress)
     levels, hasty = (handle_levels(case, moved, found, one.mass) for found in
                      (left, _displacement(design, at_once, rest)))  # fmt: skip
-    return Work(design, without, usual, at_once, levels, hasty, left, rest)
+    return Work(design, without, usual, at_once, levels, hasty, left, rest, moved)
 
 
 def _at_once(design: Design, free: Side, accuracy: float, progress: Progress, hard: Run | Failure | None) -> Side:
@@ -193,28 +198,40 @@ def _by_statistics(side: Side, scene: Scene, accuracy: float, reason: str, progr
 
 
 def _displacement(design: Design, side: Side, rest: float) -> float | None:
-    """0–peak [m] that makes the level; by the run where the steady motion does not hold, or is far exceeded by it."""
+    """0–peak [m] that makes the level; by the run where the steady motion does not hold, or is far exceeded by it.
+
+    Balls that would leave their places if nothing held them (restless) are taken at the larger of both: the run starts
+    with balls exactly where they balance, where dry friction may hold them, or what grows has not grown yet. No machine
+    that was switched on has such balls, so that the run alone is an easier case than the usual one.
+    """
     contact, steady = design.case.contact, side.steady
     rigid = contact is not None and contact.kind == "rigid"
-    holds = steady.amplitude is not None and (steady.balls is None or steady.balls.places != "restless")
     seen = None if side.run is None else math.sqrt(2) * side.run.velocity / design.case.speed
-    if steady.amplitude is not None and holds and not (side.parts and (not rigid or side.pulls)):
+    if steady.amplitude is not None and not (side.parts and (not rigid or side.pulls)):
         told = math.hypot(steady.amplitude, rest)
+        if steady.balls is not None and steady.balls.places == "restless":
+            return None if seen is None else max(seen, told)
         return told if seen is None or seen <= EXCEEDED * told else seen
     return None if rigid and side.parts else seen
 
 
-def remedies(work: Work, accuracy: float, progress: Progress = silent) -> tuple[Remedy, ...]:
+def remedies(
+    work: Work, accuracy: float, progress: Progress = silent, loudest: Callable[[Work], float | None] | None = None
+) -> tuple[Remedy, ...]:
     """What lowers the level of a machine whose autobalancer does not always: each was simulated, pressed either way.
 
-    Of each kind first as little as helps by steady contact, then more.
+    Of each kind first as little as helps by steady contact, then more. `loudest`: the highest level [dB] of the start
+    cases of a machine that was tried, None if it does not help in all of them; without it they are not tried.
     """
     found = []
     for what, values in _candidates(work):
         for value in values:
             tried = at_work(_sized(work.design, what, value), accuracy, progress)
             if tried.always and tried.level_at_once is not None:
-                worst = max(tried.level_at_once, tried.levels.after or tried.level_at_once)
+                started = tried.level_at_once if loudest is None else loudest(tried)
+                if started is None:
+                    continue
+                worst = max(tried.level_at_once, tried.levels.after or tried.level_at_once, started)
                 found.append(Remedy(what, value, Levels(tried.levels.before, worst)))
                 break
     return tuple(found)

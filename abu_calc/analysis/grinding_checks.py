@@ -2,6 +2,7 @@
 
 from abu_calc.analysis.agreement import AGREES, Agreement
 from abu_calc.analysis.grinding import Work
+from abu_calc.analysis.loaded_outcomes import Loads
 from abu_calc.analysis.under_load import leaving
 from abu_calc.checks import Check, Grade, coded, verdict
 from abu_calc.formulas.grinding import flutter_drag, loaded_stiffness
@@ -9,16 +10,18 @@ from abu_calc.sizing.advice import power_checks
 from abu_calc.units import from_si
 
 
-def work_checks(work: Work, remedy: str | None, compared: Agreement | None) -> tuple[Check, ...]:
+def work_checks(
+    work: Work, remedy: str | None, compared: Agreement | None, loads: Loads | None = None
+) -> tuple[Check, ...]:
     """Level, capacity, stability, contact kept, power, and how far the closed form can be trusted.
 
-    `remedy`: what was tried and lowers the level.
+    `remedy`: what was tried and lowers the level; `loads`: the start cases of grinding.
     """
     return (
-        _lowered(work, remedy),
+        _lowered(work, remedy) if loads is None else _lowered_in_all(_lowered(work, remedy), work, remedy, loads),
         _carried(work),
         _still(work),
-        *_kept(work, remedy),
+        *_kept(work, remedy, loads),
         *power_checks(work.design.case),
         *_agrees(compared),
     )
@@ -42,6 +45,49 @@ def _lowered(work: Work, remedy: str | None) -> Check:
         hasty = "not known" if work.level_at_once is None else f"{work.level_at_once:.1f} dB"
         message += f"; pressed at once: {hasty}{', and it stays so' if work.stays_loud else ''}"
     return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
+
+
+def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) -> Check:
+    """The check of the usual case, judged by every start case, as the idle machine is.
+
+    A start case pressed after the balls settled fails it, one pressed at once warns. One without an answer leaves it
+    open; so does one whose level is no further from the level without than chaotic runs scatter.
+    """
+    settled, early = loads.lowered("settled"), loads.lowered("at once")
+    if usual.status in ("fail", "not-done"):
+        return usual
+    before, worst = work.levels.before, max((one.level for one in loads.ensemble.pressed("settled")), default=None)
+    after = max((level for level in (work.levels.after, worst) if level is not None), default=None)
+    if settled is False:
+        louder, count = loads.louder("settled"), loads.count("settled")
+        message = (
+            f"{len(louder)} of {count} start cases pressed after the balls settled end no lower than without the "
+            f"autobalancer, the loudest from {louder[-1].start.name}"
+        )
+        return coded("ABU421", "fail", message, after, before, "dB", remedy)
+    if settled is None:
+        missing = loads.ensemble.without_answer("settled")
+        message = "start cases pressed after the balls settled are no further from the level without than they scatter"
+        if missing:
+            message = f"{len(missing)} of {loads.count('settled')} start cases gave no answer: {missing[0].reason}"
+        return coded("ABU421", "not-done", message, after, before, "dB",
+                     remedy or "Less accuracy (--accuracy), or more drag.")  # fmt: skip
+    if early is True:
+        return coded("ABU421", usual.status, usual.message, after, before, "dB", remedy)
+    message = f"{usual.message}; {_early_starts(loads)}"
+    return coded("ABU421", "warn", message, after, before, "dB", remedy)
+
+
+def _early_starts(loads: Loads) -> str:
+    """What start cases pressed at once come to, where they do not all lower the level."""
+    louder, count = loads.louder("at once"), loads.count("at once")
+    if louder:
+        highest = max(outcome.level for outcome in louder)
+        return f"{len(louder)} of {count} start cases pressed at once end no lower, at most at {highest:.1f} dB"
+    missing = loads.ensemble.without_answer("at once")
+    if missing:
+        return f"{len(missing)} of {count} start cases pressed at once gave no answer"
+    return "start cases pressed at once are no further from it than they scatter"
 
 
 def _carried(work: Work) -> Check:
@@ -95,7 +141,7 @@ def _lines(work: Work) -> tuple[float, ...]:
     return () if count == 2 else tuple(count * step / 4 for step in range(5))
 
 
-def _kept(work: Work, remedy: str | None) -> tuple[Check, ...]:
+def _kept(work: Work, remedy: str | None, loads: Loads | None) -> tuple[Check, ...]:
     """Never failed: wheels bounce, and are judged by their level."""
     contact, force = work.design.case.contact, work.fitted.steady.reaction
     if contact is None or contact.kind == "face":
@@ -110,7 +156,10 @@ def _kept(work: Work, remedy: str | None) -> tuple[Check, ...]:
         message += "; they keep bouncing when pressed before the balls have settled"
     elif work.without.parts:
         message += "; without it they part"
-    warned = parts or work.at_once.parts
+    bouncing = [] if loads is None else [outcome for outcome in loads.ensemble.outcomes if outcome.parts]
+    if loads is not None and bouncing:
+        message += f"; in {len(bouncing)} of {loads.ensemble.count} start cases they lose contact"
+    warned = parts or work.at_once.parts or bool(bouncing)
     return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press, "N",
                   remedy if warned else None),)  # fmt: skip
 

@@ -1,21 +1,40 @@
 """What the work of a machine comes to, in words: whether the autobalancer helps, why, and what would change that."""
 
+import math
 from collections.abc import Sequence
 
-from abu_calc.analysis.grinding import Remedy, Side, Work
+from abu_calc.analysis.grinding import LOUDER, Remedy, Side, Work
+from abu_calc.analysis.loaded_outcomes import Loads
+from abu_calc.analysis.loaded_starts import WHEN
 from abu_calc.units import from_si
 
 
-def in_words(work: Work, tried: Sequence[Remedy]) -> str:
-    """A sentence or two; the level first."""
+def in_words(work: Work, tried: Sequence[Remedy], loads: Loads | None = None) -> str:
+    """A sentence or two; the level first, then the start cases that are louder than the usual case."""
     before, after = work.levels.before, work.levels.after
     if work.lowered is None or before is None or after is None:
         return f"Whether the autobalancer helps under load is not known: {_unknown(work)}.{changes(tried)}"
     levels = f"{_level(after, work.fitted)} dB with it, {_level(before, work.without)} without"
     if work.lowered:
-        haste = "" if work.always else f" {_haste(work)}{changes(tried, 'What prevents that') or NOTHING}"
-        return f"The autobalancer helps under load: {levels}. {_helps(work)}{haste}"
+        haste = "" if work.always else f" {_haste(work)}"
+        starts = starts_in_words(work, loads)
+        every = work.always and (loads is None or not (loads.louder("settled") or loads.louder("at once")))
+        prevents = "" if every else changes(tried, "What prevents that") or NOTHING
+        return f"The autobalancer helps under load: {levels}. {_helps(work)}{haste}{starts}{prevents}"
     return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
+
+
+def starts_in_words(work: Work, loads: Loads | None) -> str:
+    """The loudest motion of the start cases and its share, if it is louder than the usual case by more than 1 dB."""
+    loudest = None if loads is None else loads.loudest
+    if loads is None or loudest is None or loudest.highest <= (work.levels.after or math.inf) + LOUDER:
+        return ""
+    when = WHEN[loudest.pressed]
+    cases, ends = (
+        f"{loudest.count} of {loudest.all} start cases pressed {when}",
+        "ends" if loudest.count == 1 else "end",
+    )
+    return f" {cases} {ends} {loudest.state}, at most at {loudest.highest:.1f} dB."
 
 
 def _level(value: float, side: Side) -> str:

@@ -31,6 +31,8 @@ class Outcome:
     confirmed: bool = False
     rise: float = 0.0
     """By how much the level might still have risen [dB] where the run ended early."""
+    ball_angles: tuple[float, ...] = ()
+    """Of the balls in the rotor at the end [rad]."""
 
     @property
     def hanging(self) -> bool:

@@ -3,6 +3,7 @@
 from typing import Final
 
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.report.grinding_starts import start_blocks
 from abu_calc.report.grinding_wear import wear_blocks
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, facts, notices, provenance_blocks, value_of
@@ -25,6 +26,7 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
         Paragraph(result.verdict, MARKS[result.helps]),
         verdict_line(result),
         numbers_that_matter(result),
+        *start_blocks(result.starts),
         *measured_after_blocks(result.measured_after),
         *wear_blocks(result),
         *balls_blocks(result),

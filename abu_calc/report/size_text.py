@@ -6,6 +6,7 @@ from abu_calc.report.arm import arm_facts, motion_blocks, printed_otherwise
 from abu_calc.report.blocks import Block, Facts, Grid, Heading, Paragraph
 from abu_calc.report.figures.characters import pictured
 from abu_calc.report.figures.size import size_charts
+from abu_calc.report.grinding_starts import start_blocks
 from abu_calc.report.numbers import number
 from abu_calc.report.parts import check_blocks, default_blocks, facts, provenance_blocks, value_of, warning_blocks
 from abu_calc.report.shown_text import measured_after_blocks, shown_blocks
@@ -190,6 +191,7 @@ def _vibration(result: SizeResult) -> list[Block]:
     blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset(range(2, len(header))))]
     if loaded:
         blocks += [Paragraph(text) for text in _under_load(loaded)]
+        blocks += start_blocks(loaded.starts)
     shown = [
         (f"{place.name}, {state}{when}", one)
         for state, vibration in states if vibration

@@ -104,6 +104,11 @@ def scene_of_member(design: Design, member: Member) -> Scene:
     return scene_of_design(_with(design, member), scene, member.start, member.eccentricity)
 
 
+def grinding_scene_of_member(design: Design, member: Member) -> Scene:
+    """The scene of grinding with balls that start so, at full speed, with every effect its file has data for."""
+    return scene_of_design(_with(design, member), "grinding", member.start, member.eccentricity)
+
+
 def _with(design: Design, member: Member) -> Design:
     """The design with the drag, the speed and the run-up of a member."""
     case, given = design.case, design.case.table.run_up

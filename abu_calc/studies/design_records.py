@@ -14,6 +14,7 @@ from abu_calc.sizing.track import Track
 from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, SpeedLevels
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
+from abu_calc.studies.loaded_records import LevelBound, LoadedStarts
 from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.shown import HandleLevels
 from abu_calc.studies.simulated_scene import finite
@@ -209,11 +210,21 @@ class Vibration(Record):
     `by_speed`: over the speed range; `worst_arrangement`: the highest of the range where friction holds the balls at
     their worst; none under load. Under load the level after is that of a machine pressed to the work when its balls
     have settled, `level_at_once_db` that of one pressed before. `parts`: whether wheel and work part: then levels are
-    simulated, and that of steady contact is not valid.
+    simulated, and that of steady contact is not valid. `starts`: the start cases of grinding; `bound`: whether the
+    level after is a lower bound.
     """
 
     optional: ClassVar[frozenset[str]] = frozenset(
-        {"by_speed", "worst_arrangement", "parts", "steady_level_after_db", "level_at_once_db", "at_once_stays"}
+        {
+            "by_speed",
+            "worst_arrangement",
+            "parts",
+            "steady_level_after_db",
+            "level_at_once_db",
+            "at_once_stays",
+            "starts",
+            "bound",
+        }
     )
 
     level_before_db: Annotated[float | None, Quantity("level before", "L")]
@@ -226,6 +237,8 @@ class Vibration(Record):
     steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
     level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
     at_once_stays: Annotated[bool | None, Quantity("pressed at once, wheel and work go on bouncing louder")] = None
+    starts: LoadedStarts | None = None
+    bound: LevelBound | None = None
 
     @classmethod
     def of(cls, vibration: Levelled, levels: SpeedLevels | None = None, speed: float | None = None) -> Self:

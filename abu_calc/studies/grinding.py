@@ -12,12 +12,16 @@ from abu_calc.analysis.agreement import agreement
 from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.grinding_checks import flutter_limits, work_checks
 from abu_calc.analysis.grinding_verdict import in_words, shortest
+from abu_calc.analysis.loaded_outcomes import Loads, loudest_start, with_starts
+from abu_calc.analysis.loaded_starts import loaded_ensemble
+from abu_calc.analysis.lower_bound import lower_bound
 from abu_calc.analysis.shaking import shaken
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.analysis.under_load import Steady, bare, contact_presses, fitted, fixed, runout_of
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.grinding import printed_resultant, stiffness_regions
 from abu_calc.formulas.suspension import natural_frequency
+from abu_calc.parallel import processors
 from abu_calc.progress import Progress, silent
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.compared import compared_design, level_where_measured
@@ -48,6 +52,7 @@ from abu_calc.studies.grinding_wear import (
     rigid_course,
     wear_course,
 )
+from abu_calc.studies.loaded_records import LevelBound, LoadedStarts
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.shown import MeasuredAfter
@@ -70,6 +75,8 @@ class GrindingResult(Result):
     level_after_db: Annotated[float | None, Quantity("level with it")]
     level_at_once_db: Annotated[float | None, Quantity("with it, pressed before the balls have settled")]
     at_once_stays: Annotated[bool, Quantity("pressed at once, wheel and work go on bouncing louder")]
+    starts: LoadedStarts | None
+    bound: LevelBound | None
     measured_after: MeasuredAfter | None
     remedies: tuple[TriedRemedy, ...]
     ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
@@ -123,25 +130,28 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         _refuse_idle(tables)
         design = size_design(tables)
         work = analysis.at_work(design, accuracy, progress)
-        tried = () if work.always else analysis.remedies(work, accuracy, progress)
+        work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
+        tried = () if _always(work, loads) else _remedies(work, accuracy, progress)
         compared, friction = agreement(work, accuracy, progress), shaken(work, progress)
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None
-    resonance = facts.loaded_resonance(design)
+    resonance, bound = facts.loaded_resonance(design), lower_bound(work)
     return GrindingResult(
         title=tables.machine.name,
-        checks=work_checks(work, shortest(tried), compared),
-        warnings=(*machine.warnings, *_warnings(work)),
+        checks=work_checks(work, shortest(tried), compared, loads),
+        warnings=(*machine.warnings, *_warnings(work), *filter(None, [bound.sentence if bound else ""])),
         model=GrindingModel.of(work),
         provenance=Provenance.of(machine),
-        verdict=in_words(work, tried),
+        verdict=in_words(work, tried, loads),
         helps=work.lowered,
         contact=design.case.contact.kind if design.case.contact else "",
         level_before_db=work.levels.before,
         level_after_db=work.levels.after,
         level_at_once_db=work.level_at_once,
         at_once_stays=work.stays_loud,
+        starts=LoadedStarts.of(loads),
+        bound=LevelBound.of(bound),
         measured_after=MeasuredAfter.of(compared_design(design), level_where_measured(design, work.moved)),
         remedies=tuple(map(TriedRemedy.of, tried)),
         ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
@@ -179,6 +189,16 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         agreement=None if compared is None else Comparison.of(compared),
         orbits=tuple(_orbits(work, still)),
     )  # fmt: skip
+
+
+def _always(work: Work, loads: Loads | None) -> bool:
+    """Whether the autobalancer lowers the level in every start case."""
+    return bool(work.always) and (loads is None or bool(loads.lowered("settled") and loads.lowered("at once")))
+
+
+def _remedies(work: Work, accuracy: float, progress: Progress) -> tuple[analysis.Remedy, ...]:
+    """What lowers the level in every start case."""
+    return analysis.remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
 
 
 def _orbits(work: Work, still: Steady) -> Iterator[Orbit]:

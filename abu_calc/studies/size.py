@@ -8,9 +8,12 @@ from abu_calc.analysis.covering import with_searched
 from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.idle import ensemble_checks, level_check, not_simulated
 from abu_calc.analysis.loaded import loaded_levels, work_of
+from abu_calc.analysis.loaded_outcomes import Loads, with_starts
+from abu_calc.analysis.loaded_starts import FEW, WHEN, loaded_ensemble
+from abu_calc.analysis.lower_bound import LowerBound, lower_bound
 from abu_calc.analysis.machine import Failure, Run, simulated
 from abu_calc.analysis.one_run import loudest
-from abu_calc.analysis.outcomes import Ensemble
+from abu_calc.analysis.outcomes import Ensemble, Lost, Outcome
 from abu_calc.analysis.proven import Proven, proven
 from abu_calc.analysis.region import true_region
 from abu_calc.analysis.simulate import ACCURACY
@@ -32,6 +35,7 @@ from abu_calc.studies.design_records import (
     Vibration,
 )
 from abu_calc.studies.ensemble_records import EnsembleResult, SettlingOfStart
+from abu_calc.studies.loaded_records import LevelBound, LoadedStarts
 from abu_calc.studies.quantity import Quantity, record
 from abu_calc.studies.result import Provenance, Result
 from abu_calc.studies.rotor_view import RotorView
@@ -112,6 +116,8 @@ def size(
         design = tried.design
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
+        work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads)
+        bound = lower_bound(work) if isinstance(work, Work) else None
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
     stays = _on_work(design, runs, accuracy, progress)
@@ -132,7 +138,7 @@ def size(
             ),
             *lost,
         ),
-        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work)),
+        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work, loads, bound)),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
@@ -151,7 +157,11 @@ def size(
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=Vibration.of(design.idle, design.speed_levels, design.case.speed),
-        vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded, design.case.speed),
+        vibration_loaded=None
+        if loaded is None
+        else replace(
+            Vibration.of_loaded(loaded, design.case.speed), starts=LoadedStarts.of(loads), bound=LevelBound.of(bound)
+        ),
         measured_after=MeasuredAfter.of(
             compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
         ),
@@ -203,8 +213,22 @@ def _mean(failure: Failure, work: Work | Failure | None) -> str | None:
     return f"chaotic bouncing, {work.level_at_once:.1f} ± {work.at_once.scatter:.1f} dB on average"
 
 
-def _under_load(work: Work | Failure | None) -> Iterator[str]:
+def _pressed(
+    work: Work | Failure | None, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
+) -> tuple[Work | Failure | None, Loads | None]:
+    """The machine at its workpiece with a few start cases: `abu grinding` runs all of them."""
+    if not isinstance(work, Work):
+        return work, None
+    idle: tuple[Outcome | Lost, ...] | None = None if ensemble is None else (*ensemble.outcomes, *ensemble.lost)
+    return with_starts(work, loaded_ensemble(work.design, accuracy, progress, workers, idle, FEW))
+
+
+def _under_load(work: Work | Failure | None, loads: Loads | None, bound: LowerBound | None) -> Iterator[str]:
     """What a reader must know of the levels under load."""
+    if bound is not None and bound.sentence:
+        yield bound.sentence
+    if loads is not None:
+        yield from _starts(loads)
     if isinstance(work, Failure):
         yield f"Levels under load are not known: {work.reason}."
         return
@@ -218,6 +242,21 @@ def _under_load(work: Work | Failure | None) -> Iterator[str]:
         yield (
             f"Pressed to the work before the balls have settled, wheel and work go on bouncing, at "
             f"{work.level_at_once:.1f} dB: abu grinding tells what prevents it."
+        )
+
+
+def _starts(loads: Loads) -> Iterator[str]:
+    """The start cases of grinding that do not lower the level, and those without an answer."""
+    for when in ("settled", "at once"):
+        if louder := loads.louder(when):
+            yield (
+                f"{len(louder)} of {loads.count(when)} start cases pressed to the workpiece {WHEN[when]} end no lower "
+                f"than without the autobalancer, at most at {louder[-1].level:.1f} dB: abu grinding lists them."
+            )
+    if loads.lost:
+        yield (
+            f"{len(loads.lost)} of {loads.ensemble.count} start cases pressed to the workpiece gave no answer: "
+            f"{loads.lost[0].reason}."
         )
 
 

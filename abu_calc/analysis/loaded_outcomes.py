@@ -1,0 +1,209 @@
+"""The motions that the start cases of grinding end with, sorted into groups, and what the groups say of the level."""
+
+import cmath
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Final, Literal
+
+from abu_calc.analysis.grinding import LOUDER, Work, below
+from abu_calc.analysis.loaded_starts import (
+    STEADY,
+    LoadedEnsemble,
+    LoadedLost,
+    LoadedOutcome,
+    Pressed,
+    loaded_ensemble,
+)
+from abu_calc.frozen import dataclass
+from abu_calc.sizing.vibration import handle_levels
+
+State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
+
+SAME: Final = 10 ** (LOUDER / 20) - 1
+"""Imbalances that differ by this share of the smaller one differ by 1 dB."""
+
+HARDLY: Final = 0.01
+"""Share of the wheel's imbalance whose motion nobody tells from none."""
+
+
+@dataclass(frozen=True)
+class LoadedGroup:
+    """Start cases of one way of pressing that end with the same motion; `count` of `all` of that way of pressing.
+
+    Levels [dB]: the median, the lowest and the highest of the group; `apart`: the largest share of the time in which
+    wheel and workpiece do not touch; `steady`: whether no level still changes by more than 0.5 dB.
+    """
+
+    pressed: Pressed
+    state: State
+    count: int
+    all: int
+    level: float
+    lowest: float
+    highest: float
+    apart: float
+    steady: bool
+    loudest_start: str
+
+    @property
+    def share(self) -> float:
+        """Of the start cases of that way of pressing, those without an answer included."""
+        return self.count / self.all
+
+
+def state_of(work: Work, outcome: LoadedOutcome) -> State:
+    """The motion in one word.
+
+    A machine bounces if wheel and workpiece lose contact in the observed time. Balls at rest balance if the imbalance
+    is within 1 dB of the one that steady contact asks for with this place of the race's centre, or within a hundredth
+    of the wheel's imbalance; if it is not, dry friction holds them, or nothing does.
+    """
+    if outcome.parts:
+        return "bouncing"
+    if outcome.stalls:
+        return "stalled"
+    if outcome.swings:
+        return "swinging"
+    steady, one = work.fitted.steady, work.design.autobalancer
+    balls = steady.balls
+    if balls is None or balls.places not in ("balanced", "restless"):
+        return "not balanced"
+    wanted = _without_friction(work, outcome)
+    near = max(SAME * abs(wanted), HARDLY * abs(work.design.imbalance.value * one.requirement.plane_ratio))
+    if abs(outcome.imbalance - wanted) <= near:
+        return "balanced"
+    return "held by friction" if work.design.case.friction_arm > 0 else "not balanced"
+
+
+def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
+    """Imbalance [kg m] of wheel and balls in the race plane with which the centre of the race does not whirl forward.
+
+    G·U + runout's part + Δ·e^{iβ} = 0 with the whirl G per imbalance: U = U₀ − Δ·e^{iβ}/G, where U₀ is that of a
+    race on the axis. Source: derived, from `formulas.contact`; race in the plane of the wheel.
+    """
+    steady, case, one = work.fitted.steady, work.design.case, work.design.autobalancer
+    centre = cmath.rect(case.race_eccentricity, outcome.start.member.eccentricity)
+    ratio = one.requirement.plane_ratio
+    on_axis = work.design.imbalance.value * abs(ratio) + (steady.balls.needed if steady.balls else 0j)
+    return on_axis - centre / steady.contact.whirl_per_imbalance
+
+
+def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
+    """Of each way of pressing the motions it ends with, the most frequent first.
+
+    Levels of one state that leave a gap of more than 1 dB are two motions; balls held by friction may rest anywhere
+    within a band, so that they are one.
+    """
+    found: list[LoadedGroup] = []
+    for when in ("settled", "at once"):
+        outcomes = ensemble.pressed(when)
+        count = len(outcomes) + len(ensemble.without_answer(when))
+        by_state: dict[State, list[LoadedOutcome]] = {}
+        for outcome in sorted(outcomes, key=lambda one: one.level):
+            by_state.setdefault(state_of(work, outcome), []).append(outcome)
+        groups = [_group(when, state, part, count) for state, several in by_state.items()
+                  for part in _parts(state, several)]  # fmt: skip
+        found += sorted(groups, key=lambda group: (-group.count, group.level))
+    return tuple(found)
+
+
+def _parts(state: State, outcomes: Sequence[LoadedOutcome]) -> list[list[LoadedOutcome]]:
+    """Outcomes of one state in ascending level, cut where a gap is."""
+    parts = [[outcomes[0]]]
+    for before, outcome in pairwise(outcomes):
+        if state != "held by friction" and outcome.level - before.level > LOUDER:
+            parts.append([])
+        parts[-1].append(outcome)
+    return parts
+
+
+def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count: int) -> LoadedGroup:
+    return LoadedGroup(
+        pressed=when,
+        state=state,
+        count=len(outcomes),
+        all=count,
+        level=statistics.median(outcome.level for outcome in outcomes),
+        lowest=outcomes[0].level,
+        highest=outcomes[-1].level,
+        apart=max(outcome.apart for outcome in outcomes),
+        steady=all(outcome.drift <= STEADY for outcome in outcomes),
+        loudest_start=outcomes[-1].start.name,
+    )
+
+
+@dataclass(frozen=True)
+class Loads:
+    """The start cases of a machine at its workpiece, sorted, and whether each is below the level without."""
+
+    ensemble: LoadedEnsemble
+    groups: tuple[LoadedGroup, ...]
+    before: float | None
+    scatter: float
+
+    @property
+    def worst(self) -> float | None:
+        """The highest level of all start cases [dB]."""
+        return max((outcome.level for outcome in self.ensemble.outcomes), default=None)
+
+    @property
+    def loudest(self) -> LoadedGroup | None:
+        """The group with the highest level."""
+        return max(self.groups, key=lambda group: group.highest, default=None)
+
+    def lowered(self, when: Pressed) -> bool | None:
+        """Whether every start case of one way of pressing ends below the level without the autobalancer.
+
+        False if one does not. None if one has no answer, or its level is too near to tell: they differ by no more than
+        chaotic runs scatter.
+        """
+        found = [below(outcome.level, self.before, self._doubt(outcome)) for outcome in self.ensemble.pressed(when)]
+        if False in found:
+            return False
+        return None if None in found or not found or self.ensemble.without_answer(when) else True
+
+    def count(self, when: Pressed) -> int:
+        """How many start cases of one way of pressing there are, those without an answer included."""
+        return len(self.ensemble.pressed(when)) + len(self.ensemble.without_answer(when))
+
+    def louder(self, when: Pressed) -> tuple[LoadedOutcome, ...]:
+        """The start cases that do not end below the level without the autobalancer, the loudest last."""
+        outcomes = sorted(self.ensemble.pressed(when), key=lambda one: one.level)
+        return tuple(one for one in outcomes if below(one.level, self.before, self._doubt(one)) is False)
+
+    def _doubt(self, outcome: LoadedOutcome) -> float:
+        return self.scatter + (outcome.drift if outcome.drift > STEADY else 0.0)
+
+    @property
+    def lost(self) -> tuple[LoadedLost, ...]:
+        """The start cases without an answer."""
+        return self.ensemble.lost
+
+
+def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, Loads | None]:
+    """The machine with the start cases of its grinding, sorted; None for a machine without such.
+
+    The level of the usual case, pressed when the balls have settled, stays what it was, unless the median of the start
+    cases pressed so is more than 1 dB above it: then it was that of an easier case, and the median takes its place.
+    """
+    if ensemble is None:
+        return work, None
+    settled, usual = ensemble.pressed("settled"), work.levels.after
+    if settled and usual is not None:
+        typical = statistics.median_high(sorted(outcome.velocity for outcome in settled))
+        moved = math.sqrt(2) * typical / work.design.case.speed
+        raised = handle_levels(work.design.case, work.moved_without, moved, work.design.autobalancer.mass)
+        if (raised.worst.after or -math.inf) > usual + LOUDER:
+            work = replace(work, settled=raised, moved=moved)
+    return work, Loads(ensemble, groups_of(work, ensemble), work.levels.before, work.without.scatter)
+
+
+def loudest_start(work: Work, accuracy: float) -> float | None:
+    """The highest level [dB] of all start cases of grinding; None unless each is below the level without."""
+    _, loads = with_starts(work, loaded_ensemble(work.design, accuracy))
+    if loads is None:
+        return work.levels.after
+    return loads.worst if loads.lowered("settled") and loads.lowered("at once") else None

@@ -1,0 +1,91 @@
+"""Levels under load that are lower bounds, because the model lacks what sets the level on the shop floor."""
+
+from typing import Final
+
+from abu_calc.analysis.grinding import Work
+from abu_calc.analysis.under_load import contact_presses
+from abu_calc.frozen import dataclass
+from abu_calc.sizing.instruments import readings
+from abu_calc.units import velocity_from_level
+
+LEAST: Final = 1.0
+"""Frequency-weighted vibration total a_hv [m/s²] below which the level of a grinder at its work is a lower bound.
+
+Typical declared values of grinders are 3 to 8 m/s² (INRS, Proceedings 2023, 86(1), 13): 1 m/s² is a third of the
+lowest. The lowest level known here of a grinder with an autobalancer at its work, 102 to 103 dB idle and 2 dB more
+under load at 5800 rpm (Kladiev 1996), is 1.1 to 1.3 m/s². The number is reasoned, no standard has it.
+"""
+
+ALWAYS: Final = ("wheel waviness", "forces of chip formation")
+"""No scene of grinding has these."""
+
+
+@dataclass(frozen=True)
+class LowerBound:
+    """What sets a level under load in the model, and what the model lacks; `total` a_hv [m/s²] of the level.
+
+    `total` None: the speed is beyond the range of W_h.
+    """
+
+    holds: bool
+    total: float | None
+    set_by: tuple[str, ...]
+    lacks: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """One sentence for the screen; empty if the level is no lower bound."""
+        if not self.holds:
+            return ""
+        shown = "" if self.total is None else f" (a_hv {self.total:.2g} m/s²)"
+        return (
+            f"The level under load{shown} is a lower bound: the model sets it by {_listed(self.set_by)}, and lacks "
+            f"{_listed(self.lacks)}."
+        )
+
+
+def lower_bound(work: Work) -> LowerBound | None:
+    """Whether the level of the usual case under load is a lower bound; None if the level is not known.
+
+    It is one if its weighted total is below `LEAST`; or if a contact presses in the plane of the wheel and the file
+    gives a wheel without runout: then nothing but the imbalance that the balls remove drives the machine. What the
+    model lacks adds to the levels with and without the autobalancer alike, as squares, so that their order stays.
+    """
+    level, case = work.levels.after, work.design.case
+    if level is None:
+        return None
+    total = readings(velocity_from_level(level), case.speed).total
+    presses = contact_presses(case)
+    true = presses and not case.runout
+    return LowerBound(
+        holds=true or (total is not None and total < LEAST),
+        total=total,
+        set_by=_set_by(work, presses),
+        lacks=(
+            *(("the wheel's runout (the file gives 0 mm)",) if true else ()),
+            *(() if presses else ("the force of the contact",)),
+            *ALWAYS,
+            *(() if case.background_level is not None else ("vibration of motor and gear",)),
+        ),
+    )
+
+
+def _set_by(work: Work, presses: bool) -> tuple[str, ...]:
+    """The excitations of this machine that the model has, once per turn all of them."""
+    case = work.design.case
+    parts = (
+        ("the imbalance that the balls leave", True),
+        ("the wheel's runout", presses and case.runout > 0),
+        ("race eccentricity", case.race_eccentricity > 0),
+        ("dry friction of the balls", case.friction_arm > 0),
+        ("the background level of the file", case.background_level is not None),
+    )
+    return tuple(name for name, there in parts if there)
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    """
+    >>> _listed(("a", "b", "c")), _listed(("a",))
+    ('a, b and c', 'a')
+    """
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
