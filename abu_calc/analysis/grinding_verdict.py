@@ -20,14 +20,25 @@ def in_words(work: Work, tried: Sequence[Remedy], loads: Loads | None = None) ->
         starts = starts_in_words(work, loads)
         every = work.always and (loads is None or not (loads.louder("settled") or loads.louder("at once")))
         prevents = "" if every else changes(tried, "What prevents that") or NOTHING
-        return f"The autobalancer helps under load: {levels}. {_helps(work)}{haste}{starts}{prevents}"
+        helps = f"The autobalancer helps under load: {levels}."
+        if loads is not None and (louder := loads.louder("settled")):
+            helps = (
+                f"The autobalancer helps under load, but not in {len(louder)} of {loads.count('settled')} start cases: "
+                f"{levels}, at most {louder[-1].level:.1f} dB in these."
+            )
+        return f"{helps} {_helps(work)}{haste}{starts}{prevents}"
     return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
 
 
 def starts_in_words(work: Work, loads: Loads | None) -> str:
     """The loudest motion of the start cases and its share, if it is louder than the usual case by more than 1 dB."""
     loudest = None if loads is None else loads.loudest
-    if loads is None or loudest is None or loudest.highest <= (work.levels.after or math.inf) + LOUDER:
+    if (
+        loads is None
+        or loudest is None
+        or loads.louder("settled")
+        or loudest.highest <= (work.levels.after or math.inf) + LOUDER
+    ):
         return ""
     when = WHEN[loudest.pressed]
     cases, ends = (

@@ -25,8 +25,8 @@ State = Literal["balanced", "held by friction", "not balanced", "swinging", "sta
 SAME: Final = 10 ** (LOUDER / 20) - 1
 """Imbalances that differ by this share of the smaller one differ by 1 dB."""
 
-HARDLY: Final = 0.01
-"""Share of the wheel's imbalance whose motion nobody tells from none."""
+HARDLY: Final = 0.02
+"""Share of the wheel's imbalance by which friction that is shaken out lets balls rest beside their places."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +58,9 @@ def state_of(work: Work, outcome: LoadedOutcome) -> State:
     """The motion in one word.
 
     A machine bounces if wheel and workpiece lose contact in the observed time. Balls at rest balance if the imbalance
-    is within 1 dB of the one that steady contact asks for with this place of the race's centre, or within a hundredth
-    of the wheel's imbalance; if it is not, dry friction holds them, or nothing does.
+    is within 1 dB of the one that steady contact asks for with this place of the race's centre, or within a fiftieth
+    of the wheel's imbalance; else dry friction holds them. Without friction, or if no place at this contact is one
+    where they balance, they are not balanced.
     """
     if outcome.parts:
         return "bouncing"
@@ -69,13 +70,14 @@ def state_of(work: Work, outcome: LoadedOutcome) -> State:
         return "swinging"
     steady, one = work.fitted.steady, work.design.autobalancer
     balls = steady.balls
+    friction = work.design.case.friction_arm > 0
     if balls is None or balls.places not in ("balanced", "restless"):
-        return "not balanced"
+        return "held by friction" if balls is not None and balls.places == "turning" and friction else "not balanced"
     wanted = _without_friction(work, outcome)
     near = max(SAME * abs(wanted), HARDLY * abs(work.design.imbalance.value * one.requirement.plane_ratio))
     if abs(outcome.imbalance - wanted) <= near:
         return "balanced"
-    return "held by friction" if work.design.case.friction_arm > 0 else "not balanced"
+    return "held by friction" if friction else "not balanced"
 
 
 def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
@@ -94,8 +96,8 @@ def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
 def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
     """Of each way of pressing the motions it ends with, the most frequent first.
 
-    Levels of one state that leave a gap of more than 1 dB are two motions; balls held by friction may rest anywhere
-    within a band, so that they are one.
+    Levels of one state that leave a gap of more than 1 dB are two motions, and of more by as much as they still change.
+    Balls held by friction may rest anywhere within a band, so that they are one.
     """
     found: list[LoadedGroup] = []
     for when in ("settled", "at once"):
@@ -114,7 +116,7 @@ def _parts(state: State, outcomes: Sequence[LoadedOutcome]) -> list[list[LoadedO
     """Outcomes of one state in ascending level, cut where a gap is."""
     parts = [[outcomes[0]]]
     for before, outcome in pairwise(outcomes):
-        if state != "held by friction" and outcome.level - before.level > LOUDER:
+        if state != "held by friction" and outcome.level - before.level > LOUDER + before.drift + outcome.drift:
             parts.append([])
         parts[-1].append(outcome)
     return parts

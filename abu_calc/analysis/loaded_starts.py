@@ -200,9 +200,12 @@ def loaded_start(design: Design, start: LoadedStart, accuracy: float, least: flo
     try:
         scene = grinding_scene_of_member(design, member)
         scene = replace(scene, duration=max(scene.duration, least))
-        return _observed(design, start, with_parted_balls(chosen(scene, accuracy, ALWAYS).scene)[0])
+        outcome = _observed(design, start, with_parted_balls(chosen(scene, accuracy, ALWAYS).scene)[0])
     except NotTrustworthyError as error:
         return LoadedLost(start, str(error).splitlines()[0])
+    if outcome.parts and design.case.contact is not None and design.case.contact.kind == "rigid":
+        return LoadedLost(start, "the contact is taken as rigid, and would have to pull")
+    return outcome
 
 
 def _observed(design: Design, start: LoadedStart, scene: Scene) -> LoadedOutcome:

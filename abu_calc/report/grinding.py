@@ -2,6 +2,7 @@
 
 from typing import Final
 
+from abu_calc.checks import Status
 from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.grinding_starts import start_blocks
 from abu_calc.report.grinding_wear import wear_blocks
@@ -13,7 +14,7 @@ from abu_calc.studies.grinding import GrindingResult
 from abu_calc.studies.grinding_records import AxisMotion, FrictionBand, Simulated
 
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
-MARKS: Final = {True: "pass", False: "fail", None: "not-done"}
+MARKS: Final[dict[bool | None, Status]] = {True: "pass", False: "fail", None: "not-done"}
 STEADY: Final = (
     "Closed forms, of ideal race and balls, as if wheel and work never parted; levels count race and friction."
 )
@@ -23,7 +24,7 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
         Heading(f"{result.title}: at work"),
-        Paragraph(result.verdict, MARKS[result.helps]),
+        Paragraph(result.verdict, _mark(result)),
         verdict_line(result),
         numbers_that_matter(result),
         *start_blocks(result.starts),
@@ -42,6 +43,12 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
         Paragraph(STEADY),
         *provenance_blocks(result.provenance),
     )
+
+
+def _mark(result: GrindingResult) -> Status:
+    """That of the usual case, unless a start case fails."""
+    lowered = next(check.status for check in result.checks if check.code == "ABU421")
+    return "fail" if lowered == "fail" else MARKS[result.helps]
 
 
 def numbers_that_matter(result: GrindingResult) -> Grid:
