@@ -54,7 +54,7 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) 
     open; so does one whose level is no further from the level without than chaotic runs scatter.
     """
     settled, early = loads.lowered("settled"), loads.lowered("at once")
-    if usual.status in ("fail", "not-done"):
+    if usual.status == "fail" or (usual.status == "not-done" and settled is not False):
         return usual
     before, worst = work.levels.before, max((one.level for one in loads.ensemble.pressed("settled")), default=None)
     after = max((level for level in (work.levels.after, worst) if level is not None), default=None)

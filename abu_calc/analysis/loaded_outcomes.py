@@ -139,12 +139,17 @@ def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count
 
 @dataclass(frozen=True)
 class Loads:
-    """The start cases of a machine at its workpiece, sorted, and whether each is below the level without."""
+    """The start cases of a machine at its workpiece, sorted, and whether each is below the level without.
+
+    `before` [dB]: that level; `scatter` [dB]: how far it may be off; `bouncing` [dB]: how far the level of a start case
+    that bounces may be off, by the scatter of the chaotic runs with the autobalancer.
+    """
 
     ensemble: LoadedEnsemble
     groups: tuple[LoadedGroup, ...]
     before: float | None
-    scatter: float
+    scatter: float = 0.0
+    bouncing: float = 0.0
 
     @property
     def worst(self) -> float | None:
@@ -177,7 +182,8 @@ class Loads:
         return tuple(one for one in outcomes if below(one.level, self.before, self._doubt(one)) is False)
 
     def _doubt(self, outcome: LoadedOutcome) -> float:
-        return self.scatter + (outcome.drift if outcome.drift > STEADY else 0.0)
+        own = max(outcome.drift if outcome.drift > STEADY else 0.0, self.bouncing if outcome.parts else 0.0)
+        return self.scatter + own
 
     @property
     def lost(self) -> tuple[LoadedLost, ...]:
@@ -189,18 +195,20 @@ def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, Load
     """The machine with the start cases of its grinding, sorted; None for a machine without such.
 
     The level of the usual case, pressed when the balls have settled, stays what it was, unless the median of the start
-    cases pressed so is more than 1 dB above it: then it was that of an easier case, and the median takes its place.
+    cases pressed so is more than 1 dB above it: then it was that of an easier case, and the median takes its place. So
+    it does if the usual case has no level, its motion depending on the start, and every start case has one.
     """
     if ensemble is None:
         return work, None
     settled, usual = ensemble.pressed("settled"), work.levels.after
-    if settled and usual is not None:
+    if settled and (usual is not None or not ensemble.without_answer("settled")):
         typical = statistics.median_high(sorted(outcome.velocity for outcome in settled))
         moved = math.sqrt(2) * typical / work.design.case.speed
         raised = handle_levels(work.design.case, work.moved_without, moved, work.design.autobalancer.mass)
-        if (raised.worst.after or -math.inf) > usual + LOUDER:
+        if usual is None or (raised.worst.after or -math.inf) > usual + LOUDER:
             work = replace(work, settled=raised, moved=moved)
-    return work, Loads(ensemble, groups_of(work, ensemble), work.levels.before, work.without.scatter)
+    bouncing = max(work.fitted.scatter, work.at_once.scatter)
+    return work, Loads(ensemble, groups_of(work, ensemble), work.levels.before, work.without.scatter, bouncing)
 
 
 def loudest_start(work: Work, accuracy: float) -> float | None:

@@ -2,9 +2,9 @@
 
 from typing import Final
 
-from abu_calc.analysis.grinding import Work
 from abu_calc.analysis.under_load import contact_presses
 from abu_calc.frozen import dataclass
+from abu_calc.sizing.case import Case
 from abu_calc.sizing.instruments import readings
 from abu_calc.units import velocity_from_level
 
@@ -44,14 +44,13 @@ class LowerBound:
         )
 
 
-def lower_bound(work: Work) -> LowerBound | None:
-    """Whether the level of the usual case under load is a lower bound; None if the level is not known.
+def lower_bound(level: float | None, case: Case) -> LowerBound | None:
+    """Whether a level under load [dB], at the loudest handle, is a lower bound; None if the level is not known.
 
     It is one if its weighted total is below `LEAST`; or if a contact presses in the plane of the wheel and the file
     gives a wheel without runout: then nothing but the imbalance that the balls remove drives the machine. What the
     model lacks adds to the levels with and without the autobalancer alike, as squares, so that their order stays.
     """
-    level, case = work.levels.after, work.design.case
     if level is None:
         return None
     total = readings(velocity_from_level(level), case.speed).total
@@ -60,7 +59,7 @@ def lower_bound(work: Work) -> LowerBound | None:
     return LowerBound(
         holds=true or (total is not None and total < LEAST),
         total=total,
-        set_by=_set_by(work, presses),
+        set_by=_set_by(case, presses),
         lacks=(
             *(("the wheel's runout (the file gives 0 mm)",) if true else ()),
             *(() if presses else ("the force of the contact",)),
@@ -70,9 +69,8 @@ def lower_bound(work: Work) -> LowerBound | None:
     )
 
 
-def _set_by(work: Work, presses: bool) -> tuple[str, ...]:
+def _set_by(case: Case, presses: bool) -> tuple[str, ...]:
     """The excitations of this machine that the model has, once per turn all of them."""
-    case = work.design.case
     parts = (
         ("the imbalance that the balls leave", True),
         ("the wheel's runout", presses and case.runout > 0),

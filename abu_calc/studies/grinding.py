@@ -136,7 +136,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
     steady, runout = work.fitted.steady, runout_of(design.case)
     balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
     resultant = balls.resultant if balls else None
-    resonance, bound = facts.loaded_resonance(design), lower_bound(work)
+    resonance, bound = facts.loaded_resonance(design), lower_bound(work.levels.after, design.case)
     return GrindingResult(
         title=tables.machine.name,
         checks=work_checks(work, shortest(tried), compared, loads),

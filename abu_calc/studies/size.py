@@ -117,7 +117,6 @@ def size(
         runs, failures = simulated(design, accuracy, progress, workers=threads)
         work = work_of(design, accuracy, progress, _grinding(runs, failures))
         work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads)
-        bound = lower_bound(work) if isinstance(work, Work) else None
         region = true_region(design, accuracy)
     arm, moved = _arm(design, failures, accuracy, progress)
     stays = _on_work(design, runs, accuracy, progress)
@@ -125,6 +124,7 @@ def size(
     lost = (not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
+    bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
     reached = next((run.simulation.response.final.ball_angles for run in runs), None)
     return SizeResult(
         title=tables.machine.name,

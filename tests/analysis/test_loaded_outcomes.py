@@ -71,9 +71,10 @@ def test_levels_that_still_change_by_as_much_as_they_differ_are_one_motion() -> 
 def test_each_state_by_what_its_balls_do() -> None:
     """At rest in contact: balanced near the imbalance of steady contact, else held by friction, if there is any."""
     work = _work()
+    still: dict[str, Any]
     steady, still = work.fitted.steady.imbalance, {"parts": False, "apart": 0.0}
     assert steady is not None
-    by = {
+    by: dict[str, dict[str, Any]] = {
         "bouncing": {},
         "stalled": {**still, "slip": 0.2},
         "swinging": {**still, "swing": 0.1},
@@ -134,6 +135,10 @@ def test_an_easier_usual_case_gives_way_to_the_median() -> None:
     assert raised.levels.before == work.levels.before
     assert with_starts(work, _ensemble(work, [after + 0.9] * 3))[0].levels == work.levels
     assert with_starts(work, None) == (work, None)
+    unknown = replace(work, settled=replace(work.settled, worst=replace(work.levels, after=None)))
+    assert with_starts(unknown, _ensemble(work, [after] * 3))[0].levels.after == pytest.approx(after)
+    lost = LoadedLost(LoadedStart(Member("spread", 15.0), "settled"), "too much work")
+    assert with_starts(unknown, replace(_ensemble(work, [after] * 3), lost=(lost,)))[0].levels.after is None
 
 
 def test_the_verdict_names_the_start_cases_that_are_louder() -> None:

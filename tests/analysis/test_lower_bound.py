@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from abu_calc.analysis.grinding import Work, at_work
-from abu_calc.analysis.lower_bound import LEAST, lower_bound
+from abu_calc.analysis.lower_bound import LEAST, LowerBound, lower_bound
 from abu_calc.sizing import size
 from tests.sizing.machines import machine
 
@@ -24,11 +24,16 @@ def _work(runout_mm: float, **changes: Any) -> Work:
     return at_work(size(machine(**{**usual, **changes})), 0.01)
 
 
+def _bound(work: Work) -> LowerBound | None:
+    """Of the usual case."""
+    return lower_bound(work.levels.after, work.design.case)
+
+
 @pytest.mark.parametrize(("eccentricity_mm", "holds"), [(0.005, True), (0.01, True), (0.03, False)])
 def test_the_threshold_is_one_weighted_metre_per_second_squared(eccentricity_mm: float, holds: bool) -> None:
     """a_hv = √2·W_h·Ω·v with v of the level, on both sides of the threshold."""
     work = _work(0.02, autobalancer__race_eccentricity_mm=eccentricity_mm)
-    bound, level = lower_bound(work), work.levels.after
+    bound, level = _bound(work), work.levels.after
     assert bound is not None and level is not None
     own = math.sqrt(2) * WEIGHT_100_HZ * 2 * math.pi * 100 * 5e-8 * 10 ** (level / 20)
     assert bound.total == pytest.approx(own, rel=0.01)
@@ -39,7 +44,7 @@ def test_the_threshold_is_one_weighted_metre_per_second_squared(eccentricity_mm:
 
 def test_a_wheel_without_runout_is_marked_however_loud_it_is() -> None:
     """Nothing but what race and friction leave drives it: the file says that the wheel of a grinder runs true."""
-    bound = lower_bound(_work(0.0, autobalancer__race_eccentricity_mm=0.03))
+    bound = _bound(_work(0.0, autobalancer__race_eccentricity_mm=0.03))
     assert bound is not None and bound.holds and bound.total is not None and bound.total > LEAST
     assert any("runout" in lacking for lacking in bound.lacks)
     assert not any("runout" in excitation for excitation in bound.set_by)
@@ -47,12 +52,12 @@ def test_a_wheel_without_runout_is_marked_however_loud_it_is() -> None:
 
 
 def test_a_face_does_not_press_and_lacks_the_force_of_its_contact() -> None:
-    bound = lower_bound(_work(0.0, grinding={"contact": "face"}))
+    bound = _bound(_work(0.0, grinding={"contact": "face"}))
     assert bound is not None and "the force of the contact" in bound.lacks
     assert bound.holds is (bound.total is not None and bound.total < LEAST)
 
 
 def test_a_background_of_the_file_is_not_lacking() -> None:
-    without, given = lower_bound(_work(0.1)), lower_bound(_work(0.1, machine__background_level_db=95.0))
+    without, given = _bound(_work(0.1)), _bound(_work(0.1, machine__background_level_db=95.0))
     assert without is not None and given is not None
     assert "vibration of motor and gear" in without.lacks and "vibration of motor and gear" not in given.lacks
