@@ -61,8 +61,8 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) 
     if settled is False:
         louder, count = loads.louder("settled"), loads.count("settled")
         message = (
-            f"{len(louder)} of {count} start cases pressed after the balls settled end no lower than without the "
-            f"autobalancer, the loudest from {louder[-1].start.name}"
+            f"not lower than without the autobalancer in {len(louder)} of {count} start cases pressed after the balls "
+            f"settled; the loudest is {louder[-1].start.name}"
         )
         return coded("ABU421", "fail", message, after, before, "dB", remedy)
     if settled is None:
@@ -83,7 +83,7 @@ def _early_starts(loads: Loads) -> str:
     louder, count = loads.louder("at once"), loads.count("at once")
     if louder:
         highest = max(outcome.level for outcome in louder)
-        return f"{len(louder)} of {count} start cases pressed at once end no lower, at most at {highest:.1f} dB"
+        return f"not lower in {len(louder)} of {count} start cases pressed at once, {highest:.1f} dB at most"
     missing = loads.ensemble.without_answer("at once")
     if missing:
         return f"{len(missing)} of {count} start cases pressed at once gave no answer"

@@ -40,7 +40,9 @@ def starts_in_words(work: Work, loads: Loads | None) -> str:
         or loudest.highest <= (work.levels.after or math.inf) + LOUDER
     ):
         return ""
-    when = WHEN[loudest.pressed]
+    when, hasty = WHEN[loudest.pressed], work.level_at_once or -math.inf
+    if not work.always and loudest.pressed == "at once" and abs(loudest.highest - hasty) <= LOUDER:
+        return f" That is so in {loudest.count} of {loudest.all} start cases pressed at once."
     cases, ends = (
         f"{loudest.count} of {loudest.all} start cases pressed {when}",
         "ends" if loudest.count == 1 else "end",

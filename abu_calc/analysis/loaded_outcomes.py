@@ -94,7 +94,7 @@ def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
 
 
 def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
-    """Of each way of pressing the motions it ends with, the most frequent first.
+    """Of each way of pressing the motions it ends with, the loudest first.
 
     Levels of one state that leave a gap of more than 1 dB are two motions, and of more by as much as they still change.
     Balls held by friction may rest anywhere within a band, so that they are one.
@@ -108,7 +108,7 @@ def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
             by_state.setdefault(state_of(work, outcome), []).append(outcome)
         groups = [_group(when, state, part, count) for state, several in by_state.items()
                   for part in _parts(state, several)]  # fmt: skip
-        found += sorted(groups, key=lambda group: (-group.count, group.level))
+        found += sorted(groups, key=lambda group: -group.highest)
     return tuple(found)
 
 

@@ -2,7 +2,6 @@
 
 from abu_calc.analysis.loaded_starts import WHEN
 from abu_calc.report.blocks import Block, Grid, Heading
-from abu_calc.report.numbers import number
 from abu_calc.studies.loaded_records import LoadedOutcomeGroup, LoadedStarts
 
 
@@ -11,7 +10,7 @@ def start_blocks(starts: LoadedStarts | None) -> list[Block]:
     if starts is None:
         return []
     rows = tuple(
-        (WHEN[one.pressed], f"{number(100 * one.share, 3)} %", one.state + ("" if one.steady else ", still changing"),
+        (WHEN[one.pressed], f"{one.count} of {one.total}", one.state + ("" if one.steady else ", still changing"),
          _range(one))
         for one in starts.outcomes
     )  # fmt: skip

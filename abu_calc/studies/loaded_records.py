@@ -23,6 +23,7 @@ class LoadedOutcomeGroup(Record):
         Quantity("motion", "", 4, "balanced, held by friction, not balanced, swinging, stalled or bouncing"),
     ]
     count: Annotated[int, Quantity("start cases")]
+    total: Annotated[int, Quantity("start cases of that way of pressing")]
     share: Annotated[float, Quantity("share", "", 3, "", percent=True)]
     level_db: Annotated[float, Quantity("level, median", "L")]
     lowest_db: Annotated[float, Quantity("lowest level", "L")]
@@ -38,6 +39,7 @@ class LoadedOutcomeGroup(Record):
             pressed=group.pressed,
             state=group.state,
             count=group.count,
+            total=group.all,
             share=group.share,
             level_db=group.level,
             lowest_db=group.lowest,

@@ -228,7 +228,7 @@ def _under_load(work: Work | Failure | None, loads: Loads | None, bound: LowerBo
     if bound is not None and bound.sentence:
         yield bound.sentence
     if loads is not None:
-        yield from _starts(loads)
+        yield from _starts(loads, stays=isinstance(work, Work) and work.stays_loud)
     if isinstance(work, Failure):
         yield f"Levels under load are not known: {work.reason}."
         return
@@ -239,19 +239,25 @@ def _under_load(work: Work | Failure | None, loads: Loads | None, bound: LowerBo
     yield from dict.fromkeys(f"grinding: {text}, known to {scatter:.1f} dB" for side in sides if side.run
                              for text in side.run.warnings)  # fmt: skip
     if work.stays_loud:
+        louder = [] if loads is None else loads.louder("at once")
+        share = f", in {len(louder)} of {loads.count('at once')} start cases" if loads is not None and louder else ""
         yield (
             f"Pressed to the work before the balls have settled, wheel and work go on bouncing, at "
-            f"{work.level_at_once:.1f} dB: abu grinding tells what prevents it."
+            f"{work.level_at_once:.1f} dB{share}: abu grinding tells what prevents it."
         )
 
 
-def _starts(loads: Loads) -> Iterator[str]:
-    """The start cases of grinding that do not lower the level, and those without an answer."""
+def _starts(loads: Loads, *, stays: bool) -> Iterator[str]:
+    """The start cases of grinding that do not lower the level, and those without an answer.
+
+    `stays`: pressed at once the machine keeps bouncing louder, which a sentence of its own tells.
+    """
     for when in ("settled", "at once"):
-        if louder := loads.louder(when):
+        if (louder := loads.louder(when)) and not (stays and when == "at once"):
             yield (
-                f"{len(louder)} of {loads.count(when)} start cases pressed to the workpiece {WHEN[when]} end no lower "
-                f"than without the autobalancer, at most at {louder[-1].level:.1f} dB: abu grinding lists them."
+                f"Under load the level is not lower than without the autobalancer in {len(louder)} of "
+                f"{loads.count(when)} start cases pressed {WHEN[when]}, {louder[-1].level:.1f} dB at most: abu "
+                "grinding runs more of them."
             )
     if loads.lost:
         yield (

@@ -56,9 +56,9 @@ def test_levels_with_a_gap_of_more_than_a_decibel_are_two_motions() -> None:
     work = _work()
     groups = groups_of(work, _ensemble(work, [104.0, 104.9, 105.8, 119.0], []))
     assert [(group.count, group.lowest, group.level, group.highest) for group in groups] == [
-        (3, 104.0, 104.9, 105.8), (1, 119.0, 119.0, 119.0),
+        (1, 119.0, 119.0, 119.0), (3, 104.0, 104.9, 105.8),
     ]  # fmt: skip
-    assert [group.share for group in groups] == [0.75, 0.25]
+    assert [group.share for group in groups] == [0.25, 0.75]
 
 
 def test_levels_that_still_change_by_as_much_as_they_differ_are_one_motion() -> None:
