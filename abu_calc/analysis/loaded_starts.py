@@ -44,6 +44,9 @@ LONGEST: Final = 6.0
 MOST_LONGER: Final = 8
 """Start cases that are run again for so long."""
 
+FEW_LONGER: Final = 2
+"""The same where only a few start cases are run."""
+
 STEADY: Final = 0.5
 """A level [dB] that changes by less from one half of the observed time to the other is steady."""
 
@@ -154,7 +157,8 @@ def loaded_ensemble(
         progress(Stage(f"grinding: {done} of {len(tasks)} starts", done / len(tasks)))
 
     found = list(side_by_side(loaded_start, tasks, workers, told))
-    found = _longer(design, found, accuracy, progress, workers)
+    longer = MOST_LONGER if most is None else FEW_LONGER
+    found = _longer(design, found, accuracy, progress, workers, longer)
     lost += [outcome for outcome in found if isinstance(outcome, LoadedLost)]
     return LoadedEnsemble(tuple(outcome for outcome in found if isinstance(outcome, LoadedOutcome)), tuple(lost))
 
@@ -250,10 +254,12 @@ def _level(design: Design, velocity: float) -> float:
 
 
 def _longer(
-    design: Design, found: list[LoadedOutcome | LoadedLost], accuracy: float, progress: Progress, workers: int
-) -> list[LoadedOutcome | LoadedLost]:
-    """Run those again for longer whose level is not steady, or that bounce louder than the quietest: they may go over
-    to another motion yet. A run that fails leaves the first one.
+    design: Design, found: list[LoadedOutcome | LoadedLost], accuracy: float, progress: Progress, workers: int,
+    most: int,
+) -> list[LoadedOutcome | LoadedLost]:  # fmt: skip
+    """Run at most so many again for longer whose level is not steady, or that bounce louder than the quietest.
+
+    They may go over to another motion yet. A run that fails leaves the first one.
     """
     levels = [outcome.level for outcome in found if isinstance(outcome, LoadedOutcome)]
     if not levels:
@@ -263,7 +269,7 @@ def _longer(
         for k, outcome in enumerate(found)
         if isinstance(outcome, LoadedOutcome) and outcome.duration < LONGEST
         and (outcome.drift > STEADY or (outcome.parts and outcome.level > min(levels) + 2 * STEADY))
-    ][:MOST_LONGER]  # fmt: skip
+    ][:most]  # fmt: skip
     tasks = [(design, found[k].start, accuracy, LONGEST) for k in doubtful]
 
     def told(done: int) -> None:
