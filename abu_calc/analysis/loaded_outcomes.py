@@ -10,6 +10,7 @@ from typing import Final, Literal
 
 from abu_calc.analysis.grinding import LOUDER, Work, below
 from abu_calc.analysis.loaded_starts import (
+    FEW,
     STEADY,
     LoadedEnsemble,
     LoadedLost,
@@ -212,8 +213,16 @@ def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, Load
 
 
 def loudest_start(work: Work, accuracy: float) -> float | None:
-    """The highest level [dB] of all start cases of grinding; None unless each is below the level without."""
-    _, loads = with_starts(work, loaded_ensemble(work.design, accuracy))
-    if loads is None:
-        return work.levels.after
-    return loads.worst if loads.lowered("settled") and loads.lowered("at once") else None
+    """The highest level [dB] of all start cases of grinding; None unless each is below the level without.
+
+    A few are run first, since one that is not below is enough.
+    """
+    worst = work.levels.after
+    for most in (FEW, None):
+        _, loads = with_starts(work, loaded_ensemble(work.design, accuracy, most=most))
+        if loads is None:
+            return worst
+        if not (loads.lowered("settled") and loads.lowered("at once")):
+            return None
+        worst = loads.worst
+    return worst
