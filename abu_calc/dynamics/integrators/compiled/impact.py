@@ -5,7 +5,7 @@ An impulse is that of the equations themselves: what a push on a pair does to al
 
 from math import sqrt
 
-from abu_calc.dynamics.effects.ball_contact import GRAZING, LIFT
+from abu_calc.dynamics.effects.ball_contact import GRAZING
 from abu_calc.dynamics.integrators.compiled.arrays import (
     BALLS,
     BEHIND,
@@ -15,6 +15,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     FRICTION,
     JOINED,
     KICK,
+    LIFTED,
     PAIRS,
     PUSH,
     REST,
@@ -60,7 +61,7 @@ def meeting(
     # With what torques they would press, so how fast a rebound may be that is none.
     squeezed(many, near, total, speed, slow, right, matrix, work, chosen)
     for a in range(many):
-        slow[a] = GRAZING * con[SLOW] + sqrt(2.0 * LIFT * matrix[a * many + a] * max(slow[a], 0.0))
+        slow[a] = GRAZING * con[SLOW] + sqrt(2.0 * con[LIFTED] * matrix[a * many + a] * max(slow[a], 0.0))
         total[a], speed[a] = 0.0, opening(met[a], lay, y)
     if not passed(many, 0.1 * con[REST], con[RESTITUTION], slow, speed, total, near, right, matrix, work, chosen):
         return False
