@@ -29,6 +29,7 @@ from abu_calc.studies.design_records import (
     Autobalancer,
     DrawingLine,
     Frequency,
+    IdleSpeedLevels,
     Vibration,
 )
 from abu_calc.studies.ensemble_records import EnsembleResult, SettlingOfStart
@@ -150,7 +151,9 @@ def size(
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
-        vibration=Vibration.of(design.idle, design.speed_levels, design.case.speed),
+        vibration=replace(
+            Vibration.of(design.idle, design.speed_levels, design.case.speed), at_idle_speed=IdleSpeedLevels.of(design)
+        ),
         vibration_loaded=None if loaded is None else Vibration.of_loaded(loaded, design.case.speed),
         measured_after=MeasuredAfter.of(
             compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
