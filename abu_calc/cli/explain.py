@@ -16,7 +16,7 @@ What = Annotated[
 
 
 def explain(step: What = None) -> Outcome:
-    """Show equation, units, range and source of every formula of a step, what a check asks, or what an effect is; without one, list."""
+    """Show the formulas of a step, what a check asks, or what an effect is; without one, list."""
     from abu_calc.check_codes import CHECK_CODES
     from abu_calc.report.steps import STEPS
     from abu_calc.spec.names import nearest
@@ -50,7 +50,8 @@ def _listed() -> Outcome:
         Heading("Checks"),
         Grid(("code", "check", "step"), tuple((one.code, one.name, one.step) for one in CHECK_CODES.values())),
         Paragraph(
-            "abu explain STEP or CODE shows them, abu explain EFFECT an effect of `abu effects`; abu size MACHINE --explain puts the numbers in."
+            "abu explain STEP or CODE shows them, abu explain EFFECT one of `abu effects`; abu size MACHINE --explain "
+            "puts the numbers in."
         ),
     )
     result = {

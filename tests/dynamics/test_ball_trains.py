@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from abu_calc.dynamics.effects.ball_contact import BallContact
+from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.impact import passed
 from abu_calc.dynamics.integrators.compiled.layout import lifted
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.switching.modes import starting
+from tests.cli.runner import abu
 from tests.dynamics.test_ball_contact import bunch, heavy, momentum_and_energy, scene_of
 
 RADIUS = 0.02
@@ -107,3 +109,12 @@ def test_impacts_ask_only_pairs_that_touch(count: int) -> None:
     assert passed(count, 1e-9, 1.0, [1e-6] * count, speed, total, room[0], room[1], matrix, room[2], [0] * count)
     assert total[0] == pytest.approx(1.0)
     assert reads <= 3 * count
+
+
+def test_the_rule_of_impacts_is_told() -> None:
+    """By `abu explain ball_contact`, to which `abu effects` leads; every other effect is explained, too."""
+    told = " ".join(abu("explain", "ball_contact").out.split())
+    assert "the fastest approach first" in told and "0.9 %" in told and "2° in 0.18 s" in told
+    assert "abu explain ball_contact" in abu("effects").out
+    for name, effect in REGISTRY:
+        assert effect.about.split()[0] in abu("explain", name).out

@@ -9,10 +9,10 @@ Glocker 2001, Set-Valued Force Laws.
 
 Balls that touch in a row have no order of impacts of their own: rigid balls pass an impact on in no time. The rule is
 that pairs meet one after the other, the fastest approach first. It passes an elastic impact to the end of a row, keeps
-momentum, and never adds energy; Newton's law for all pairs at once would let a whole row of six rebound instead of its
-last ball. What the order is worth: six equal balls, e = 0.5, hit at 1200°/s, leave with speeds up to 0.9 % of the hit
-different if the pair farthest ahead is taken first, 2° in 0.18 s; nothing for e = 0, where all move together, and for
-e = 1. Approaches so slow that the rebound would lift the balls by less than `LIFT` before they are pressed together
+momentum, and never adds energy; Newton's law for all pairs at once would share the impact among the whole
+row. Worth of the order: six equal balls, e = 0.5, hit at 1200°/s, leave with speeds that differ by up to 0.9 % of the
+hit if the pair farthest ahead is taken first, 2° in 0.18 s; nothing for e = 0, where all move together, and e = 1.
+Approaches so slow that the rebound would lift the balls by less than `LIFT` before they are pressed together
 again are resolved at once: those pairs get equal speeds. Without that balls would bounce without end. The cost of a
 scene is its number of impacts times that of an impact, which grows with the pairs that touch: pressed elastic balls
 bounce ever faster as they come to rest.
