@@ -71,7 +71,8 @@ def _step(name: str) -> Outcome:
 
 
 def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
-    blocks = (Heading(f"{name}: {kind}"), Paragraph(f"{about}."), *([Paragraph(detail)] if detail else []))
+    texts = (f"{about}.", detail) if detail else (f"{about}.",)
+    blocks = (Heading(f"{name}: {kind}"), *map(Paragraph, texts))
     return Outcome("explain", {"effect": name, "kind": kind, "about": about, "detail": detail}, blocks)
 
 
