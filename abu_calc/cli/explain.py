@@ -6,7 +6,7 @@ import typer
 
 from abu_calc.cli.command import add_command
 from abu_calc.errors import InputError
-from abu_calc.report.blocks import Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.outcome import Outcome
 
 What = Annotated[
@@ -72,8 +72,8 @@ def _step(name: str) -> Outcome:
 
 def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
     texts = (f"{about}.", detail) if detail else (f"{about}.",)
-    blocks = (Heading(f"{name}: {kind}"), *map(Paragraph, texts))
-    return Outcome("explain", {"effect": name, "kind": kind, "about": about, "detail": detail}, blocks)
+    blocks: list[Block] = [Heading(f"{name}: {kind}"), *(Paragraph(text) for text in texts)]
+    return Outcome("explain", {"effect": name, "kind": kind, "about": about, "detail": detail}, tuple(blocks))
 
 
 def _code(code: str) -> Outcome:
