@@ -5,6 +5,7 @@ done when the time is up has no answer, and a check of it is not done. Threads s
 """
 
 import math
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,7 +23,11 @@ class _Wall:
     """The time at which patience ends, by the clock of `time.monotonic`; None without one."""
 
     end: float | None = None
+    aside: int = 0
+    """How many threads have put it aside."""
 
+
+_LOCK: Final = threading.Lock()
 
 STATE_SECONDS: Final = 2e-8
 """Time [s] of a compiled evaluation for each state of a scene."""
@@ -51,11 +56,28 @@ def limited(seconds: float | None) -> Iterator[None]:
         _Wall.end = before
 
 
+@contextmanager
+def aside() -> Iterator[None]:
+    """Within, only counts bound what is simulated: whoever enters holds it to the time by other means."""
+    with _LOCK:
+        _Wall.aside += 1
+    try:
+        yield
+    finally:
+        with _LOCK:
+            _Wall.aside -= 1
+
+
+def left() -> float:
+    """Seconds until the time is up; infinite without a wall."""
+    return math.inf if _Wall.end is None else _Wall.end - time.monotonic()
+
+
 def given() -> bool:
     """Whether there is a wall."""
-    return _Wall.end is not None
+    return _Wall.end is not None and not _Wall.aside
 
 
 def over() -> bool:
     """Whether the time is up; never without a wall."""
-    return _Wall.end is not None and time.monotonic() > _Wall.end
+    return given() and left() < 0

@@ -109,7 +109,7 @@ def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange 
         scanned, limits = limits_of_all(scanned, search, scene, first, 2 * high, coarse=True)
     grid = np.geomspace(low, high, PLACES).tolist() if low < high else ()
     rates = {speed: _rate(scanned, speed) for speed in grid}
-    # Elsewhere the search says it all; an arm is looked at in all the arrangements listed.
+    # The search looks at all the arrangements listed.
     rates |= {speed: search.growth(speed) if search else _rate(motions, speed) for speed in ends}
     worst = max(rates, key=lambda speed: rates[speed])
     stable = rates[worst] < -MARGIN * worst and not any(low < limit.speed < high for limit in limits)

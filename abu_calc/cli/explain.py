@@ -1,4 +1,4 @@
-"""`abu explain [STEP|CODE]`: the formulas of a step, or what a check code means, without a machine."""
+"""`abu explain [STEP|CODE|EFFECT]`: a step's formulas, what a check asks or what an effect is, without a machine."""
 
 from typing import Annotated
 
@@ -6,14 +6,17 @@ import typer
 
 from abu_calc.cli.command import add_command
 from abu_calc.errors import InputError
-from abu_calc.report.blocks import Grid, Heading, Paragraph
+from abu_calc.report.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.report.outcome import Outcome
 
-What = Annotated[str | None, typer.Argument(metavar="[STEP|CODE]", help="A step of sizing, or the code of a check.")]
+What = Annotated[
+    str | None,
+    typer.Argument(metavar="[STEP|CODE|EFFECT]", help="A step of sizing, the code of a check, or an effect."),
+]
 
 
 def explain(step: What = None) -> Outcome:
-    """Show equation, units, range and source of every formula of a step, or what a check asks; without one, list."""
+    """Show the formulas of a step, what a check asks, or what an effect is; without one, list."""
     from abu_calc.check_codes import CHECK_CODES
     from abu_calc.report.steps import STEPS
     from abu_calc.spec.names import nearest
@@ -24,10 +27,15 @@ def explain(step: What = None) -> Outcome:
         return _step(step)
     if step.upper() in CHECK_CODES:
         return _code(step.upper())
-    near = nearest(step, (*STEPS, *CHECK_CODES))
-    allowed = ", ".join(STEPS) + ", or the code of a check, such as ABU201"
+    from abu_calc.dynamics.effects.registry import REGISTRY
+
+    effects = dict(REGISTRY)
+    if step in effects:
+        return _effect(step, effects[step].kind, effects[step].about, effects[step].detail)
+    near = nearest(step, (*STEPS, *CHECK_CODES, *effects))
+    allowed = ", ".join(STEPS) + ", the code of a check, such as ABU201, or an effect, such as ball_contact"
     raise InputError(
-        "no such step or check", found=step, allowed=allowed, remedy=f'Did you mean "{near}"?' if near else None
+        "no such step, check or effect", found=step, allowed=allowed, remedy=f'Did you mean "{near}"?' if near else None
     )
 
 
@@ -41,7 +49,10 @@ def _listed() -> Outcome:
         Grid(("step", "what", "formulas"), steps),
         Heading("Checks"),
         Grid(("code", "check", "step"), tuple((one.code, one.name, one.step) for one in CHECK_CODES.values())),
-        Paragraph("abu explain STEP or CODE shows them; abu size MACHINE --explain puts the numbers in."),
+        Paragraph(
+            "abu explain STEP or CODE shows them, abu explain EFFECT one of `abu effects`; abu size MACHINE --explain "
+            "puts the numbers in."
+        ),
     )
     result = {
         "steps": {name: each.title for name, each in STEPS.items()},
@@ -57,6 +68,12 @@ def _step(name: str) -> Outcome:
     step = STEPS[name]
     texts = {one.name: "\n".join(one.for_users) for one in step.formulas}
     return Outcome("explain", {"step": name, "formulas": texts}, tuple(step_blocks(step)))
+
+
+def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
+    texts = (f"{about}.", detail) if detail else (f"{about}.",)
+    blocks: list[Block] = [Heading(f"{name}: {kind}"), *(Paragraph(text) for text in texts)]
+    return Outcome("explain", {"effect": name, "kind": kind, "about": about, "detail": detail}, tuple(blocks))
 
 
 def _code(code: str) -> Outcome:

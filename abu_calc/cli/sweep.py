@@ -162,4 +162,4 @@ def _executor(cluster: str | None, patience: float) -> Iterator[Executor | None]
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "sweep", sweep)
+    add_command(app, "sweep", sweep, simulates=True)

@@ -121,6 +121,8 @@ class Effect:
     name: ClassVar[str]
     kind: ClassVar[Kind]
     about: ClassVar[str]
+    detail: ClassVar[str] = ""
+    """What `abu explain NAME` tells beside, if anything."""
     """What it is, in a line, where people choose effects."""
     table: ClassVar[str] = ""
     """The table of a scene file that it comes with; empty: a table of its own, `scene.effects.NAME`."""

@@ -22,7 +22,8 @@ def known_blocks(result: KnownEffectsResult) -> tuple[Block, ...]:
     rows = tuple((each.name, each.kind, each.about) for each in result.effects)
     note = (
         "In a scene file an effect is on when its table is there, [scene.effects.NAME]; in a machine file its numbers "
-        "stand with the machine. `abu effects FILE` tells which are simulated."
+        "stand with the machine. `abu effects FILE` tells which are simulated. "
+        "`abu explain ball_contact` states the rule of impacts."
     )
     return (Heading(result.title), Grid(("effect", "kind", "what it is"), rows), Paragraph(note))
 

@@ -100,6 +100,7 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
     rows = (
         (f"idle level, {_place(result.vibration)}", _db(result.vibration.level_before_db),
          _db(level.typical) or "not known", _db(level.worst), limit_in_file(limits.get("ABU401"))),
+        *_at_idle_speed(result),
         *_under_load(result.vibration_loaded),
         ("settling time", "", _seconds(settling.typical) or "none", _seconds(settling.worst),
          limit_in_file(limits.get("ABU702"))),
@@ -110,6 +111,15 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
     if level.worst is None and settling.worst is None:
         return Grid((*header[:3], header[4]), tuple((*row[:3], row[4]) for row in rows), frozenset({1, 2}))
     return Grid(header, rows, frozenset({1, 2, 3}))
+
+
+def _at_idle_speed(result: SizeResult) -> tuple[tuple[str, ...], ...]:
+    """Where a motor idles at another speed than the rated one; the limit and the worst stand a line above."""
+    idle = result.vibration.at_idle_speed
+    if idle is None:
+        return ()
+    without, fitted = _db(idle.level_before_db), _db(idle.level_after_db)
+    return ((f"at the motor's {idle.speed_rpm:.0f} rpm", without, fitted or "not known", "", ""),)
 
 
 def _under_load(loaded: Vibration | None) -> tuple[tuple[str, ...], ...]:

@@ -189,6 +189,8 @@ def _vibration(result: SizeResult) -> list[Block]:
     if loaded is None or loaded.level_at_once_db is None:
         header, *rows = (row[:4] + row[5:] for row in (header, *rows))
     blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset(range(2, len(header))))]
+    if result.vibration.at_idle_speed:
+        blocks.append(facts(result.vibration.at_idle_speed))
     if loaded:
         blocks += [Paragraph(text) for text in _under_load(loaded)]
         blocks += start_blocks(loaded.starts)

@@ -3,6 +3,7 @@
 import cmath
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
@@ -10,7 +11,7 @@ from abu_calc.frozen import dataclass
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
 from abu_calc.sizing.capacity import steady_contact
-from abu_calc.sizing.case import Case
+from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.worst import WorstResidual
 
 CURVE_STEPS = 6
@@ -89,6 +90,14 @@ def idle_vibration(case: Case, imbalance: float, one: Candidate, possible: bool)
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
     return handle_levels(case, before, _residual(case, imbalance, one, case.speed) if possible else None, one.mass)
+
+
+def idle_speed_levels(case: Case, imbalance: float, one: Candidate, possible: bool) -> Levels | None:
+    """Levels of `idle_vibration` at the loudest place at the motor's idle speed, where that is not the rated speed."""
+    idle = case.idle_speed
+    if idle is None or math.isclose(idle, case.speed, rel_tol=EQUAL_SPEEDS):
+        return None
+    return idle_vibration(replace(case, speed=idle), imbalance, one, possible).worst
 
 
 def speed_levels(

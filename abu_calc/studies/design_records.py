@@ -11,7 +11,7 @@ from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, SpeedLevels
+from abu_calc.sizing.vibration import LevelAtSpeed, Loaded, SpeedLevels, idle_speed_levels
 from abu_calc.sizing.vibration import Vibration as Levelled
 from abu_calc.spec.autobalancer import Autobalancer as AutobalancerTable
 from abu_calc.studies.loaded_records import LevelBound, LoadedStarts
@@ -204,18 +204,43 @@ class SpeedLevel(Record):
 
 
 @record
+class IdleSpeedLevels(Record):
+    """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
+
+    speed_rpm: Annotated[float, Quantity("idle speed of the motor", "Ω", 6)]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+
+    @classmethod
+    def of(cls, design: Design) -> Self | None:
+        """Of a design; None without a motor, or if the motor idles at the rated speed."""
+        possible = design.frequency.balancing_possible
+        levels = idle_speed_levels(design.case, design.imbalance.value, design.autobalancer, possible)
+        if levels is None or design.case.idle_speed is None:
+            return None
+        return cls(
+            speed_rpm=from_si(design.case.idle_speed, "rpm"),
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            reduction_db=levels.reduction,
+        )
+
+
+@record
 class Vibration(Record):
     """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
 
-    `by_speed`: over the speed range; `worst_arrangement`: the highest of the range where friction holds the balls at
-    their worst; none under load. Under load the level after is that of a machine pressed to the work when its balls
-    have settled, `level_at_once_db` that of one pressed before. `parts`: whether wheel and work part: then levels are
-    simulated, and that of steady contact is not valid. `starts`: the start cases of grinding; `bound`: whether the
-    level after is a lower bound.
+    `at_idle_speed`: at the idle speed of a motor, where that is another. `by_speed`: over the speed range;
+    `worst_arrangement`: the highest of the range where friction holds the balls at their worst; none under load. Under
+    load the level after is that of a machine pressed to the work when its balls have settled, `level_at_once_db` that
+    of one pressed before. `parts`: whether wheel and work part: then levels are simulated, and that of steady contact
+    is not valid. `starts`: the start cases of grinding; `bound`: whether the level after is a lower bound.
     """
 
     optional: ClassVar[frozenset[str]] = frozenset(
         {
+            "at_idle_speed",
             "by_speed",
             "worst_arrangement",
             "parts",
@@ -231,6 +256,7 @@ class Vibration(Record):
     level_after_db: Annotated[float | None, Quantity("level after", "L")]
     reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
     handles: tuple[HandleLevels, ...]
+    at_idle_speed: IdleSpeedLevels | None = None
     by_speed: tuple[SpeedLevel, ...] | None = None
     worst_arrangement: SpeedLevel | None = None
     parts: Annotated[bool | None, Quantity("wheel and work part")] = None

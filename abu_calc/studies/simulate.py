@@ -16,6 +16,7 @@ from abu_calc.dynamics.integrators.choice import WANTED, refuse_removed
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.errors import ChaoticError
 from abu_calc.progress import Progress, silent
+from abu_calc.scenes.members import idle_speed
 from abu_calc.sizing.compared import compared, compared_design, measured_place
 from abu_calc.studies.arguments import checked, one_of
 from abu_calc.studies.motion import Motion, equally_spaced
@@ -26,6 +27,7 @@ from abu_calc.studies.scene_model import SceneModel, in_words
 from abu_calc.studies.shown import MeasuredAfter
 from abu_calc.studies.simulated_scene import SimulatedLevel, SimulatedScene
 from abu_calc.studies.subject import Source, Subject, subject_of
+from abu_calc.units import from_si
 from abu_calc.validity import Range
 
 EVALUATIONS: Final = Range("most evaluations", 1, 10**12, key="most_evaluations")
@@ -113,7 +115,7 @@ def simulate(
         **vars(SimulatedScene.of(run, ledger, audit=audited)),
         title=subject.title,
         checks=checks,
-        warnings=(*subject.warnings, *run.warnings),
+        warnings=(*subject.warnings, *_at_rated_speed(subject), *run.warnings),
         model=SceneModel.of(run.scene),
         level_at=_level_at(subject, run.response),
         handles=_handles(subject, run.response),
@@ -124,6 +126,19 @@ def simulate(
         motion=Motion.of(run, times) if len(times) else None,
         view=_view(subject, run),
         run=run,
+    )
+
+
+def _at_rated_speed(subject: Subject) -> tuple[str, ...]:
+    """A warning where the idle scene turns at the rated speed and the machine's motor idles at another."""
+    design = subject.design
+    if design is None or subject.scene.name != "idle" or (idle := idle_speed(design.case)) is None:
+        return ()
+    rated, idling = (from_si(speed, "rpm") for speed in (design.case.speed, idle))
+    needed = "" if design.case.table.run_up else "add [run_up]: "
+    return (
+        f"The motor idles at {idling:.0f} rpm; this scene turns at machine.speed_rpm = {rated:.6g}. For the motion at "
+        f"the idle speed {needed}`--scene run-up` lets the motor bring the machine there. `abu size` judges both.",
     )
 
 

@@ -32,6 +32,7 @@ from abu_calc.studies.design_records import (
     Autobalancer,
     DrawingLine,
     Frequency,
+    IdleSpeedLevels,
     Vibration,
 )
 from abu_calc.studies.ensemble_records import EnsembleResult, SettlingOfStart
@@ -156,7 +157,9 @@ def size(
             for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
-        vibration=Vibration.of(design.idle, design.speed_levels, design.case.speed),
+        vibration=replace(
+            Vibration.of(design.idle, design.speed_levels, design.case.speed), at_idle_speed=IdleSpeedLevels.of(design)
+        ),
         vibration_loaded=None
         if loaded is None
         else replace(

@@ -53,8 +53,7 @@ def _arrangements(found: Stability, scene: Scene, way: Arrangement) -> Iterator[
         "start": "the one to which balls go from their start angles, heavily damped and without size",
         "worst": f"the least stable of {found.arrangements} that stand for all, the even fan among them",
     }[way]
-    searched = found.multipliers is not None and scene.support.standing_arm(scene.balls) is None
-    if way == "worst" and searched and found.state == "balanced":
+    if way == "worst" and found.multipliers is not None and found.state == "balanced":
         told = f"the least stable that a search found, {found.arrangements} of them compared"
     if way == "worst" and found.state == "race still":
         told = "the one with even gaps: others are not known where the axis moves"

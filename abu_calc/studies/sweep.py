@@ -1,12 +1,15 @@
 """Many machines like one: how many meet the limits, and which value decides."""
 
 import json
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
+from abu_calc import patience
 from abu_calc.analysis.simulate import ACCURACY
 from abu_calc.checks import Check, coded
 from abu_calc.errors import AbuError, InputError, NotTrustworthyError
@@ -36,6 +39,8 @@ ROUGH: Final = 256
 """Rows of Saltelli's design below which indices may be off by a tenth and more."""
 FEW: Final = 0.05
 """Share of members without numbers beyond which the others speak for too few."""
+
+MORE: Final = "Allow more seconds; a store computes those members when it is gone on with: --resume."
 
 
 @checked
@@ -67,7 +72,8 @@ def sweep(
     What is None is that of [sweep] in the file. `what`: build (the design is fixed; each member is one machine built
     and switched on once) or design (sized anew). `executor`: any of concurrent.futures, or `workers` processes; the
     members do not depend on it; `cluster_wait_s`: how long a Dask cluster may be without scheduler or workers before
-    the sweep ends. `store`: where they go as they come; `resume` goes on with one that is there. `result.members` has
+    the sweep ends. Within `patience.limited` members that are not computed in time are told so, and no verdict rests
+    on them. `store`: where they go as they come; `resume` goes on with one that is there. `result.members` has
     them as arrays. Raises InputError for what is wrong in file or arguments, NotTrustworthyError where no member gave a
     number.
     """
@@ -83,6 +89,7 @@ def sweep(
     if resume and path is not None and ask.nothing and (known := study_of(path)):
         ask = _as_stored(path, machine, known, grid, time_limit_s)
     plan = planned(machine, ask, accuracy)
+    plan = replace(plan, study=replace(plan.study, until=time.time() + patience.left()))
     kept = None if path else Kept()
     file = kept.folder / "members.sqlite" if kept else path or Path()
     columns, texts = _columns(plan.study)
@@ -188,8 +195,11 @@ def _answered(
     again: Compute,
 ) -> SweepResult:  # fmt: skip
     study, sample = plan.study, plan.study.sample
-    failed = answers.failed(store)
-    if failed.members >= store.runs:
+    failed, late = answers.failed(store), answers.left_out(store)
+    if (
+        failed.members >= store.runs
+        or not store.ask(f"SELECT COUNT(*) FROM members WHERE {answers.there(store)}")[0][0]
+    ):
         reason = failed.reasons[0].reason
         raise NotTrustworthyError(f"none of {store.runs} members gave a number that can be trusted: {reason}")
     met = answers.meets(store, study.what)
@@ -204,7 +214,7 @@ def _answered(
     tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
     return SweepResult(
         title=getattr(tables, "name", Path(source.file).name),
-        checks=(_numbers(failed, store.runs), _share(met, ask.least_share)),
+        checks=(_numbers(failed, late, store.runs), _unless(late, _share(met, ask.least_share))),
         warnings=(*source.warnings, *plan.warnings, *_warnings(plan, store, quantities)),
         provenance=Provenance.of(source),
         what=study.what,
@@ -228,8 +238,19 @@ def _answered(
     )
 
 
-def _numbers(failed: Failed, runs: int) -> Check:
+def _unless(late: int, check: Check) -> Check:
+    """The check of a share; not done where members were left out for patience."""
+    if not late:
+        return check
+    message = f"{late} members were not computed within --patience; of the others: {check.message}"
+    return replace(check, status="not-done", message=message, remedy=MORE)
+
+
+def _numbers(failed: Failed, late: int, runs: int) -> Check:
     share = failed.members / runs
+    if late:
+        message = f"{late} of {runs} members were not computed within --patience"
+        return coded("ABU821", "not-done", message, 100 * share, 100 * FEW, "%", MORE)
     message = "every member gave numbers"
     if failed.members:
         one = failed.reasons[0]

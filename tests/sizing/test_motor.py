@@ -13,6 +13,7 @@ from abu_calc.scenes.from_design import TIME_CONSTANTS, running_up, scene_of_des
 from abu_calc.scenes.members import members
 from abu_calc.sizing import size
 from abu_calc.sizing.case import read_case
+from abu_calc.studies.design_records import IdleSpeedLevels
 from abu_calc.units import from_si, to_si
 from tests.sizing.machines import machine
 
@@ -118,3 +119,31 @@ def test_a_rim_too_fast_at_the_no_load_speed_is_told() -> None:
     ((path, text),) = table.contradictions()
     assert path == ("motor", "no_load_speed_rpm")
     assert "173 m/s" in text
+
+
+def test_levels_are_told_at_the_idle_speed_too() -> None:
+    """The keys at the rated speed keep their meaning; those at the idle speed are those of a file rated at it."""
+    there = abu_calc.read(MACHINES / "motor-no-load-speed.toml")
+    result = abu_calc.size(there)
+    idle = result.vibration.at_idle_speed
+    assert idle is not None and idle.speed_rpm == result.idle_speed_rpm
+    last = (result.vibration.by_speed or ())[-1]
+    assert (last.speed_rpm, last.level_after_db) == pytest.approx((idle.speed_rpm, idle.level_after_db), rel=1e-12)
+    assert idle.level_after_db > result.vibration.level_after_db
+    # Far above resonance the displacement without autobalancer is U/M whatever the speed.
+    before = idle.level_before_db - result.vibration.level_before_db
+    assert before == pytest.approx(20 * math.log10(idle.speed_rpm / 13993), abs=0.01)
+    assert idle.reduction_db == pytest.approx(idle.level_before_db - idle.level_after_db)
+
+
+@pytest.mark.parametrize("no_load", [None, 5801.0])
+def test_no_second_level_where_the_machine_idles_at_its_rated_speed(no_load: float | None) -> None:
+    table = machine() if no_load is None else with_motor(no_load=no_load)
+    assert IdleSpeedLevels.of(size(table)) is None
+
+
+def test_the_idle_scene_says_that_it_turns_at_the_rated_speed() -> None:
+    there = abu_calc.read(MACHINES / "motor-no-load-speed.toml")
+    told = [text for text in abu_calc.simulate(there, duration_s=0.1).warnings if "machine.speed_rpm = 13993" in text]
+    assert len(told) == 1 and "15107 rpm" in told[0] and "--scene run-up" in told[0]
+    assert not any("The motor idles" in text for text in abu_calc.simulate(abu_calc.read("avtovaz-707-222")).warnings)

@@ -37,8 +37,8 @@ def boundaries(
     growth rate on a grid that is refined where the rate bends, comes near zero or turns back before it, at up to some
     five hundred speeds; `coarse`: at some twenty, not refined. Without a state of rest at a speed nothing is stable
     there. `arrangement`: "worst" asks for all of them to be stable, see `arrangements.rests`; on an anisotropic
-    support those that `Search` finds worse at some twenty speeds and at each boundary are added. Raises NotKnownError
-    where `stability` knows no answer.
+    support and a swing arm those that `Search` finds worse at some twenty speeds and at each boundary are added.
+    Raises NotKnownError where `stability` knows no answer.
     """
     check_range(low, high)
     excess, still, search = _excess_of_scene(scene, half_angle, arrangement)

@@ -85,10 +85,10 @@ class Family:
     def _reached(self, chi: float) -> Array | None:
         """An arrangement of this χ from the rows whose χ are nearest."""
         near = np.argsort(np.abs(self.chi - chi), kind="stable")[:NEAREST]
-        return next((moved for k in near if (moved := self._moved(self.rows[k], chi)) is not None), None)
+        return next((moved for k in near if (moved := self.moved(self.rows[k], chi)) is not None), None)
 
-    def _moved(self, angles: Array, chi: float) -> Array | None:
-        """One near the angles; None if none is, or balls overlap there."""
+    def moved(self, angles: Array, chi: float) -> Array | None:
+        """An arrangement of this χ near the angles; None if none is, or balls overlap there."""
         moved = moved_to(self.masses, angles, self.resultant, chi)
         return moved if moved is not None and narrowest_gap(tuple(moved)) >= self.gap - TOUCHING else None
 
@@ -98,7 +98,7 @@ class Family:
             best, chi, share = angles, likeness(self.masses.tolist(), angles.tolist()), 1.0
             for _ in range(TRIALS):
                 wanted = chi + share * (end - chi)
-                moved = self._moved(best, wanted)
+                moved = self.moved(best, wanted)
                 if moved is None:
                     share /= 2
                     continue

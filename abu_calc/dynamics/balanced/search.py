@@ -1,7 +1,7 @@
-"""The worst arrangement on an anisotropic support, searched in the family of all that balance."""
+"""The worst arrangement on an anisotropic support or a swing arm, searched in the family of all that balance."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cached_property
 from typing import Final
@@ -35,6 +35,9 @@ STEPS: Final = (0.4, 0.2, 0.1, 0.05)
 TRIALS: Final = 80
 """Growth rates that such a search may take."""
 
+ON_ARM, CLIMBS = 24, 3
+"""Arrangements of one race on a swing arm that are compared first, and from how many of them balls are moved."""
+
 
 @dataclass(frozen=True)
 class Search:
@@ -43,7 +46,9 @@ class Search:
     Balls of one race whose support moves in its plane: their χ alone decides, since turning all balls together only
     shifts the time at which the support is felt. χ is searched by a grid and golden sections. Several races, or a
     support that tilts: the balls are moved one free direction at a time, from the worst of the list, with up to 80
-    growth rates; a local maximum may remain then, and the share of each race stays that of the list.
+    growth rates; a local maximum may remain then, and the share of each race stays that of the list. A swing arm turns
+    the race with it, so for equal balls the complex Σ m e^{2iθ} decides: arrangements that differ most in it are
+    compared first, and the balls are moved from the three worst of them.
     """
 
     listed: tuple[BalancedMotion, ...]
@@ -67,7 +72,8 @@ class Search:
     @property
     def trials(self) -> int:
         """About how many arrangements are compared."""
-        return len(self.listed) + (GRID + SECTIONS + 1 if self.in_plane else TRIALS)
+        moved = TRIALS * (CLIMBS if self._more else 1)
+        return len(self.listed) + (GRID + SECTIONS + 1 if self.in_plane else len(self._more) + moved)
 
     def growth(self, speed: float) -> float:
         """The largest growth rate [1/s] that was found at a speed [rad/s]."""
@@ -139,8 +145,13 @@ class Search:
         def growth(angles: Array) -> float:
             return decided(replace(self.listed[0], scene=scene, angles=tuple(angles.tolist())), speed)[1]
 
-        starts = [(growth(np.array(motion.angles)), np.array(motion.angles)) for motion in self.listed]
-        most, best = max(starts, key=lambda pair: pair[0])
+        listed = [np.array(motion.angles) for motion in self.listed]
+        starts = sorted(((growth(one), one) for one in (*listed, *self._more)), key=lambda pair: -pair[0])
+        climbs = [self._climbed(growth, *start, MARGIN * speed) for start in starts[: CLIMBS if self._more else 1]]
+        return max(climbs, key=lambda pair: pair[0])[1]
+
+    def _climbed(self, growth: Callable[[Array], float], most: float, best: Array, least: float) -> tuple[float, Array]:
+        """The largest growth rate to which neighbours lead, each larger by `least` [1/s], and its arrangement."""
         left = TRIALS
         for step in STEPS:
             better = True
@@ -148,19 +159,38 @@ class Search:
                 better = False
                 for angles in neighbours(self.races, best, step):
                     rate, left = growth(angles), left - 1
-                    if rate > most + MARGIN * speed:
+                    if rate > most + least:
                         most, best, better = rate, angles, True
                         break
-        return best
+        return most, best
+
+    @cached_property
+    def _more(self) -> tuple[Array, ...]:
+        """On a swing arm: one with χ = 0, the least and the largest χ, then those farthest in Σ m e^{2iθ} from others.
+
+        Growth may have a sharp peak at χ = 0, so that neighbours do not lead there.
+        """
+        if not self.listed[0].on_arm or len(self.races) != 1 or len(self.listed[0].angles) <= 2:
+            return ()
+        rows, masses = self._family.rows, self.races[0][0]
+        double = np.exp(2j * rows) @ masses
+        picked, near = [0, len(rows) - 1], np.full(len(rows), np.inf)
+        while len(picked) < ON_ARM:
+            near = np.minimum(near, np.abs(double[:, None] - double[picked]).min(axis=1))
+            if near.max() <= ALIKE * masses.sum():
+                break
+            picked.append(int(near.argmax()))
+        even = next((moved for k in picked if (moved := self._family.moved(rows[k], 0.0)) is not None), None)
+        return (*([] if even is None else [even]), *rows[picked])
 
 
 def searched(listed: tuple[BalancedMotion, ...], half_angle: float) -> Search | None:
     """A search where it may find a worse arrangement than the list has.
 
-    None on an isotropic support, where the list stands for all; where all arrangements are one; where the axis moves;
-    and on a support that turns with the rotor, such as a swing arm.
+    None on an isotropic support, where the list stands for all; where all arrangements are one; and where the axis
+    moves.
     """
-    if len(listed) < 2 or listed[0].motion or listed[0].on_arm:
+    if len(listed) < 2 or listed[0].motion:
         return None
     search = Search(listed, half_angle)
     return None if search.motions[0].isotropic else search

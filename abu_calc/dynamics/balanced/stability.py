@@ -48,8 +48,8 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
     """Whether every disturbance of the balanced state of a scene dies out, at its speed, by the worst arrangement.
 
     Growth rate: the largest Re λ, or ln|μ|/T over a revolution T [1/s]; stable below −1e-9·Ω. `half_angle` [rad] of
-    touching balls, 0 for balls without size; `arrangement`: see `arrangements.rests`; on an anisotropic support, other
-    than a swing arm, the worst is searched, see `Search`. A swing arm whose balls are none, or cannot balance, is
+    touching balls, 0 for balls without size; `arrangement`: see `arrangements.rests`; on an anisotropic support and on
+    a swing arm the worst is searched, see `Search`. A swing arm whose balls are none, or cannot balance, is
     judged alone; with balls that cannot balance it is not called stable. Range: constant speed, small motions, no
     effects. Raises NotTrustworthyError when multipliers do not settle.
     """

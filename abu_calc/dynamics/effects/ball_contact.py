@@ -6,6 +6,16 @@ An impact leaves −e times the speed of approach; it acts on all balls and the 
 that touch with equal speeds press with λ ≥ 0 and move together, or part. With dry friction, which of them press and
 which of them stick is one problem. An impact knows no friction. Source: Newton's impact law, pair by pair; for the rest
 Glocker 2001, Set-Valued Force Laws.
+
+Balls that touch in a row have no order of impacts of their own: rigid balls pass an impact on in no time. The rule is
+that pairs meet one after the other, the fastest approach first. It passes an elastic impact to the end of a row, keeps
+momentum, and never adds energy; Newton's law for all pairs at once would share the impact among the whole
+row. Worth of the order: six equal balls, e = 0.5, hit at 1200°/s, leave with speeds that differ by up to 0.9 % of the
+hit if the pair farthest ahead is taken first, 2° in 0.18 s; nothing for e = 0, where all move together, and e = 1.
+Approaches so slow that the rebound would lift the balls by less than `LIFT` before they are pressed together
+again are resolved at once: those pairs get equal speeds. Without that balls would bounce without end. The cost of a
+scene is its number of impacts times that of an impact, which grows with the pairs that touch: pressed elastic balls
+bounce ever faster as they come to rest.
 """
 
 import math
@@ -93,6 +103,15 @@ class BallContact(Effect):
     name: ClassVar[str] = "ball_contact"
     kind: ClassVar[Kind] = "dissipative"
     about: ClassVar[str] = "Balls of one race cannot pass each other: they meet, press and part"
+    detail: ClassVar[str] = (
+        "Rule of impacts: touching pairs meet one after the other, the fastest approach first, and each leaves "
+        "-restitution times its speed of approach. Balls that touch in a row have no order of impacts of their own. "
+        "This order passes an elastic impact to the end of a row, keeps momentum and never adds energy. Another order "
+        "changes speeds by up to 0.9 % of the hit (six equal balls, restitution 0.5): 2° in 0.18 s after a hit at "
+        "1200°/s, and nothing for restitution 0 or 1. Rebounds that would part pressed balls by less than 1e-6 rad "
+        "(up to 1e-4 rad at a loose tolerance) are none: those pairs are resolved at once and move together. The cost "
+        "is the number of impacts, which grows fast for many pressed balls with a restitution near 1."
+    )
     switches: ClassVar[bool] = True
     balls_meet: ClassVar[bool] = True
 

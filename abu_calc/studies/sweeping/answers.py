@@ -8,7 +8,7 @@ import numpy as np
 
 from abu_calc.analysis.sampling import BLOCK, Sample, block
 from abu_calc.analysis.sensitivity import Fit, Indices, saltelli
-from abu_calc.studies.sweeping.columns import BALANCES, DECIDING, FLAGS, MEETS, QUANTITIES, What
+from abu_calc.studies.sweeping.columns import BALANCES, DECIDING, FLAGS, IMPATIENT, MEETS, QUANTITIES, What
 from abu_calc.studies.sweeping.records import (
     Basin,
     Chart,
@@ -29,6 +29,8 @@ SHARES: Final = (0.0, 0.01, 0.02, *(k / 20 for k in range(1, 20)), 0.98, 0.99, 1
 """Of members, for which a distribution is told."""
 START: Final = "start.kind"
 ANSWERED: Final = "reason IS NULL"
+TRIED: Final = f"COALESCE(reason, '') <> '{IMPATIENT}'"
+"""Members that patience left out count in no share: nobody knows what they meet."""
 
 
 def there(store: Store) -> str:
@@ -42,6 +44,11 @@ def failed(store: Store) -> Failed:
     rows = store.ask(f"{query}, 1 LIMIT {REASONS}")
     count = store.ask("SELECT COUNT(*) FROM members WHERE reason IS NOT NULL")[0][0]
     return Failed(members=count, reasons=tuple(Failure(reason=r, members=n, first=k) for r, n, k in rows))
+
+
+def left_out(store: Store) -> int:
+    """How many members were not computed since the seconds of --patience were over."""
+    return int(store.ask("SELECT COUNT(*) FROM members WHERE reason = ?", (IMPATIENT,))[0][0])
 
 
 def spreads(store: Store, what: What) -> dict[str, Percentiles]:
@@ -100,7 +107,7 @@ def meets(store: Store, what: What) -> MeetsLimits:
 
 
 def _share(store: Store, name: str) -> Share:
-    query = f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE member < {store.drawn}"
+    query = f"SELECT COALESCE(SUM({quoted(name)}), 0), COUNT(*) FROM members WHERE {TRIED} AND member < {store.drawn}"
     met, count = store.ask(query)[0]
     return Share(share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
 
@@ -117,7 +124,10 @@ def basins(store: Store) -> tuple[Basin, ...]:
     if START not in store.names:
         return ()
     kind, flag = quoted(START), quoted(BALANCES.name)
-    query = f"SELECT {kind}, COALESCE(SUM({flag}), 0), COUNT(*) FROM members WHERE member < {store.drawn} GROUP BY 1"
+    query = (
+        f"SELECT {kind}, COALESCE(SUM({flag}), 0), COUNT(*) FROM members WHERE {TRIED} AND member < {store.drawn} "
+        "GROUP BY 1"
+    )
     return tuple(
         Basin(start=name, share=met / count, confidence_interval=_interval(met, count), met=int(met), of=int(count))
         for name, met, count in store.ask(query)
@@ -189,7 +199,7 @@ def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Ch
     # A member without an answer counts as not met; a cell without any has no share.
     met = (f"CASE WHEN COUNT({name}) THEN 1.0 * SUM({name}) / COUNT(*) END" for name in map(quoted, (flag, MEETS.name)))
     columns = f"{', '.join(map(quoted, grid))}, {', '.join(met)}, AVG({quoted(DECIDING[what])})"
-    query = f"SELECT {columns} FROM members WHERE member < {store.drawn} GROUP BY 1, 2"
+    query = f"SELECT {columns} FROM members WHERE {TRIED} AND member < {store.drawn} GROUP BY 1, 2"
     found: dict[tuple[object, object], tuple[float | None, ...]] = {
         (x, y): (*cell,) for x, y, *cell in store.ask(query)
     }

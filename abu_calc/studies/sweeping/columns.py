@@ -34,6 +34,8 @@ OUTSIDE: Final = "not computed: "
 """Start of reasons that lie outside the machine, in the computer: such members are tried again by the next run."""
 OVERTIME: Final = "not done within "
 """Start of the reason of a member that took too long; the limit in seconds follows. A longer one tries it again."""
+IMPATIENT: Final = OUTSIDE + "the seconds of --patience were over"
+"""Reason of a member that the patience of its run left out; the next run computes it."""
 
 QUANTITIES: Final[dict[What, tuple[Column, ...]]] = {
     "build": (

@@ -12,7 +12,7 @@ from abu_calc.analysis.batches import Row
 from abu_calc.analysis.sampling import Sample
 from abu_calc.frozen import dataclass
 from abu_calc.spec.variation import Variation
-from abu_calc.studies.sweeping.columns import DECIDING, MEETS
+from abu_calc.studies.sweeping.columns import DECIDING, IMPATIENT, MEETS
 from abu_calc.studies.sweeping.members import Study
 from abu_calc.studies.sweeping.store import Store, quoted
 
@@ -63,7 +63,10 @@ class Trials:
 
 
 def loosened(study: Study, store: Store, keys: Sequence[str], compute: Compute) -> dict[str, Loosened]:
-    """Each of these values with twice its scatter, as many as are cheap beside the sweep; of the others nothing."""
+    """Each of these values with twice its scatter, as many as are cheap beside the sweep; of the others nothing.
+
+    Nor of trials that patience left out.
+    """
     many = int(min(MOST, max(LEAST, PART * store.drawn // max(len(keys), 1))))
     keys = keys[: int(PART * store.drawn) // many]
     if not keys:
@@ -77,10 +80,12 @@ def loosened(study: Study, store: Store, keys: Sequence[str], compute: Compute) 
     names = [DECIDING[study.what], MEETS.name]
     places = [store.names.index(name) for name in names]
     before = _before(store, names, members)
+    kept = [key for k, key in enumerate(keys) if all(found[k * many + j][-1] != IMPATIENT for j in range(many))]
     after = {k: tuple(row[place] for place in places) for k, row in found.items()}
     return {
         key: _compared(_way(trials.studies[k].sample, key).text, before, [after[k * many + j] for j in range(many)])
         for k, key in enumerate(keys)
+        if key in kept
     }
 
 

@@ -4,10 +4,12 @@ import math
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import field
 from typing import Any, ClassVar, Final
 
 import numpy as np
 
+from abu_calc import patience
 from abu_calc.analysis.batches import Row
 from abu_calc.analysis.one_machine import machine_started, scene_once
 from abu_calc.analysis.sampling import Sample
@@ -27,7 +29,7 @@ from abu_calc.spec.read import Machine
 from abu_calc.spec.scene import SceneFile
 from abu_calc.spec.variants import Variants
 from abu_calc.studies.size import size
-from abu_calc.studies.sweeping.columns import FLAGS, OUTSIDE, OVERTIME, QUANTITIES, What
+from abu_calc.studies.sweeping.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What
 from abu_calc.units import from_si, to_si
 
 LOT: Final = 0.5e-6
@@ -48,6 +50,8 @@ class Study(ABC):
     sample: Sample
     accuracy: float
     time_limit: float
+    until: float = field(default=math.inf, kw_only=True)
+    """Time [s since 1970] at which the patience with the whole sweep is over, also on other computers."""
 
     @abstractmethod
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
@@ -68,10 +72,16 @@ class Study(ABC):
     def _row(self, member: int, may_end_process: bool) -> Row:
         values, seed = self.sample.values(member), self.sample.member_seed(member)
         named = {one.key: value for one, value in zip(self.sample.factors, values, strict=True)}
+        left = self.until - time.time()
+        if left <= 0:
+            return self.lost(member, IMPATIENT)
         try:
-            with limited(self.time_limit, may_end_process=may_end_process):
+            # The wall of seconds would take the place of counts of work, and a member must not depend on it.
+            with patience.aside(), limited(min(self.time_limit, left), may_end_process=may_end_process):
                 numbers = self.numbers(named, seed)
         except Overtime:
+            if left < self.time_limit:
+                return self.lost(member, IMPATIENT)
             return self.lost(member, f"{OVERTIME}{self.time_limit:g} s")
         except ImportError:  # of all members, and of this computer: no result of any
             raise_pending()

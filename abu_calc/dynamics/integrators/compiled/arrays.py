@@ -21,10 +21,10 @@ which (−1: it is not given); how many it gives, and from where on these stand,
 gap, then the ball ahead of each."""
 
 # Constants of a run.
-LONGEST, END, REST, SLOW, RESTITUTION, KICK, STALLED, UNIT = 0, 1, 2, 3, 4, 5, 6, 7
+LONGEST, END, REST, SLOW, RESTITUTION, KICK, STALLED, UNIT, LIFTED = 0, 1, 2, 3, 4, 5, 6, 7, 8
 """Longest step, end, speed at rest, the balls' slow speed, e, size of a torque, time of a stall, and what counts as no
-torque between balls."""
-SCALES = 8
+torque between balls; by how much balls must part for a rebound to be one."""
+SCALES = 9
 """Absolute and relative tolerance of each state, then m R_p² of each ball."""
 
 # The clock of a run.

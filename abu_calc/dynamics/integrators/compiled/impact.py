@@ -5,15 +5,17 @@ An impulse is that of the equations themselves: what a push on a pair does to al
 
 from math import sqrt
 
-from abu_calc.dynamics.effects.ball_contact import GRAZING, LIFT
+from abu_calc.dynamics.effects.ball_contact import GRAZING
 from abu_calc.dynamics.integrators.compiled.arrays import (
     BALLS,
     BEHIND,
+    COUNTS,
     DIRECTION,
     EVALUATIONS,
     FRICTION,
     JOINED,
     KICK,
+    LIFTED,
     PAIRS,
     PUSH,
     REST,
@@ -41,117 +43,118 @@ def meeting(
 ) -> bool:  # fmt: skip
     """The state after all impacts. False where that takes too many."""
     pairs, states = lay[PAIRS], lay[STATES]
-    met, slow, speed, total = room, room[pairs:], room[2 * pairs :], room[3 * pairs :]
-    near, right = room[4 * pairs :], room[5 * pairs :]
+    slow, speed, total = room, room[pairs:], room[2 * pairs :]
+    near, right = room[3 * pairs :], room[4 * pairs :]
     matrix, work = room[6 * pairs :], room[(6 + pairs) * pairs :]
     kicks = room[(6 + 2 * pairs) * pairs :]
+    met, chosen = count[COUNTS:], count[COUNTS + pairs :]
+    many = 0
     for p in range(pairs):
-        met[p] = 1.0 if touches(p, y, numbers, lay) else 0.0
-        slow[p] = 0.0
-    closing(t, y, numbers, par, lay, count, k, met, near, total)
-    responses(t, y, numbers, par, lay, con, count, k, k[states:], met, kicks)
-    for p in range(pairs):
-        for q in range(pairs):
-            matrix[p * pairs + q] = opening(p, lay, kicks[q * states :]) if met[p] > 0.0 and met[q] > 0.0 else 0.0
+        if touches(p, y, numbers, lay):
+            met[many] = p
+            many += 1
+    closing(t, y, numbers, par, lay, count, k, many, met, near, total)
+    responses(t, y, numbers, par, lay, con, count, k, k[states:], many, met, kicks)
+    for a in range(many):
+        for b in range(many):
+            matrix[a * many + b] = opening(met[a], lay, kicks[b * states :])
     # With what torques they would press, so how fast a rebound may be that is none.
-    squeezed(pairs, met, near, total, speed, slow, right, matrix, work)
-    for p in range(pairs):
-        slow[p] = GRAZING * con[SLOW] + sqrt(2.0 * LIFT * matrix[p * pairs + p] * max(slow[p], 0.0))
-        total[p], speed[p] = 0.0, opening(p, lay, y)
-    if not passed(pairs, 0.1 * con[REST], con[RESTITUTION], met, slow, speed, total, near, right, matrix, work):
+    squeezed(many, near, total, speed, slow, right, matrix, work, chosen)
+    for a in range(many):
+        slow[a] = GRAZING * con[SLOW] + sqrt(2.0 * con[LIFTED] * matrix[a * many + a] * max(slow[a], 0.0))
+        total[a], speed[a] = 0.0, opening(met[a], lay, y)
+    if not passed(many, 0.1 * con[REST], con[RESTITUTION], slow, speed, total, near, right, matrix, work, chosen):
         return False
-    for q in range(pairs):
-        if total[q] != 0.0:
+    for b in range(many):
+        if total[b] != 0.0:
             for i in range(states):
-                y[i] += total[q] * kicks[q * states + i]
+                y[i] += total[b] * kicks[b * states + i]
     return True
 
 
 def passed(
-    pairs: int, rest: float, restitution: float, met: Reals, slow: Reals, speed: Reals, total: Reals, near: Reals,
-    right: Reals, matrix: Reals, work: Reals,
+    many: int, rest: float, restitution: float, slow: Reals, speed: Reals, total: Reals, near: Reals, right: Reals,
+    matrix: Reals, work: Reals, chosen: Integers,
 ) -> bool:  # fmt: skip
     """The impulses of all impacts, in `total`; False where there are too many."""
     for _ in range(MOST_IMPACTS):
         worst, deepest, uneven = -1, 0.0, False
-        for p in range(pairs):
-            near[p] = 1.0 if met[p] > 0.0 and abs(speed[p]) <= slow[p] else 0.0
-            if near[p] > 0.0 and abs(speed[p]) > rest:
+        for a in range(many):
+            near[a] = 1.0 if abs(speed[a]) <= slow[a] else 0.0
+            if near[a] > 0.0 and abs(speed[a]) > rest:
                 uneven = True
-            if met[p] > 0.0 and speed[p] + slow[p] < deepest:
-                worst, deepest = p, speed[p] + slow[p]
+            if speed[a] + slow[a] < deepest:
+                worst, deepest = a, speed[a] + slow[a]
         if worst >= 0:
-            impulse = -(1.0 + restitution) * speed[worst] / matrix[worst * pairs + worst]
+            impulse = -(1.0 + restitution) * speed[worst] / matrix[worst * many + worst]
             total[worst] += impulse
-            for p in range(pairs):
-                if met[p] > 0.0:
-                    speed[p] += matrix[p * pairs + worst] * impulse
+            for a in range(many):
+                speed[a] += matrix[a * many + worst] * impulse
         elif uneven:
-            evened(pairs, met, near, speed, total, right, matrix, work)
+            evened(many, near, speed, total, right, matrix, work, chosen)
         else:
             return True
     return False
 
 
 def squeezed(
-    pairs: int, met: Reals, near: Reals, closes: Reals, speed: Reals, torque: Reals, right: Reals, matrix: Reals,
-    work: Reals,
+    many: int, near: Reals, closes: Reals, speed: Reals, torque: Reals, right: Reals, matrix: Reals, work: Reals,
+    chosen: Integers,
 ) -> None:  # fmt: skip
     """With what torques pairs that touch press, by their relative accelerations without any: never to hold them."""
-    for p in range(pairs):
-        near[p] = met[p]
-    for _ in range(2 * pairs + 4):
-        for p in range(pairs):
-            speed[p], torque[p] = closes[p], 0.0
-        evened(pairs, met, near, speed, torque, right, matrix, work)
+    for a in range(many):
+        near[a] = 1.0
+    for _ in range(2 * many + 4):
+        for a in range(many):
+            speed[a], torque[a] = closes[a], 0.0
+        evened(many, near, speed, torque, right, matrix, work, chosen)
         changed = False
-        for p in range(pairs):
-            if near[p] > 0.0 and torque[p] < 0.0:
-                near[p], changed = 0.0, True
-            elif met[p] > near[p] and speed[p] < 0.0:
-                near[p], changed = 1.0, True
+        for a in range(many):
+            if near[a] > 0.0 and torque[a] < 0.0:
+                near[a], changed = 0.0, True
+            elif near[a] == 0.0 and speed[a] < 0.0:
+                near[a], changed = 1.0, True
         if not changed:
             return
 
 
 def evened(
-    pairs: int, met: Reals, near: Reals, speed: Reals, total: Reals, right: Reals, matrix: Reals, work: Reals
-) -> None:
+    many: int, near: Reals, speed: Reals, total: Reals, right: Reals, matrix: Reals, work: Reals, chosen: Integers,
+) -> None:  # fmt: skip
     """Equal speeds for pairs that are near to it, by elimination."""
-    for p in range(pairs):
-        right[p] = -speed[p]
-        for q in range(pairs):
-            work[p * pairs + q] = matrix[p * pairs + q]
-    for p in range(pairs):
-        if near[p] > 0.0:
-            for q in range(p + 1, pairs):
-                if near[q] > 0.0:
-                    factor = work[q * pairs + p] / work[p * pairs + p]
-                    right[q] -= factor * right[p]
-                    for r in range(p, pairs):
-                        if near[r] > 0.0:
-                            work[q * pairs + r] -= factor * work[p * pairs + r]
-    for back in range(pairs):
-        p = pairs - 1 - back
-        if near[p] > 0.0:
-            for q in range(p + 1, pairs):
-                if near[q] > 0.0:
-                    right[p] -= work[p * pairs + q] * right[q]
-            right[p] /= work[p * pairs + p]
-    for p in range(pairs):
-        if near[p] > 0.0:
-            total[p] += right[p]
-            for q in range(pairs):
-                if met[q] > 0.0:
-                    speed[q] += matrix[q * pairs + p] * right[p]
-    for p in range(pairs):
-        if near[p] > 0.0:
-            speed[p] = 0.0
+    m = 0
+    for a in range(many):
+        if near[a] > 0.0:
+            chosen[m] = a
+            m += 1
+    for i in range(m):
+        right[i], row = -speed[chosen[i]], matrix[chosen[i] * many :]
+        for j in range(m):
+            work[i * m + j] = row[chosen[j]]
+    for i in range(m):
+        pivot = work[i * m :]
+        for j in range(i + 1, m):
+            lower = work[j * m :]
+            factor = lower[i] / pivot[i]
+            right[j] -= factor * right[i]
+            for r in range(i, m):
+                lower[r] -= factor * pivot[r]
+    for back in range(m):
+        i = m - 1 - back
+        for j in range(i + 1, m):
+            right[i] -= work[i * m + j] * right[j]
+        right[i] /= work[i * m + i]
+    for i in range(m):
+        total[chosen[i]] += right[i]
+        for b in range(many):
+            speed[b] += matrix[b * many + chosen[i]] * right[i]
+    for i in range(m):
+        speed[chosen[i]] = 0.0
 
 
 def closing(
-    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, count: Integers, k: Reals, met: Reals, saved: Reals,
-    found: Reals,
+    t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, count: Integers, k: Reals, many: int,
+    met: Integers, saved: Reals, found: Reals,
 ) -> None:  # fmt: skip
     """Relative accelerations of the pairs that touch, were none held together."""
     joined = numbers[lay[JOINED] :]
@@ -162,12 +165,13 @@ def closing(
     count[EVALUATIONS] += 1
     for p in range(lay[PAIRS]):
         joined[p] = saved[p]
-        found[p] = opening(p, lay, k) if met[p] > 0.0 else 0.0
+    for a in range(many):
+        found[a] = opening(met[a], lay, k)
 
 
 def responses(
     t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, free: Reals,
-    saved: Reals, met: Reals, kicks: Reals,
+    saved: Reals, many: int, met: Integers, kicks: Reals,
 ) -> None:  # fmt: skip
     """What unit torques that part the pairs do to all rates, with all balls free and no friction."""
     n, pairs, states, modes = lay[BALLS], lay[PAIRS], lay[STATES], lay[DIRECTION]
@@ -180,16 +184,15 @@ def responses(
             numbers[modes + i], numbers[lay[SIDE] + i] = 1.0, 0.0
     setup(numbers, par)
     rates(t, y, par, free)
-    for p in range(pairs):
-        if met[p] > 0.0:
-            behind, ahead, pushed = lay[BEHIND + p], lay[BEHIND + pairs + p], kicks[p * states :]
-            push[ahead], push[behind] = con[KICK] / levered[ahead], -con[KICK] / levered[behind]
-            setup(numbers, par)
-            rates(t, y, par, pushed)
-            count[EVALUATIONS] += 1
-            for i in range(states):
-                pushed[i] = (pushed[i] - free[i]) / con[KICK]
-            push[ahead], push[behind] = 0.0, 0.0
+    for a in range(many):
+        behind, ahead, pushed = lay[BEHIND + met[a]], lay[BEHIND + pairs + met[a]], kicks[a * states :]
+        push[ahead], push[behind] = con[KICK] / levered[ahead], -con[KICK] / levered[behind]
+        setup(numbers, par)
+        rates(t, y, par, pushed)
+        count[EVALUATIONS] += 1
+        for i in range(states):
+            pushed[i] = (pushed[i] - free[i]) / con[KICK]
+        push[ahead], push[behind] = 0.0, 0.0
     count[EVALUATIONS] += 1
     for p in range(pairs):
         joined[p] = saved[2 * n + p]

@@ -78,7 +78,7 @@ class _Run(Run):
         self.parameters = np.empty(program.parameters)
         self.room = np.zeros(self._room(program.values))
         self.clock = np.array([0.0, self.constants[arrays.LONGEST] / 100, 0.0])
-        self.counts = np.zeros(arrays.COUNTS, dtype=np.int64)
+        self.counts = np.zeros(arrays.COUNTS + 2 * max(int(self.layout[arrays.PAIRS]), 0), dtype=np.int64)
         self.counts[arrays.MOST] = self.most_evaluations
         self.per_step, self.longest = METHODS[self.method].STAGES, float(self.constants[arrays.LONGEST])
 
