@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 from abu_calc.errors import InputError
 from abu_calc.formula import formula
+from abu_calc.units import GRAVITY
 
 
 @formula(
@@ -91,3 +92,27 @@ def optimum_drag(stiffness: float, inertia_factor: float) -> float:
     if not stiffness > 0:
         raise InputError("no drag lets the balls settle", found=f"stiffness {stiffness:g} 1/s²", allowed="above 0")
     return 2 * math.sqrt(inertia_factor * stiffness)
+
+
+@formula(
+    "Drag by which dry rolling friction brakes the slow motion of balls that gravity shakes, once per turn",
+    "h_eq = (2/π)(k_r/r) J R_p Ω³/g for Λ = k_r R_p Ω²/(r g) < 1, else 0",
+    "1/s",
+    signs="h₀ κ θ",
+    where=(
+        "On a horizontal spindle gravity swings a ball with θ' = g/(J R_p Ω); friction, whose sign follows that swing, "
+        "takes from a slower motion in proportion to it. It adds to h₀. From Λ = 1 on friction holds the balls."
+    ),
+    assumed="|θ'| of the slow motion below g/(J R_p Ω)",
+    source="derived by averaging the sign of the speed; simulated tails of 14.3–25.2 1/s against 15.9–26.4 1/s",
+)
+def shaken_drag(
+    friction_arm: float, ball_radius: float, pitch_radius: float, speed: float, inertia_factor: float
+) -> float:
+    """
+    >>> round(shaken_drag(0.5e-6, 8e-3, 23e-3, 600.0, 1.4), 2)
+    28.22
+    """
+    if friction_arm * pitch_radius * speed**2 >= ball_radius * GRAVITY:
+        return 0.0
+    return 2 / math.pi * friction_arm / ball_radius * inertia_factor * pitch_radius * speed**3 / GRAVITY

@@ -30,7 +30,7 @@ except ImportError:  # a thousand times slower; pip install numba
 
 def njit(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compiled by numba where it is installed, else as it stands."""
-    compiled: Callable[..., Any] = _njit(cache=True)(function) if COMPILED else function
+    compiled: Callable[..., Any] = _njit(cache=True, error_model="numpy", fastmath=True)(function) if COMPILED else function
     return compiled
 
 
@@ -193,6 +193,12 @@ def _solved(p, S, b, given, x):  # type: ignore[no-untyped-def]
         x[1] = given + x[0]
         return
     size = nc if p.stall == 0.0 else nc + 1
+    if size == 2:
+        u, v = b[0] - S[0, 2] * given, b[1] - S[1, 2] * given
+        determinant = S[0, 0] * S[1, 1] - S[0, 1] * S[1, 0]
+        x[0], x[1] = (u * S[1, 1] - v * S[0, 1]) / determinant, (v * S[0, 0] - u * S[1, 0]) / determinant
+        x[2] = given
+        return
     T = np.empty((size, size + 1))
     for i in range(size):
         for j in range(size):

@@ -238,7 +238,7 @@ def ended(
     most = max(most, start.full + 60 * math.tau / p.speed)
     quiet = (5e-8 * 10 ** ((loudest - 0.5) / 20)) ** 2
     samples, revs, t = run(
-        p, y, order, start.full, 0.4 * limit, most, 0.25 * limit, quiet, steps, workspace(p), moduli, times, means, squares,
+        p, y, order, start.full, 0.2 * limit, most, 0.2 * limit, quiet, steps, workspace(p), moduli, times, means, squares,
         angles,
     )  # fmt: skip
     return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs])

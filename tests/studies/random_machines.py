@@ -10,10 +10,6 @@ import numpy as np
 FAMILIES: Final = ("held", "rigid", "motor", "range", "two speeds", "arm")
 """Kinds of machine; `held` is the plain hand-held machine from which the others are made."""
 
-OTHERS: Final = 48
-"""Machines of each family but the first in the sample of 400; the first has the rest."""
-
-
 def family_of(seed: int) -> str:
     """Family of a machine of the sample: of each 25 successive seeds 10 are plainly held, 3 of each other family."""
     place = seed % 25
@@ -131,18 +127,18 @@ def _two_speeds(text: str, rng: np.random.Generator) -> str:
 
 
 def _arm(text: str, rng: np.random.Generator) -> str:
-    """An arm of 250–600 mm whose joint has 1.5–5 Hz and damps 10–50 %, pressed with 30–80 N."""
+    """An arm of 250–600 mm whose joint has 1.5–5 Hz and damps 10–50 %, pressed with 50–150 N."""
     mass = _number(text, "mass_kg") + float(text.split("[wheel]\nmass_kg = ")[1].split("\n")[0])
     length, natural = _log(rng, 0.25, 0.6), math.tau * _log(rng, 1.5, 5)
     felt = mass * rng.uniform(1.1, 2.0)
     touch, stiffness = rng.uniform(0.5, 3.0), felt * natural**2
-    pressing = stiffness * length**2 * math.radians(touch) + rng.uniform(30, 80) * length
+    pressing = stiffness * length**2 * math.radians(touch) + rng.uniform(50, 150) * length
     return f"""{text}[swing_arm]
 arm_length_mm = {1e3 * length:.4g}
 moment_of_inertia_kg_m2 = {felt * length**2:.4g}
 joint_stiffness_N_per_m = {stiffness:.4g}
 joint_damping_N_s_per_m = {2 * _log(rng, 0.1, 0.5) * natural * felt:.4g}
-contact_stiffness_N_per_m = {_log(rng, 1e5, 2e6):.4g}
+contact_stiffness_N_per_m = {_log(rng, 2e4, 4e5):.4g}
 cutting_coefficient = {rng.uniform(0.3, 0.5):.3g}
 contact_angle_deg = {rng.uniform(75, 105):.4g}
 touch_angle_deg = {touch:.3g}
