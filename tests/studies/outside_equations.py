@@ -4,11 +4,11 @@
     ball at  P(q) + Δ e(φ + φ_Δ) + R_p e(γ),    P: the race's centre without its eccentricity
     T = ½ q'ᵀ M q' + U φ' t(φ)·P_w' + Σ ½ m |ball'|² + Σ ½ (J − 1) m ((R_p + r) φ' − R_p γ')²
 
-Drag takes m R_p² h₀ (γ' − φ') between ball and rotor; dry friction at most f = k_r/r of the force that presses the ball.
-The product sticks by switching modes at located events and joins touching balls; here friction is a steep ramp through
-zero slip, a creep of less than 0.1 rad/s, and balls that meet get impulses after each step (Newton's law of impact,
-projected Gauss–Seidel). Steps are those of Runge and Kutta, order 4, 208 in a revolution. The angle of a ball is that in
-space, where the product has it in the rotor, and the full mass matrix is reduced onto the machine.
+Drag takes m R_p² h₀ (γ' − φ') between ball and rotor; dry friction at most f = k_r/r of the force that presses a ball.
+The product sticks by switching modes at located events and joins touching balls. Here a bristle holds each ball and
+slips when bent too far (about 1e-6 rad), and balls that meet get impulses after each step (Newton's law of impact,
+projected Gauss–Seidel). Steps are those of Runge and Kutta, order 4, 208 in a revolution. The angle of a ball is that in space,
+where the product has it in the rotor, and the full mass matrix is reduced onto the machine.
 """
 
 import math
@@ -30,7 +30,9 @@ except ImportError:  # a thousand times slower; pip install numba
 
 def njit(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compiled by numba where it is installed, else as it stands."""
-    compiled: Callable[..., Any] = _njit(cache=True, error_model="numpy", fastmath=True)(function) if COMPILED else function
+    if not COMPILED:
+        return function
+    compiled: Callable[..., Any] = _njit(cache=True, error_model="numpy", fastmath=True)(function)
     return compiled
 
 
@@ -92,6 +94,8 @@ class Work(NamedTuple):
     cs: Array
     bx: Array
     by: Array
+    anchor: Array
+    """Angles in the rotor to which bristles hold the balls [rad], and by how much these may bend."""
 
 
 def workspace(p: Machine) -> Work:
@@ -99,7 +103,7 @@ def workspace(p: Machine) -> Work:
     c, n = p.core + 1, max(p.balls, 1)
     return Work(
         np.zeros((c, c)), np.zeros(c), np.zeros((c, c)), np.zeros(c), np.zeros((n, c)), np.zeros(n), np.zeros((n, 3)),
-        np.zeros(c), np.zeros(c),
+        np.zeros(c), np.zeros(c), np.zeros((n, 2)),
     )  # fmt: skip
 
 
@@ -193,7 +197,7 @@ def _solved(p, S, b, given, x):  # type: ignore[no-untyped-def]
         x[1] = given + x[0]
         return
     size = nc if p.stall == 0.0 else nc + 1
-    if size == 2:
+    if size == 2 and nc == 2:
         u, v = b[0] - S[0, 2] * given, b[1] - S[1, 2] * given
         determinant = S[0, 0] * S[1, 1] - S[0, 1] * S[1, 0]
         x[0], x[1] = (u * S[1, 1] - v * S[0, 1]) / determinant, (v * S[0, 0] - u * S[1, 0]) / determinant
@@ -219,8 +223,8 @@ def _solved(p, S, b, given, x):  # type: ignore[no-untyped-def]
 
 
 @njit
-def rates(p, y, given, creep, w, out):  # type: ignore[no-untyped-def]
-    """y' of y = (q, q'); `given`: Ω' of a rotor that is not driven by a motor; `creep` [rad/s]: slip of full friction."""
+def rates(p, y, given, pace, w, out):  # type: ignore[no-untyped-def]
+    """y' of y = (q, q'); `given`: Ω' of a rotor that no motor drives; `pace` [1/s]: frequency of the bristles."""
     nc, nq, n, m, R = p.core, len(p.stiffness), p.balls, p.ball_mass, p.pitch
     v = nq + 1 + n
     for i in range(v):
@@ -243,8 +247,10 @@ def rates(p, y, given, creep, w, out):  # type: ignore[no-untyped-def]
         for k in range(n):
             c, s, own = w.cs[k, 0], w.cs[k, 1], y[v + nq + 1 + k]
             pressed = abs(R * own * own - c * fx - s * fy - p.gravity * s)
-            share = min(max((own - y[v + nq]) / creep, -1.0), 1.0)
-            moment = m * R * p.friction * pressed * share
+            most = m * R * p.friction * pressed
+            w.anchor[k, 1] = most / (d * pace * pace)
+            bent = y[nq + 1 + k] - y[nq] - w.anchor[k, 0]
+            moment = min(max(d * pace * (pace * bent + own - y[v + nq]), -most), most)
             w.r[k] -= moment
             w.b[nc] += moment
             for i in range(nc + 1):
@@ -326,21 +332,26 @@ def collide(p, y, order, w):  # type: ignore[no-untyped-def]
 
 
 @njit
-def _step(p, y, h, given, creep, w, k1, k2, k3, k4, z):  # type: ignore[no-untyped-def]
+def _step(p, y, h, given, w, k1, k2, k3, k4, z):  # type: ignore[no-untyped-def]
     """One step of Runge and Kutta, order 4."""
-    size = len(y)
-    rates(p, y, given, creep, w, k1)
+    size, pace = len(y), 0.5 / h
+    rates(p, y, given, pace, w, k1)
     for i in range(size):
         z[i] = y[i] + h / 2 * k1[i]
-    rates(p, z, given, creep, w, k2)
+    rates(p, z, given, pace, w, k2)
     for i in range(size):
         z[i] = y[i] + h / 2 * k2[i]
-    rates(p, z, given, creep, w, k3)
+    rates(p, z, given, pace, w, k3)
     for i in range(size):
         z[i] = y[i] + h * k3[i]
-    rates(p, z, given, creep, w, k4)
+    rates(p, z, given, pace, w, k4)
     for i in range(size):
         y[i] += h / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i])
+    nq = len(p.stiffness)
+    for k in range(p.balls):
+        theta = y[nq + 1 + k] - y[nq]
+        bent = min(max(theta - w.anchor[k, 0], -w.anchor[k, 1]), w.anchor[k, 1])
+        w.anchor[k, 0] = theta - bent
 
 
 @njit
@@ -366,10 +377,10 @@ def _look(p, y, rev, n_places, squares):  # type: ignore[no-untyped-def]
 
 @njit
 def _rests(p, rev, wide, quiet, means, squares, angles):  # type: ignore[no-untyped-def]
-    """Whether what is left has hardly a way to go, no ball goes round, and the velocity is steady, or falls below `quiet`
-    (its mean square) already.
+    """Whether what is left has hardly a way to go, no ball goes round, and the velocity is steady.
 
-    The way to go is that of a geometric series with the ways in the halves of the window as its last terms.
+    Or its mean square falls and is below `quiet` already. The way to go is that of a geometric series with the ways in
+    the halves of the window as its last terms.
     """
     half, turn = wide // 2, 2.0 * math.pi * wide
     middle = rev - half
@@ -394,20 +405,22 @@ def _rests(p, rev, wide, quiet, means, squares, angles):  # type: ignore[no-unty
 
 
 @njit
-def run(p, y, order, full, least, most, window, quiet, steps, w, moduli, times, means, squares, angles):  # type: ignore[no-untyped-def]
-    """Integrate y from t = 0 until all rests, seen over a window [s]; at least for `least` at full speed, at most to `most`.
+def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angles):  # type: ignore[no-untyped-def]
+    """Integrate y from t = 0 until all rests; `span` [s]: full speed, least time at it, latest end, window of looking.
 
     From `full` [s] on, 16 times a revolution: |imbalance left| and its time; for each revolution its mean, the mean
     squares of velocity, the ball angles at its end. Returns samples and revolutions that were written, and t.
     """
+    full, least, most, window = span
     nq, n = len(p.stiffness), p.balls
     v = nq + 1 + n
     size = 2 * v
     k1, k2, k3, k4, z = np.empty(size), np.empty(size), np.empty(size), np.empty(size), np.empty(size)
     every = steps // 16
     angle = 2.0 * math.pi / steps
-    creep = p.friction * p.speed * angle / (0.7 * (1.0 + p.rolling))
-    wide = 2 * int(math.ceil(window * p.speed / (4.0 * math.pi)))
+    for k in range(n):
+        w.anchor[k, 0] = y[nq + 1 + k] - y[nq]
+    wide = 2 * math.ceil(window * p.speed / (4.0 * math.pi))
     t, sample, rev, since = 0.0, 0, 0, 0
     re = im = 0.0
     while t < most and sample < len(times) - 1 and rev < len(means) - 1:
@@ -417,7 +430,7 @@ def run(p, y, order, full, least, most, window, quiet, steps, w, moduli, times, 
         if p.ramp > 0.0 and t < p.ramp * (1 - 1e-12):
             given = p.speed / p.ramp
             h = min(h, p.ramp - t)
-        _step(p, y, h, given, creep, w, k1, k2, k3, k4, z)
+        _step(p, y, h, given, w, k1, k2, k3, k4, z)
         t += h
         if n > 1:
             collide(p, y, order, w)
@@ -435,7 +448,8 @@ def run(p, y, order, full, least, most, window, quiet, steps, w, moduli, times, 
             re = im = 0.0
             for k in range(n):
                 angles[rev, k] = y[nq + 1 + k] - y[nq]
-            if rev >= wide and t - full > least and rev % 5 == 0 and _rests(p, rev, wide, quiet, means, squares, angles):
+            late = rev >= wide and t - full > least and rev % 5 == 0
+            if late and _rests(p, rev, wide, quiet, means, squares, angles):
                 rev += 1
                 break
             rev += 1

@@ -127,7 +127,7 @@ def _held(file: Json, bare: float, housing: float, race: float) -> Held:
 
 
 def _rigid_in_hands(file: Json, mass: np.ndarray[Any, Any]) -> Held:
-    """Both hands hold the wheel's plane, as the product's point mass has them: no standard says how hands resist tilt."""
+    """Both hands hold the plane of the wheel, as those of the product do: no standard says how hands resist tilt."""
     M, K, C = hands(0.0)
     at = file["machine"]["center_of_mass_to_wheel_mm"] / 1e3
     place = np.zeros((6, 8))
@@ -217,7 +217,7 @@ def with_motor(start: Start, file: Json) -> Start:
 
 
 def ended(
-    start: Start, result: Json, limit: float, loudest: float = -math.inf, steps: int = STEPS, longest: float = 3.0
+    start: Start, result: Json, limit: float, loudest: float = -1e3, steps: int = STEPS, longest: float = 3.0
 ) -> Ending:
     """Run a start; `longest`: settling times permitted (`limit` [s]) that are waited at most; `loudest` [dB]: a level
     that falls below it need not be followed to its end.
@@ -237,10 +237,8 @@ def ended(
     means, squares, angles = np.zeros((turns, 2)), np.zeros((turns, len(p.places), 2)), np.zeros((turns, n))
     most = max(most, start.full + 60 * math.tau / p.speed)
     quiet = (5e-8 * 10 ** ((loudest - 0.5) / 20)) ** 2
-    samples, revs, t = run(
-        p, y, order, start.full, 0.2 * limit, most, 0.2 * limit, quiet, steps, workspace(p), moduli, times, means, squares,
-        angles,
-    )  # fmt: skip
+    span = (start.full, 0.2 * limit, most, 0.2 * limit)
+    samples, revs, _ = run(p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, angles)
     return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs])
 
 
@@ -260,8 +258,9 @@ def judged(p: Machine, result: Json, full: float, moduli: Any, times: Any, squar
 
 
 def allowed(p: Machine, result: Json) -> float:
-    """What may be left [kg m]: a tenth of the imbalance, what the eccentricity asks for, and what friction holds, that at
-    its worst up to half the imbalance.
+    """Imbalance [kg m] that may be left: a tenth of it, what the eccentricity asks for, and what friction holds.
+
+    Friction at its worst counts up to half the imbalance.
     """
     budget, mass = result["accuracy_budget"], result["effective_mass_kg"]
     if p.arm:

@@ -10,6 +10,7 @@ import numpy as np
 FAMILIES: Final = ("held", "rigid", "motor", "range", "two speeds", "arm")
 """Kinds of machine; `held` is the plain hand-held machine from which the others are made."""
 
+
 def family_of(seed: int) -> str:
     """Family of a machine of the sample: of each 25 successive seeds 10 are plainly held, 3 of each other family."""
     place = seed % 25
@@ -22,7 +23,8 @@ def machine_text(seed: int, family: str) -> str:
     if family == "held":
         return text
     rng = np.random.default_rng((seed, FAMILIES.index(family)))
-    return {"rigid": _rigid, "motor": _motor, "range": _range, "two speeds": _two_speeds, "arm": _arm}[family](text, rng)
+    changed = {"rigid": _rigid, "motor": _motor, "range": _range, "two speeds": _two_speeds, "arm": _arm}
+    return changed[family](text, rng)
 
 
 def held_text(seed: int) -> str:

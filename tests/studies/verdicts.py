@@ -4,8 +4,9 @@ motion that share nothing with the product.
     pip install numba
     python -m tests.studies.verdicts [machines] [first] [file of lines]
 
-Of machines of six families that `abu size` passes without a warning on level, balancing, settling and stalling, each is
-switched on 70 times: balls anywhere in the race, turning or not, and run-ups. What exceeds a limit or stalls is counted.
+Each machine of six families that `abu size` passes without a warning on level, balancing, settling and stalling is
+switched on 70 times: balls anywhere in the race, turning or not, and run-ups. Runs that exceed a limit or stall are
+counted.
 The file has one line of JSON for each machine; machines that are in it already are not done again.
 """
 
@@ -26,7 +27,8 @@ from tests.studies.outside_runs import Ending, Start, broken, ended, starts, wit
 from tests.studies.random_machines import FAMILIES, family_of, machine_text
 
 CODES = "ABU401", "ABU701", "ABU702", "ABU704"
-SOURCES = "outside_equations.py", "outside_runs.py"
+EDITION = 1
+"""Of the outside equations and starts: another one runs all machines again."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,8 @@ class Verdict:
     status: str
     codes: tuple[str, ...] = ()
     """Checks that do not pass, with their status."""
+    warnings: tuple[str, ...] = ()
+    """Messages of the checks that warn, of those that a start can break."""
     runs: int = 0
     broken: int = 0
     how: tuple[dict[str, Any], ...] = field(default=())
@@ -59,11 +63,13 @@ def judged(seed: int, folder: Path) -> Verdict:
         return Verdict(seed, family, f"refused: {str(error).splitlines()[0]}")
     codes = tuple(f"{check.code} {check.status}" for check in result.checks if check.status != "pass")
     statuses = {check.status for check in result.checks}
-    warned = any(check.code in CODES and check.status == "warn" for check in result.checks)
+    warnings = tuple(check.message for check in result.checks if check.code in CODES and check.status == "warn")
     for status in ("fail", "not-done"):
         if status in statuses:
-            return Verdict(seed, family, status, codes)
-    return Verdict(seed, family, "warn", codes) if warned else tried(seed, family, text, codes, result.to_dict())
+            return Verdict(seed, family, status, codes, warnings)
+    if warnings:
+        return Verdict(seed, family, "warn", codes, warnings)
+    return tried(seed, family, text, codes, result.to_dict())
 
 
 def tried(seed: int, family: str, text: str, codes: tuple[str, ...], result: dict[str, Any]) -> Verdict:
@@ -78,15 +84,14 @@ def tried(seed: int, family: str, text: str, codes: tuple[str, ...], result: dic
             told = {"start": k, "kind": start.kind, "why": why, "race_centre": round(start.machine.offset_angle, 3)}
             numbers = {name: round(value, 4) for name, value in asdict(ending).items() if name != "modulus"}
             how.append(told | numbers)
-    return Verdict(seed, family, "pass", codes, count, len(how), tuple(how), round(slowest, 3), round(loudest, 2))
+    return Verdict(seed, family, "pass", codes, (), count, len(how), tuple(how), round(slowest, 3), round(loudest, 2))
 
 
 def endings(seed: int, file: dict[str, Any], result: dict[str, Any]) -> list[tuple[Start, Ending]]:
     """Every start and what it came to; runs of the same machine, design and equations are not repeated."""
     limits, begun = file["limits"], [with_motor(start, file) for start in starts(file, result, seed)]
-    text = "".join(Path(__file__).with_name(name).read_text(encoding="utf-8") for name in SOURCES)
     parts = [result[key] for key in ("autobalancer", "imbalance_g_mm", "effective_mass_kg", "accuracy_budget")]
-    key = hashlib.sha256((text + json.dumps([file, parts, result.get("idle_speed_rpm")])).encode()).hexdigest()
+    key = hashlib.sha256(json.dumps([EDITION, file, parts, result.get("idle_speed_rpm")]).encode()).hexdigest()
     kept = Path(tempfile.gettempdir()) / "outside-runs" / f"{key}.json"
     if kept.exists():
         return [(start, Ending(*numbers)) for start, numbers in zip(begun, json.loads(kept.read_text()), strict=True)]
@@ -106,7 +111,8 @@ def summary(verdicts: list[Verdict]) -> dict[str, Any]:
     held = [one for one in verdicts if one.family == "held"]
     return {
         "machines": len(verdicts), **{name: statuses[name] for name in ("pass", "warn", "fail", "not-done", "refused")},
-        "runs": runs, "broken": bad, "share": bad / max(runs, 1), "most_of_one": max((v.broken for v in passed), default=0),
+        "runs": runs, "broken": bad, "share": bad / max(runs, 1),
+        "most_of_one": max((one.broken for one in passed), default=0),
         "held_pass_share": sum(one.status == "pass" for one in held) / max(len(held), 1),
         "share_with_not_done": len(not_done) / max(len(verdicts), 1),
     }  # fmt: skip
@@ -131,7 +137,7 @@ def _known(lines: Path) -> dict[int, Verdict]:
         return {}
     entries = (json.loads(line) for line in lines.read_text(encoding="utf-8").splitlines())
     return {
-        entry["seed"]: Verdict(**entry | {"codes": tuple(entry["codes"]), "how": tuple(entry["how"])})
+        entry["seed"]: Verdict(**entry | {key: tuple(entry[key]) for key in ("codes", "warnings", "how")})
         for entry in entries
     }
 
