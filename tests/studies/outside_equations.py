@@ -7,8 +7,8 @@
 Drag takes m R_p² h₀ (γ' − φ') between ball and rotor; dry friction at most f = k_r/r of the force that presses a ball.
 The product sticks by switching modes at located events and joins touching balls. Here a bristle holds each ball and
 slips when bent too far (about 1e-6 rad), and balls that meet get impulses after each step (Newton's law of impact,
-projected Gauss–Seidel). Steps are those of Runge and Kutta, order 4, 208 in a revolution. The angle of a ball is that in space,
-where the product has it in the rotor, and the full mass matrix is reduced onto the machine.
+projected Gauss–Seidel). Steps are those of Runge and Kutta, order 4, 208 in a revolution, in a run-up 139. The angle of
+a ball is that in space, where the product has it in the rotor, and the full mass matrix is reduced onto the machine.
 """
 
 import math
@@ -286,12 +286,15 @@ def collide(p, y, order, w):  # type: ignore[no-untyped-def]
     nc, nq, n = p.core, len(p.stiffness), p.balls
     v = nq + 1 + n
     hits = np.empty(n, dtype=np.int64)
-    count = 0
+    count, apart = 0, True
     for k in range(n):
         gap, opening = _gap(p, y, order, k, v, nq)
+        apart = apart and gap > 0.0
         if gap <= 0.0 and opening < 0.0:
             hits[count] = k
             count += 1
+    if apart:
+        return
     if count:
         _machine_terms(p, y, w)
         d, _, _ = _ball_terms(p, y, w)
@@ -425,7 +428,7 @@ def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angle
     re = im = 0.0
     while t < most and sample < len(times) - 1 and rev < len(means) - 1:
         now = y[v + nq] - (y[v] if p.arm > 0.0 else 0.0)
-        h = min(angle / max(now, p.speed / 4), p.longest)
+        h = min((1.5 if t < full else 1.0) * angle / max(now, p.speed / 4), p.longest)
         given = 0.0
         if p.ramp > 0.0 and t < p.ramp * (1 - 1e-12):
             given = p.speed / p.ramp
