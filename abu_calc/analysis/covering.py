@@ -143,8 +143,9 @@ def _run(design: Design, starts: Sequence[Member], accuracy: float, progress: Pr
     return [outcome for outcome in answers if isinstance(outcome, Outcome)]
 
 
-def repeated(member: Member, design: Design) -> str:
+def repeated(outcome: Outcome, design: Design) -> str:
     """The options of `abu simulate` that repeat a start of a design, which they pin."""
+    member = outcome.member
     angles = ",".join(f"{from_si(angle, 'deg'):.4f}" for angle in member.angles)
     balls = design.autobalancer
     sets = [
@@ -154,6 +155,7 @@ def repeated(member: Member, design: Design) -> str:
         f"start.angles_deg=[{angles}]",
     ]
     scene = "--scene run-up " if member.run_up else ""
+    scene += f"--duration {outcome.duration:.6g} " if outcome.duration else ""
     return f"{scene}--race-centre {member.race_centre_deg:g} {' '.join(f'--set {entry}' for entry in sets)}"
 
 
@@ -173,7 +175,7 @@ def with_searched(check: Check, searched: Searched | None, design: Design) -> Ch
         return check
     worst = max(broken, key=order)
     share = f"{len(broken)} of {len(searched.outcomes)} further starts {words(worst)}"
-    again = f"The worst again: abu simulate FILE {repeated(worst.member, design)}"
+    again = f"The worst again: abu simulate FILE {repeated(worst, design)}"
     remedy = f"{check.remedy} {again}" if check.remedy else again
     return replace(check, status="warn", message=f"{check.message}; {share}", remedy=remedy)
 

@@ -45,6 +45,9 @@ second runs together: about half a minute of compiled code."""
 STARTS = 30
 """About how many starts and closer runs a machine has."""
 
+LONGEST_SETTLING = 3.0
+"""Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
+
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
@@ -134,15 +137,36 @@ def run_of_start(
     early_end: bool = False,
     wanted: str = "auto",
 ) -> StartRun:
-    """The same with the run itself; raises NotTrustworthyError."""
+    """The same with the run itself; raises NotTrustworthyError.
+
+    A scene ends by the rates of small motions. Balls that linger in an unstable equilibrium, or creep by friction, take
+    longer: their run is done again, as long as settling may matter.
+    """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    found, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    limit = design.case.table.limits.settling_time_s
+    longest = scene.full_speed + LONGEST_SETTLING * limit
+    late = found.outcome.hanging or (found.outcome.settling or 0.0) > limit
+    if not goes_on or late or longest <= scene.duration:
+        return found
+    longer = replace(scene, duration=longest)
+    again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
+    whole = replace(again.outcome, work=found.outcome.work + again.outcome.work, duration=longest)
+    return again._replace(outcome=whole)
+
+
+def _run_of_scene(
+    design: Design, member: Member, scene: Scene, tolerance: float, work: int, early_end: bool, wanted: str
+) -> tuple[StartRun, bool]:
+    """One run, and whether the balls were not at rest at its end."""
     equations = assemble(scene)
     choice = choose(equations, wanted, tolerance)
     early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
     found = outcome_of(design, member, scene, early.response(run))
-    return StartRun(replace(found, work=choice.work(run), rise=early.rising(run)), scene, run)
+    outcome = replace(found, work=choice.work(run), rise=early.rising(run))
+    return StartRun(outcome, scene, run), early.goes_on(run)
 
 
 def _decided(

@@ -31,6 +31,8 @@ class Outcome:
     confirmed: bool = False
     rise: float = 0.0
     """By how much the level might still have risen [dB] where the run ended early."""
+    duration: float = 0.0
+    """Of a run [s] that went on for longer than its scene, since the balls were not at rest by then; 0 of others."""
 
     @property
     def hanging(self) -> bool:

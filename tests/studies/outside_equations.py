@@ -51,6 +51,8 @@ class Machine(NamedTuple):
     wheel: float
     """Plane of the imbalance [m] from the middle of the machine; with tilts only."""
     race: float
+    felt: float
+    """Mass that the balls feel [kg]: it times the eccentricity is what they leave where they balance, about."""
     places: Array
     """Planes where the velocity is wanted [m]."""
     imbalance: float
@@ -95,7 +97,7 @@ class Work(NamedTuple):
     bx: Array
     by: Array
     anchor: Array
-    """Angles in the rotor to which bristles hold the balls [rad], and by how much these may bend."""
+    """Angles in the rotor to which bristles hold the balls [rad], how much these may bend, how far they slipped."""
 
 
 def workspace(p: Machine) -> Work:
@@ -103,7 +105,7 @@ def workspace(p: Machine) -> Work:
     c, n = p.core + 1, max(p.balls, 1)
     return Work(
         np.zeros((c, c)), np.zeros(c), np.zeros((c, c)), np.zeros(c), np.zeros((n, c)), np.zeros(n), np.zeros((n, 3)),
-        np.zeros(c), np.zeros(c), np.zeros((n, 2)),
+        np.zeros(c), np.zeros(c), np.zeros((n, 3)),
     )  # fmt: skip
 
 
@@ -354,6 +356,7 @@ def _step(p, y, h, given, w, k1, k2, k3, k4, z):  # type: ignore[no-untyped-def]
     for k in range(p.balls):
         theta = y[nq + 1 + k] - y[nq]
         bent = min(max(theta - w.anchor[k, 0], -w.anchor[k, 1]), w.anchor[k, 1])
+        w.anchor[k, 2] += abs(theta - bent - w.anchor[k, 0])
         w.anchor[k, 0] = theta - bent
 
 
@@ -379,22 +382,33 @@ def _look(p, y, rev, n_places, squares):  # type: ignore[no-untyped-def]
 
 
 @njit
-def _rests(p, rev, wide, quiet, means, squares, angles):  # type: ignore[no-untyped-def]
+def _rests(p, rev, wide, quiet, means, squares, angles, slipped):  # type: ignore[no-untyped-def]
     """Whether what is left has hardly a way to go, no ball goes round, and the velocity is steady.
 
     Or its mean square falls and is below `quiet` already. The way to go is that of a geometric series with the ways in
-    the halves of the window as its last terms.
+    the halves of the window as its last terms, and of little way in all. Balls that friction does not hold rest
+    where they balance only: elsewhere they linger.
     """
+    held = p.friction > 0.0
+    for k in range(p.balls):
+        held = held and slipped[rev, k] - slipped[rev - wide // 2, k] < 1e-6
+    unit = max(p.carried, 0.01 * p.balls * p.ball_mass * p.pitch)
+    away = math.hypot(means[rev, 0] - p.felt * p.offset * math.cos(p.offset_angle), means[rev, 1])
+    if not held and away > 0.1 * unit:
+        return False
     half, turn = wide // 2, 2.0 * math.pi * wide
     middle = rev - half
-    before = math.hypot(means[middle, 0] - means[rev - wide, 0], means[middle, 1] - means[rev - wide, 1])
-    after = math.hypot(means[rev, 0] - means[middle, 0], means[rev, 1] - means[middle, 1])
-    unit = max(p.carried, 0.01 * p.balls * p.ball_mass * p.pitch)
+    before = after = 0.0
+    for back in range(half):
+        here = math.hypot(means[rev, 0] - means[rev - back, 0], means[rev, 1] - means[rev - back, 1])
+        after = max(after, here)
+        here = math.hypot(means[rev, 0] - means[middle - back, 0], means[rev, 1] - means[middle - back, 1])
+        before = max(before, here)
     ratio = min(after / max(before, 1e-300), 0.98)
-    if after > 2e-4 * unit and after * ratio / (1.0 - ratio) > 4e-3 * unit:
+    if after > 2e-4 * unit and (before > 0.05 * unit or after * ratio / (1.0 - ratio) > 4e-3 * unit):
         return False
     for k in range(p.balls):
-        if abs(angles[rev, k] - angles[rev - wide, k]) > 2e-3 * turn:
+        if abs(angles[rev, k] - angles[rev - wide, k]) > 5e-4 * turn:
             return False
     for j in range(len(p.places)):
         for axis in range(2):
@@ -408,7 +422,7 @@ def _rests(p, rev, wide, quiet, means, squares, angles):  # type: ignore[no-unty
 
 
 @njit
-def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angles):  # type: ignore[no-untyped-def]
+def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angles, slipped):  # type: ignore[no-untyped-def]
     """Integrate y from t = 0 until all rests; `span` [s]: full speed, least time at it, latest end, window of looking.
 
     From `full` [s] on, 16 times a revolution: |imbalance left| and its time; for each revolution its mean, the mean
@@ -451,8 +465,9 @@ def run(p, y, order, span, quiet, steps, w, moduli, times, means, squares, angle
             re = im = 0.0
             for k in range(n):
                 angles[rev, k] = y[nq + 1 + k] - y[nq]
+                slipped[rev, k] = w.anchor[k, 2]
             late = rev >= wide and t - full > least and rev % 5 == 0
-            if late and _rests(p, rev, wide, quiet, means, squares, angles):
+            if late and _rests(p, rev, wide, quiet, means, squares, angles, slipped):
                 rev += 1
                 break
             rev += 1

@@ -84,6 +84,7 @@ def machine_of(file: Json, result: Json, *, on_arm: bool = False) -> Machine:
     return Machine(
         core=core, arm=file["swing_arm"]["arm_length_mm"] / 1e3 if on_arm else 0.0,
         mass=held[0], stiffness=held[1], damping=held[2], nodes=held[3],
+        felt=1 / felt[1] if not on_arm else float(held[0][0, 0]) / (file["swing_arm"]["arm_length_mm"] / 1e3) ** 2,
         wheel=at if rigid else 0.0, race=race if rigid else 0.0,
         places=np.array(handles or [at]) if rigid else np.zeros(1),
         imbalance=imbalance, carried=imbalance * felt[0] / felt[1], balls=count, ball_mass=ball, pitch=pitch,
@@ -234,11 +235,14 @@ def ended(
     most = start.full + longest * limit
     turns = int(longest * limit * p.speed * 1.2 / math.tau) + 80
     moduli, times = np.zeros(16 * turns), np.zeros(16 * turns)
-    means, squares, angles = np.zeros((turns, 2)), np.zeros((turns, len(p.places), 2)), np.zeros((turns, n))
+    means, squares = np.zeros((turns, 2)), np.zeros((turns, len(p.places), 2))
+    angles, slipped = np.zeros((turns, n)), np.zeros((turns, n))
     most = max(most, start.full + 60 * math.tau / p.speed)
     quiet = (5e-8 * 10 ** ((loudest - 0.5) / 20)) ** 2
     span = (start.full, 0.2 * limit, most, 0.2 * limit)
-    samples, revs, _ = run(p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, angles)
+    samples, revs, _ = run(
+        p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, angles, slipped
+    )
     return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs])
 
 

@@ -27,7 +27,7 @@ from tests.studies.outside_runs import Ending, Start, broken, ended, starts, wit
 from tests.studies.random_machines import FAMILIES, family_of, machine_text
 
 CODES = "ABU401", "ABU701", "ABU702", "ABU704"
-EDITION = 1
+EDITION = 2
 """Of the outside equations and starts: another one runs all machines again."""
 
 
