@@ -16,9 +16,9 @@ from tests.studies.random_machines import FAMILIES, family_of, machine_text
 PLANAR = Machine(
     core=2, arm=0.0, mass=np.diag((5.0, 5.0)), stiffness=np.diag((3000.0, 8000.0)), damping=np.diag((40.0, 90.0)),
     nodes=np.zeros(0), wheel=0.0, race=0.0, felt=5.0, places=np.zeros(1), imbalance=2e-4, carried=2e-4, balls=3,
-    ball_mass=0.015, pitch=0.024, ball_radius=0.007, rolling=0.4, drag=15.0, friction=3e-4, gravity=9.80665, offset=1e-5,
-    offset_angle=0.4, gap=2 * math.asin(7 / 24), restitution=0.5, speed=600.0, ramp=0.0, stall=0.0, no_load=700.0,
-    inertia=1e-3, longest=1e-3,
+    ball_mass=0.015, pitch=0.024, ball_radius=0.007, rolling=0.4, drag=15.0, friction=3e-4, gravity=9.80665,
+    offset=1e-5, offset_angle=0.4, gap=2 * math.asin(7 / 24), restitution=0.5, speed=600.0, ramp=0.0, stall=0.0,
+    no_load=700.0, inertia=1e-3, longest=1e-3,
 )  # fmt: skip
 TILTING = PLANAR._replace(
     core=4, mass=np.diag((5.0, 5.0, 0.04, 0.04)), stiffness=np.diag((3000.0, 8000.0, 30.0, 60.0)),
