@@ -19,8 +19,10 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.supports.receptance import reference_imbalance
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
 from abu_calc.scenes.from_design import guided
@@ -47,6 +49,9 @@ STARTS = 30
 
 LONGEST_SETTLING = 3.0
 """Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
+
+LINGERING = 0.1
+"""Of the imbalance: what balls leave that differs by more from what they leave balanced shows that they are not."""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
@@ -144,6 +149,7 @@ def run_of_start(
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     found, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    goes_on = goes_on or _linger(design, scene, found.outcome)
     limit = design.case.table.limits.settling_time_s
     longest = scene.full_speed + LONGEST_SETTLING * limit
     late = found.outcome.hanging or (found.outcome.settling or 0.0) > limit
@@ -153,6 +159,20 @@ def run_of_start(
     again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
     whole = replace(again.outcome, work=found.outcome.work + again.outcome.work, duration=longest)
     return again._replace(outcome=whole)
+
+
+def _linger(design: Design, scene: Scene, outcome: Outcome) -> bool:
+    """Whether balls that friction does not hold stand elsewhere than where they balance: sooner or later they leave.
+
+    On a horizontal spindle gravity shakes them loose, see `shaken_drag`. Balanced they leave M Δ, as the race's centre
+    then stands still.
+    """
+    case, one = design.case, design.autobalancer
+    radius, held = one.ball_diameter / 2, case.friction_arm > 0
+    if case.table.machine.spindle_axis == "horizontal":
+        held = held and not shaken_drag(case.friction_arm, radius, one.pitch_radius, scene.speed, case.inertia_factor)
+    balanced = one.requirement.effective_mass * case.race_eccentricity
+    return not held and abs(outcome.imbalance - balanced) > LINGERING * reference_imbalance(scene)
 
 
 def _run_of_scene(
@@ -177,6 +197,8 @@ def _decided(
     The level follows what is left: where that is little, a small creep is many decibels.
     """
     one, limits = outcome_of(design, member, scene, response), design.case.table.limits
+    if _linger(design, scene, one):
+        return False
     if not balances(one.imbalance + creep, one.allowed, one.slip) or one.time > limits.settling_time_s:
         return False
     louder = max(rise, 20 * math.log10(1 + creep / one.imbalance)) if one.imbalance else math.inf
