@@ -27,6 +27,9 @@ CREEP: Final = 0.05
 ALIKE: Final = 0.02
 """Relative difference of the settling times that what is left may still make."""
 
+RESTING: Final = 0.01
+"""Of the imbalance, or of what it is small against: a way beyond which what is left has not come to rest."""
+
 RISE, FALL = 0.3, 0.1
 """By how much [dB] the second half of what is looked at may be louder than the first, or less loud."""
 
@@ -105,10 +108,21 @@ class Early:
         """What was said of a run that might end at each of these times."""
         return {}
 
-    def _moving(self, samples: Samples, end: float) -> tuple[float, float]:
-        seen = SEEN * (end - self.at_speed)
+    def goes_on(self, samples: Samples) -> bool:
+        """Whether a run that did not end early ended before what is left came to rest."""
+        end = float(samples.t[-1])
+        if end < self.scene.duration:
+            return False
+        left = _over_turns(self._left(samples.at(self._late(end))))
+        return bool(np.abs(left - left[-1]).max() > RESTING * reference_imbalance(self.scene))
+
+    def _late(self, end: float) -> Array:
+        """Times [s] that are looked at where a run ends."""
         times = settling_times(self.scene)
-        times = times[(times >= end - seen) & (times <= end)]
+        return times[(times >= end - SEEN * (end - self.at_speed)) & (times <= end)]
+
+    def _moving(self, samples: Samples, end: float) -> tuple[float, float]:
+        times, seen = self._late(end), SEEN * (end - self.at_speed)
         if len(times) < 4 * SAMPLES_PER_REVOLUTION:
             return math.inf, math.inf
         states = samples.at(times)

@@ -19,8 +19,10 @@ from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.supports.receptance import reference_imbalance
 from abu_calc.dynamics.trajectory import Trajectory
 from abu_calc.errors import NotTrustworthyError
+from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.parallel import side_by_side
 from abu_calc.progress import Progress, Stage, silent, within
 from abu_calc.scenes.from_design import guided
@@ -44,6 +46,12 @@ second runs together: about half a minute of compiled code."""
 
 STARTS = 30
 """About how many starts and closer runs a machine has."""
+
+LONGEST_SETTLING = 3.0
+"""Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
+
+LINGERING = 0.1
+"""Of the imbalance: what balls leave that differs by more from what they leave balanced shows that they are not."""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
@@ -134,15 +142,51 @@ def run_of_start(
     early_end: bool = False,
     wanted: str = "auto",
 ) -> StartRun:
-    """The same with the run itself; raises NotTrustworthyError."""
+    """The same with the run itself; raises NotTrustworthyError.
+
+    A scene ends by the rates of small motions. Balls that linger in an unstable equilibrium, or creep by friction, take
+    longer: their run is done again, as long as settling may matter.
+    """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    found, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    goes_on = goes_on or _linger(design, scene, found.outcome)
+    limit = design.case.table.limits.settling_time_s
+    longest = scene.full_speed + LONGEST_SETTLING * limit
+    late = found.outcome.hanging or (found.outcome.settling or 0.0) > limit
+    if not goes_on or late or longest <= scene.duration:
+        return found
+    longer = replace(scene, duration=longest)
+    again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
+    whole = replace(again.outcome, work=found.outcome.work + again.outcome.work, duration=longest)
+    return again._replace(outcome=whole)
+
+
+def _linger(design: Design, scene: Scene, outcome: Outcome) -> bool:
+    """Whether balls that friction does not hold stand elsewhere than where they balance: sooner or later they leave.
+
+    On a horizontal spindle gravity shakes them loose, see `shaken_drag`. Balanced they leave M Δ, as the race's centre
+    then stands still.
+    """
+    case, one = design.case, design.autobalancer
+    radius, held = one.ball_diameter / 2, case.friction_arm > 0
+    if case.table.machine.spindle_axis == "horizontal":
+        held = held and not shaken_drag(case.friction_arm, radius, one.pitch_radius, scene.speed, case.inertia_factor)
+    balanced = one.requirement.effective_mass * case.race_eccentricity
+    return not held and abs(outcome.imbalance - balanced) > LINGERING * reference_imbalance(scene)
+
+
+def _run_of_scene(
+    design: Design, member: Member, scene: Scene, tolerance: float, work: int, early_end: bool, wanted: str
+) -> tuple[StartRun, bool]:
+    """One run, and whether the balls were not at rest at its end."""
     equations = assemble(scene)
     choice = choose(equations, wanted, tolerance)
     early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
     found = outcome_of(design, member, scene, early.response(run))
-    return StartRun(replace(found, work=choice.work(run), rise=early.rising(run)), scene, run)
+    outcome = replace(found, work=choice.work(run), rise=early.rising(run))
+    return StartRun(outcome, scene, run), early.goes_on(run)
 
 
 def _decided(
@@ -153,6 +197,8 @@ def _decided(
     The level follows what is left: where that is little, a small creep is many decibels.
     """
     one, limits = outcome_of(design, member, scene, response), design.case.table.limits
+    if _linger(design, scene, one):
+        return False
     if not balances(one.imbalance + creep, one.allowed, one.slip) or one.time > limits.settling_time_s:
         return False
     louder = max(rise, 20 * math.log10(1 + creep / one.imbalance)) if one.imbalance else math.inf

@@ -33,6 +33,8 @@ class Outcome:
     """By how much the level might still have risen [dB] where the run ended early."""
     ball_angles: tuple[float, ...] = ()
     """Of the balls in the rotor at the end [rad]."""
+    duration: float = 0.0
+    """Of a run [s] that went on for longer than its scene, since the balls were not at rest by then; 0 of others."""
 
     @property
     def hanging(self) -> bool:

@@ -76,7 +76,10 @@ def _with_search(found: Proven, accuracy: float, progress: Progress, workers: in
     """With further starts, unless these would take too long: then it says so."""
     if found.ensemble is not None and found.ensemble.work > MOST_SEARCHED and not patience.given():
         return replace(found, warnings=(*found.warnings, NOT_SEARCHED))
-    return replace(found, searched=search(found.design, accuracy, progress, workers))
+    searched = search(found.design, accuracy, progress, workers)
+    return replace(
+        found, searched=searched if found.ensemble is None else replace(searched, listed=found.ensemble.given)
+    )
 
 
 def _carries(design: Design) -> bool:

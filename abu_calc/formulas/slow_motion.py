@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 from abu_calc.errors import InputError
 from abu_calc.formula import formula
+from abu_calc.units import GRAVITY
 
 
 @formula(
@@ -91,3 +92,23 @@ def optimum_drag(stiffness: float, inertia_factor: float) -> float:
     if not stiffness > 0:
         raise InputError("no drag lets the balls settle", found=f"stiffness {stiffness:g} 1/s²", allowed="above 0")
     return 2 * math.sqrt(inertia_factor * stiffness)
+
+
+def shaken_drag(
+    friction_arm: float, ball_radius: float, pitch_radius: float, speed: float, inertia_factor: float
+) -> float:
+    """Drag rate [1/s] by which dry friction brakes the slow motion of balls that gravity shakes once a revolution.
+
+        h_eq = (2/π) (k_r/r) J R_p Ω³/g    for Λ = k_r R_p Ω²/(r g) < 1, else 0
+
+    Lever arm k_r, radii r and R_p [m], speed Ω [rad/s]. On a horizontal spindle gravity swings a ball with
+    θ' = g/(J R_p Ω). Friction follows the sign of that swing, and so takes from a slower motion in proportion to it.
+    It adds to h₀. From Λ = 1 on friction holds the balls. Source: derived by averaging the sign of the speed;
+    simulated tails of 14.3–25.2 1/s against 15.9–26.4 1/s.
+
+    >>> round(shaken_drag(0.5e-6, 8e-3, 23e-3, 600.0, 1.4), 2)
+    28.22
+    """
+    if friction_arm * pitch_radius * speed**2 >= ball_radius * GRAVITY:
+        return 0.0
+    return 2 / math.pi * friction_arm / ball_radius * inertia_factor * pitch_radius * speed**3 / GRAVITY

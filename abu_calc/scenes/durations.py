@@ -1,6 +1,7 @@
 """How long a scene lasts: of a machine until what dies out last is gone, of any within bounds of work."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,9 @@ from abu_calc.dynamics.race import Race, balls_of
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.support import Support
 from abu_calc.errors import InputError, Place
+from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.track import track
 from abu_calc.validity import Range
 
 DECAY_TIMES = 7.0
@@ -33,6 +36,31 @@ def settling_duration(design: Design, support: Support, race: Race, ball_rate: f
     longest = max(LONGEST_REVOLUTIONS * revolution, 3 * case.table.limits.settling_time_s)
     cap = max(MOST_CYCLES * 2 * math.pi / max(case.speed, fastest), 2 * revolution)
     return min(max(wanted, LEAST_REVOLUTIONS * revolution), longest, cap)
+
+
+def slowest_rate(design: Design, rate_at: Callable[[float], float]) -> float:
+    """Slowest rate [1/s] at which balls come to rest; `rate_at` gives it at a viscous drag rate h₀ [1/s].
+
+    On a horizontal spindle dry friction brakes balls that gravity shakes, as more drag would: then they creep.
+    """
+    case, one = design.case, design.autobalancer
+    rate = rate_at(case.drag)
+    if case.table.machine.spindle_axis != "horizontal":
+        return rate
+    added = shaken_drag(case.friction_arm, one.ball_diameter / 2, one.pitch_radius, case.speed, case.inertia_factor)
+    return min(rate, rate_at(case.drag + added)) if added else rate
+
+
+def slowest_in_hand(design: Design) -> float:
+    """`slowest_rate` of a machine on its springs or in hands."""
+
+    def rate_at(drag: float) -> float:
+        if drag == design.case.drag:
+            return design.track.decay_rates[0][1]
+        case, held = replace(design.case, drag=drag), design.frequency.natural_frequencies
+        return track(case, design.autobalancer, held).decay_rates[0][1]
+
+    return slowest_rate(design, rate_at)
 
 
 def free_rates(support: Support, race: Race, speed: float) -> tuple[float, float]:

@@ -6,6 +6,7 @@ What few files ask for (swing arm, motor, balls across their race) is imported w
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Final, Literal
 
 from abu_calc.dynamics.effect import Effect
@@ -23,7 +24,7 @@ from abu_calc.dynamics.supports.planar import planar
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import half_angle
 from abu_calc.formulas.suspension import Hands, Springs
-from abu_calc.scenes.durations import settling_duration
+from abu_calc.scenes.durations import settling_duration, slowest_in_hand, slowest_rate
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.spec.duty import Motor as MotorTable
@@ -87,7 +88,7 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         design = replace(design, case=replace(design.case, speed=design.case.idle_speed))
     case, table = design.case, design.case.table
     effects = tuple(_effects(design, which, race_centre))
-    felt, ball_rate = abs(design.autobalancer.requirement.plane_ratio), design.track.decay_rates[0][1]
+    felt = abs(design.autobalancer.requirement.plane_ratio)
     support: Support = _held(design)
     if table.swing_arm and which.startswith("swing-arm"):
         from abu_calc.dynamics.effects.lift_off import lift_off
@@ -95,10 +96,12 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         from abu_calc.scenes.on_arm import arm_of_design, ball_rate_on_arm
 
         support = arm = arm_of_design(design, table.swing_arm, cutting=which.endswith("cutting"))
-        felt, ball_rate = 1.0, ball_rate_on_arm(design, arm)
+        felt, ball_rate = 1.0, slowest_rate(design, partial(ball_rate_on_arm, design, arm))
         if which.endswith("cutting"):
             joint, touch = table.swing_arm.joint_stiffness_N_per_m, to_si(table.swing_arm.touch_angle_deg, "deg")
             effects = in_order((*effects, *lift_off(arm, joint, touch)))
+    else:
+        ball_rate = slowest_in_hand(design)
     race = _race(design, start, turning=which != "run-up")
     settling = settling_duration(design, support, race, ball_rate)
     scene = Scene(

@@ -30,8 +30,8 @@ def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> Swi
     )  # fmt: skip
 
 
-def ball_rate_on_arm(design: Design, arm: SwingArm) -> float:
-    """Slowest decay rate of the balls' slow motion [1/s] on an arm.
+def ball_rate_on_arm(design: Design, arm: SwingArm, drag: float) -> float:
+    """Slowest decay rate of the balls' slow motion [1/s] on an arm, at a viscous drag rate [1/s].
 
     There the rotor moves along one axis alone, so that half the stiffness of the slow motion is left.
     """
@@ -39,4 +39,4 @@ def ball_rate_on_arm(design: Design, arm: SwingArm) -> float:
     mass = arm.felt_mass + one.ball_count * one.ball_mass
     natural = math.sqrt(max(arm.stiffness, 0.0) / mass)
     kappa = ball_stiffness(one.ball_mass, mass, case.speed, (natural, natural)) / 2
-    return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, case.drag, case.inertia_factor)
+    return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, drag, case.inertia_factor)

@@ -8,7 +8,16 @@ from pathlib import Path
 import pytest
 
 import abu_calc
-from abu_calc.analysis.covering import PLACES, SPREADS, Searched, designed, neighbours, search, with_searched
+from abu_calc.analysis.covering import (
+    PLACES,
+    SPREADS,
+    Searched,
+    designed,
+    exceeded,
+    neighbours,
+    search,
+    with_searched,
+)
 from abu_calc.analysis.outcomes import Outcome
 from abu_calc.checks import Check
 from abu_calc.scenes.from_design import contact_half_angle
@@ -81,7 +90,7 @@ def outcome(time: float, level: float = 90.0, imbalance: float = 1.0, slip: floa
     [
         ("ABU401", outcome(0.1, level=120.0)),
         ("ABU701", outcome(0.1, imbalance=3.0)),
-        ("ABU702", outcome(0.9)),
+        ("ABU702", outcome(1.1)),
         ("ABU702", outcome(math.inf)),
         ("ABU704", outcome(0.1, slip=0.5)),
     ],
@@ -103,6 +112,19 @@ def test_each_check_is_broken_by_its_own(code: str, bad: Outcome) -> None:
     assert with_searched(passed, Searched((good,), lost=1, hurried=True), found).status == "not-done"
     other = Check("ABU201", "", "pass", "capacity", 1.0, 2.0, "s", None)
     assert with_searched(other, Searched((bad,)), found) == other
+
+
+def test_a_long_tail_of_settling_times_warns_before_one_is_too_late() -> None:
+    """Balls that linger leave as e^{λt}: of 40 times with that tail the rare ones are foreseen within 25 %."""
+    found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
+    quiet = Searched(tuple(outcome(0.1 + 0.01 * k) for k in range(24)))
+    assert with_searched(check, quiet, found) == check
+    lingering = Searched(quiet.outcomes[:20], listed=tuple(outcome(time) for time in (0.5, 0.6, 0.7, 0.9)))
+    told = with_searched(check, lingering, found)
+    assert told.status == "warn" and "one of 1000 takes" in told.message and told.remedy
+    times = [0.1 - 0.2 * math.log(1 - (k + 0.5) / 40) for k in range(40)]
+    assert exceeded(times, 1e-3) == pytest.approx(0.1 + 0.2 * math.log(1000), rel=0.25)
+    assert exceeded([*times, math.inf], 1e-3) == math.inf and exceeded([], 1e-3) == 0.0
 
 
 def test_machines_that_were_undone_for_work_are_judged() -> None:

@@ -1,0 +1,289 @@
+"""Runs of a sized machine by the outside equations: its numbers from its file and the result of `abu size`, its starts,
+and when a run keeps what a PASS promises.
+
+Nothing is imported from the product. What counts as settled and as balanced is written here anew from the README and
+`abu explain`: |U(t)| within the mean of the end and a tenth of the imbalance, no ball that moves on against its race.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from tests.studies.outside_equations import Machine, run, workspace
+
+GRAVITY: Final = 9.80665
+STEPS: Final = 208
+"""In a revolution; a multiple of 16."""
+
+HANDS: Final = {
+    "x": ((0.4129, 0.0736, 0.0163, 0.0100), (400.0, 200.0, 4000.0, 8000.0), (20.0, 100.0, 144.6, 79.9)),
+    "z": ((1.1252, 0.0769, 0.0200, 0.0100), (1000.0, 12000.0, 43635.0, 174542.0), (111.5, 39.3, 86.8, 121.0)),
+}
+"""One hand, ISO 10068:2012, annex C, model 2, table C.1: masses [kg], stiffness [N/m], damping [N·s/m]."""
+
+Json = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Start:
+    """One way of switching on: `kind` in words, ball angles [rad] and speeds [rad/s] in space, rotor angle [rad]."""
+
+    kind: str
+    machine: Machine
+    angles: tuple[float, ...]
+    speeds: tuple[float, ...]
+    rotor: float = 0.0
+    full: float = 0.0
+
+
+@dataclass(frozen=True)
+class Ending:
+    """What a run came to; `time` [s] from full speed on, infinite: not settled. `left` in shares of what is allowed."""
+
+    time: float
+    level: float
+    slip: float
+    left: float
+    modulus: float
+
+
+def hands(mass: float) -> tuple[np.ndarray[Any, Any], ...]:
+    """Masses, stiffness and damping of a machine in two hands: x, y, palms x, y, fingers x, y."""
+    M, K, C = np.zeros(6), np.zeros((6, 6)), np.zeros((6, 6))
+    ways = np.array(((0, 1, 0), (0, -1, 1), (1, -1, 0), (1, 0, -1)), dtype=float)
+    for axis, name in enumerate("xz"):
+        masses, stiffness, damping = HANDS[name]
+        nodes = [axis, 2 + axis, 4 + axis]
+        M[nodes] = mass + 2 * (masses[2] + masses[3]), 2 * masses[0], 2 * masses[1]
+        for way, k, c in zip(ways, stiffness, damping, strict=True):
+            K[np.ix_(nodes, nodes)] += 2 * k * np.outer(way, way)
+            C[np.ix_(nodes, nodes)] += 2 * c * np.outer(way, way)
+    return M, K, C
+
+
+def machine_of(file: Json, result: Json, *, on_arm: bool = False) -> Machine:
+    """The numbers of a machine and its autobalancer; on its suspension, or on its arm."""
+    top, table, balls = file["machine"], file["autobalancer"], result["autobalancer"]
+    wheel, count = file["wheel"]["mass_kg"], balls["ball_count"]
+    bare, ball = top["mass_kg"] + wheel, balls["ball_mass_g"] / 1e3
+    housing = balls["mass_g"] / 1e3 - count * ball
+    pitch, radius = balls["pitch_radius_mm"] / 1e3, balls["ball_diameter_mm"] / 2e3
+    at = top.get("center_of_mass_to_wheel_mm", 0.0) / 1e3
+    race = at + table.get("plane_offset_mm", 0.0) / 1e3
+    held = _held(file, bare, housing, race) if not on_arm else _on_arm(file["swing_arm"], housing)
+    handles = [entry["from_center_of_mass_mm"] / 1e3 for entry in top.get("handle", ())]
+    imbalance, motor = result["imbalance_g_mm"] / 1e6, file.get("motor", {})
+    core = 1 if on_arm else len(held[0])
+    speed = top["speed_rpm"] * math.tau / 60
+    rigid = core == 4
+    inertia = top["transverse_inertia_kg_m2"] if rigid else math.inf
+    felt = [1 / bare + race * place / inertia for place in (at, race)]
+    return Machine(
+        core=core, arm=file["swing_arm"]["arm_length_mm"] / 1e3 if on_arm else 0.0,
+        mass=held[0], stiffness=held[1], damping=held[2], nodes=held[3],
+        felt=1 / felt[1] if not on_arm else float(held[0][0, 0]) / (file["swing_arm"]["arm_length_mm"] / 1e3) ** 2,
+        wheel=at if rigid else 0.0, race=race if rigid else 0.0,
+        places=np.array(handles or [at]) if rigid else np.zeros(1),
+        imbalance=imbalance, carried=imbalance * felt[0] / felt[1], balls=count, ball_mass=ball, pitch=pitch,
+        ball_radius=radius, rolling=0.4, drag=table["rolling_drag_per_s"],
+        friction=table["rolling_friction_mm"] / 1e3 / radius,
+        gravity=GRAVITY if top["spindle_axis"] == "horizontal" else 0.0,
+        offset=table["race_eccentricity_mm"] / 1e3, offset_angle=math.pi,
+        gap=2 * math.asin(radius / pitch), restitution=0.5, speed=speed, ramp=0.0,
+        stall=0.0, no_load=motor.get("no_load_speed_rpm", 0.0) * math.tau / 60,
+        inertia=motor.get("rotor_inertia_kg_m2", 0.0), longest=_longest(held),
+    )  # fmt: skip
+
+
+Held = tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]]
+
+
+def _held(file: Json, bare: float, housing: float, race: float) -> Held:
+    """Mass matrix, stiffness, damping and further nodes on springs or in hands, the housing of the balls in the race's
+    plane. A rigid body is held so that it moves and tilts alike.
+    """
+    top, suspension = file["machine"], file["suspension"]
+    if "transverse_inertia_kg_m2" not in top:
+        if suspension["model"] == "hands":
+            M, K, C = hands(bare + housing)
+            return np.diag(M[:2]), K, C, M[2:].copy()
+        own = np.array((bare, bare))
+        mass = np.diag(own + housing)
+    else:
+        J = top["transverse_inertia_kg_m2"]
+        own = np.array((bare, bare, J, J))
+        to_race = np.array(((1, 0, race, 0), (0, 1, 0, race)), dtype=float)
+        mass = np.diag(own) + housing * to_race.T @ to_race
+        if suspension["model"] == "hands":
+            return _rigid_in_hands(file, mass)
+    hertz, damping = (
+        np.resize(np.array(suspension[key], dtype=float), len(own))
+        for key in ("natural_frequencies_hz", "damping_ratios")
+    )
+    natural = math.tau * hertz
+    return mass, np.diag(own * natural**2), np.diag(2 * damping * own * natural), np.zeros(0)
+
+
+def _rigid_in_hands(file: Json, mass: np.ndarray[Any, Any]) -> Held:
+    """Both hands hold the plane of the wheel, as those of the product do: no standard says how hands resist tilt."""
+    M, K, C = hands(0.0)
+    at = file["machine"]["center_of_mass_to_wheel_mm"] / 1e3
+    place = np.zeros((6, 8))
+    place[:2, :4] = ((1, 0, at, 0), (0, 1, 0, at))
+    place[2:, 4:] = np.eye(4)
+    skin = place[:2, :4].T @ np.diag(M[:2]) @ place[:2, :4]
+    return mass + skin, place.T @ K @ place, place.T @ C @ place, M[2:].copy()
+
+
+def _on_arm(table: Json, housing: float) -> Held:
+    """An arm that turns: J_O with the housing, (c, b) l²; no contact."""
+    square = (table["arm_length_mm"] / 1e3) ** 2
+    each = (
+        table["moment_of_inertia_kg_m2"] + housing * square, table["joint_stiffness_N_per_m"] * square,
+        table["joint_damping_N_s_per_m"] * square,
+    )  # fmt: skip
+    mass, stiffness, damping = (np.array([[one]]) for one in each)
+    return mass, stiffness, damping, np.zeros(0)
+
+
+def _longest(held: Held) -> float:
+    """Half a time constant of the fastest free motion."""
+    mass, stiffness, damping, nodes = held
+    size = len(stiffness)
+    whole = np.eye(size)
+    whole[: len(mass), : len(mass)] = mass
+    whole[range(len(mass), size), range(len(mass), size)] = nodes
+    inverse = np.linalg.inv(whole)
+    motion = np.block([[np.zeros((size, size)), np.eye(size)], [-inverse @ stiffness, -inverse @ damping]])
+    return float(0.5 / max(np.abs(np.linalg.eigvals(motion)).max(), 1.0))
+
+
+def starts(file: Json, result: Json, seed: int, random: int = 50, run_ups: int = 20) -> Iterator[Start]:
+    """Balls anywhere, turning with the race or not, and run-ups; on arms every other start on the arm itself."""
+    rng = np.random.default_rng(10_000 + seed)
+    on_springs = machine_of(file, result)
+    on_arm = machine_of(file, result, on_arm=True) if "swing_arm" in file else on_springs
+    for k in range(random + run_ups):
+        machine = on_arm if k % 2 else on_springs
+        words = "arm, " if machine.arm else ""
+        machine = machine._replace(offset_angle=float(rng.choice([0.0, math.pi])), speed=_speed(file, result, rng))
+        if k < random:
+            yield _anywhere(machine, "motor" in file, words, rng)
+        else:
+            yield _run_up(machine, "motor" in file, words, rng)
+
+
+def _speed(file: Json, result: Json, rng: np.random.Generator) -> float:
+    """The rated one, an idle speed of a motor; of two speeds either, of a range any."""
+    top = file["machine"]
+    if "motor" in file:
+        return float(result["idle_speed_rpm"]) * math.tau / 60
+    low, high = top.get("speed_range_rpm", (top["speed_rpm"],) * 2)
+    # A range below 0.7 of its top is that of two gears.
+    rpm = rng.uniform(low, high) if low >= 0.7 * high else rng.choice([low, high])
+    return float(rpm) * math.tau / 60
+
+
+def _anywhere(machine: Machine, motor: bool, words: str, rng: np.random.Generator) -> Start:
+    n, span = machine.balls, machine.gap * 1.001
+    gaps = rng.dirichlet(np.ones(n)) * (math.tau - n * span)
+    angles = rng.uniform(0, math.tau) + np.cumsum(gaps + span)
+    turning = 1 + float(rng.choice([0.0, -1.0, -rng.uniform()]))
+    if motor:
+        machine = machine._replace(stall=1.0)
+    return Start(f"{words}anywhere, turning at {turning:.2f}", machine, tuple(angles), (turning * machine.speed,) * n)
+
+
+def _run_up(machine: Machine, motor: bool, words: str, rng: np.random.Generator) -> Start:
+    """From rest, the balls touching: at the bottom of a horizontal race, anywhere in a vertical one."""
+    n, ramp = machine.balls, float(np.exp(rng.uniform(math.log(0.3), math.log(8))))
+    middle = -math.pi / 2 if machine.gravity else rng.uniform(0, math.tau)
+    angles = tuple(middle + (k - (n - 1) / 2) * machine.gap * 1.0001 for k in range(n))
+    rotor = float(rng.uniform(0, math.tau))
+    machine = machine._replace(stall=1.0) if motor else machine._replace(ramp=ramp)
+    return Start(f"{words}run-up in {ramp:.2f} s", machine, angles, (0.0,) * n, rotor, -1.0 if motor else ramp)
+
+
+def with_motor(start: Start, file: Json) -> Start:
+    """The start with the torque of the file's motor, at full speed after five of its time constants J Ω₀/M."""
+    if not start.machine.stall:
+        return start
+    torque = file["motor"]["stall_torque_N_m"]
+    machine = start.machine._replace(stall=torque)
+    full = 5 * machine.inertia * machine.no_load / torque if start.full else 0.0
+    return Start(start.kind, machine, start.angles, start.speeds, start.rotor, full)
+
+
+def ended(
+    start: Start, result: Json, limit: float, loudest: float = -1e3, steps: int = STEPS, longest: float = 3.0
+) -> Ending:
+    """Run a start; `longest`: settling times permitted (`limit` [s]) that are waited at most; `loudest` [dB]: a level
+    that falls below it need not be followed to its end.
+    """
+    p, n = start.machine, start.machine.balls
+    nq = len(p.stiffness)
+    y = np.zeros(2 * (nq + 1 + n))
+    v = nq + 1 + n
+    y[nq], y[nq + 1 : v], y[v + nq + 1 :] = start.rotor, start.angles, start.speeds
+    from_rest = start.full > 0
+    y[v + nq] = 0.0 if from_rest else p.speed
+    order = np.argsort(np.mod(y[nq + 1 : v], math.tau))
+    y[nq + 1 : v] = np.mod(y[nq + 1 : v], math.tau)
+    most = start.full + longest * limit
+    turns = int(longest * limit * p.speed * 1.2 / math.tau) + 80
+    moduli, times = np.zeros(16 * turns), np.zeros(16 * turns)
+    means, squares = np.zeros((turns, 2)), np.zeros((turns, len(p.places), 2))
+    angles, slipped = np.zeros((turns, n)), np.zeros((turns, n))
+    most = max(most, start.full + 60 * math.tau / p.speed)
+    quiet = (5e-8 * 10 ** ((loudest - 0.5) / 20)) ** 2
+    span = (start.full, 0.2 * limit, most, 0.2 * limit)
+    samples, revs, _ = run(
+        p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, angles, slipped
+    )
+    return judged(p, result, start.full, moduli[:samples], times[:samples], squares[:revs], angles[:revs])
+
+
+def judged(p: Machine, result: Json, full: float, moduli: Any, times: Any, squares: Any, angles: Any) -> Ending:
+    """Settling, level, slip and what is left over what is allowed, of the samples of a run."""
+    moment = p.balls * p.ball_mass * p.pitch
+    last = min(len(squares), max(10, len(squares) // 20))
+    final = float(moduli[-16 * last :].mean())
+    above = np.flatnonzero(moduli > final + 0.1 * max(p.carried, 0.01 * moment))
+    late = len(above) and (above[-1] == len(moduli) - 1 or times[above[-1]] > full + 0.95 * (times[-1] - full))
+    time = math.inf if late else float(times[above[-1]] - full) if len(above) else 0.0
+    rms = math.sqrt(float((squares[-last:].sum(axis=0) / (16 * last)).max()))
+    back = angles[-1 - min(last, len(angles) - 1)]
+    slip = float(np.abs(angles[-1] - back).max()) / (math.tau * last)
+    left = final / allowed(p, result)
+    return Ending(time, 20 * math.log10(max(rms, 1e-12) / 5e-8), slip, left, final)
+
+
+def allowed(p: Machine, result: Json) -> float:
+    """Imbalance [kg m] that may be left: a tenth of it, what the eccentricity asks for, and what friction holds.
+
+    Friction at its worst counts up to half the imbalance.
+    """
+    budget, mass = result["accuracy_budget"], result["effective_mass_kg"]
+    if p.arm:
+        mass = float(p.mass[0, 0]) / p.arm**2
+    moment = p.balls * p.ball_mass * p.pitch
+    tenth = 0.1 * max(p.carried, 0.01 * moment) + mass * p.offset
+    fan, worst = (mass * budget[key] / 1e6 for key in ("rolling_friction_um", "rolling_friction_worst_um"))
+    return max(tenth + fan, min(tenth + worst, 0.5 * p.carried))
+
+
+def broken(ending: Ending, limits: Json) -> str:
+    """Which limits a run breaks, in words; empty: none."""
+    words = []
+    if ending.slip > 0.05:
+        words.append("stalls")
+    elif ending.left > 1:
+        words.append("does not balance")
+    if ending.time > limits["settling_time_s"]:
+        words.append("late")
+    if ending.level > limits["vibration_level_db"]:
+        words.append("loud")
+    return ", ".join(words)
