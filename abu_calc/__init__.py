@@ -65,7 +65,7 @@ _ROOMS: Final = {
     "studies.sweeping.result": ("SweepResult",),
     "studies.verify": ("VerifyResult", "verify"),
 }
-"""Where each public name lives."""
+"""Module of each public name."""
 
 __all__ = [
     "AbuError",

@@ -1,6 +1,6 @@
-"""What each check code means: what is asked, what fails it, what to do; `abu explain ABU203` shows it.
+"""Meaning of each check code: its question, its criterion, its action; `abu explain ABU203` shows it.
 
-The words stand in check_data/, one file for each hundred, read when one of its codes is first asked for.
+The texts are in check_data/, one file for each hundred, read when one of its codes is first requested.
 """
 
 import tomllib
@@ -47,13 +47,13 @@ class CheckCode:
 @cache
 def _hundred(file: str) -> dict[str, CheckCode]:
     """The codes of one file; one that is asked `as` another has all but its name from that."""
-    found: dict[str, CheckCode] = {}
+    codes: dict[str, CheckCode] = {}
     for code, table in tomllib.loads((_DATA / f"{file}.toml").read_text(encoding="utf-8")).items():
         if "as" in table:
-            found[code] = replace(found[table["as"]], code=code, name=table["name"])
+            codes[code] = replace(codes[table["as"]], code=code, name=table["name"])
         else:
-            found[code] = CheckCode(code, **table | {"formulas": tuple(table.get("formulas", ()))})
-    return found
+            codes[code] = CheckCode(code, **table | {"formulas": tuple(table.get("formulas", ()))})
+    return codes
 
 
 class _Codes(Mapping[str, CheckCode]):
@@ -70,4 +70,4 @@ class _Codes(Mapping[str, CheckCode]):
 
 
 CHECK_CODES: Final[Mapping[str, CheckCode]] = _Codes()
-"""By code."""
+"""Check codes by their names."""

@@ -6,9 +6,9 @@ from typing import Literal
 from abu_calc.frozen import dataclass
 
 Status = Literal["pass", "fail", "not-done"]
-"""Of a whole result."""
+"""Status of a whole result."""
 Grade = Literal["pass", "warn", "fail", "not-done"]
-"""Of one check; warn: the usual rule holds, a stricter one or the worst case does not."""
+"""Grade of one check; warn: the usual rule holds, a stricter one or the worst case does not."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def worst(checks: Iterable[Check]) -> Grade:
     """
     statuses = {check.status for check in checks}
     order: tuple[Grade, ...] = ("fail", "not-done", "warn", "pass")
-    return next((one for one in order if one in statuses), "pass")
+    return next((grade for grade in order if grade in statuses), "pass")
 
 
 def verdict(passed: bool, safe: bool = True) -> Grade:

@@ -25,7 +25,7 @@ _LONG_WORD: Final = re.compile(rf"\S{{{LONGEST_FOUND + 1},}}")
 
 @dataclass(frozen=True)
 class Place:
-    """Where a wrong input stands: file, line (1-based) and key path as written in TOML, each as far as known."""
+    """Position of a wrong input: file, line (1-based) and key path as written in TOML, as far as known."""
 
     file: str | None = None
     line: int | None = None
@@ -83,7 +83,7 @@ class InputError(AbuError):
 
 def _readable(text: str) -> str:
     """Advice that repeats what a file has, cut where that is long."""
-    return shortened(_LONG_WORD.sub(lambda found: shortened(found[0]), text), LONGEST_FILE_NAME)
+    return shortened(_LONG_WORD.sub(lambda match: shortened(match[0]), text), LONGEST_FILE_NAME)
 
 
 class RangeError(InputError):

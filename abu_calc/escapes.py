@@ -34,7 +34,7 @@ def escaped_lines(text: str) -> str:
 
 def escaped_toml(text: str) -> str:
     """TOML whose texts are all basic strings of one line, with the escapes that these know."""
-    return _UNSAFE_IN_LINES.sub(lambda found: _toml_escape(ord(found[0])), text)
+    return _UNSAFE_IN_LINES.sub(lambda match: _toml_escape(ord(match[0])), text)
 
 
 def shortened(text: str, most: int = LONGEST_FOUND) -> str:
@@ -42,8 +42,8 @@ def shortened(text: str, most: int = LONGEST_FOUND) -> str:
     return text if len(text) <= most else text[: most - 1] + "…"
 
 
-def _spelled(found: re.Match[str]) -> str:
-    return {"\n": "\\n", "\r": "\\r", "\t": "\\t"}.get(found[0]) or _python_escape(ord(found[0]))
+def _spelled(match: re.Match[str]) -> str:
+    return {"\n": "\\n", "\r": "\\r", "\t": "\\t"}.get(match[0]) or _python_escape(ord(match[0]))
 
 
 def _python_escape(code: int) -> str:

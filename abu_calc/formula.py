@@ -18,7 +18,7 @@ _Computes = TypeVar("_Computes", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Formula:
-    """What is shown of a formula. Indented lines of `where` are equations, not wrapped.
+    """Shown parts of a formula. Indented lines of `where` are equations, not wrapped.
 
     `checked` is the range that the code refuses to leave, `assumed` the part of it that nothing checks.
     """
@@ -28,15 +28,15 @@ class Formula:
     gives: str
     equation: str = ""
     unit: str = ""
-    """Of SI."""
+    """Unit in SI."""
     where: str = ""
     checked: tuple[Range | str, ...] = ()
     assumed: str = ""
     source: str = ""
     printed: str = ""
-    """Where the print of the source differs."""
+    """Differences in the source's formula as published."""
     signs: str = ""
-    """Those that are not in the equation, but in what is said beside it."""
+    """Symbols that are not in the equation, but in the text beside it."""
     shown: str = ""
     """Unit in which results have it, as keys name it, where that is not the usual one of files for `unit`."""
     own_units: bool = False
@@ -55,15 +55,15 @@ class Formula:
     def paragraphs(self) -> tuple[str, ...]:
         """All it says, a paragraph each: what it gives, signs with their units in SI, range, source, print."""
         unit = f" [{self.unit}]" if self.unit else ""
-        ranges = self._ranges([f"{one.name} {one}" if isinstance(one, Range) else one for one in self.checked])
+        ranges = self._ranges([f"{span.name} {span}" if isinstance(span, Range) else span for span in self.checked])
         return self._said(unit, ranges, si=True)
 
     @property
     def for_users(self) -> tuple[str, ...]:
         """The same in the units of files and reports, and how to come from them to SI, which equations take."""
         units = self.shown.split(", ") if self.shown else list(map(unit_in_files, filter(None, self.unit.split(", "))))
-        unit = ", ".join(unit_name(one, si=False) for one in units)
-        limits = [one if isinstance(one, str) else f"{one.name} {in_files(one)}" for one in self.checked]
+        unit = ", ".join(unit_name(single_unit, si=False) for single_unit in units)
+        limits = [span if isinstance(span, str) else f"{span.name} {in_files(span)}" for span in self.checked]
         said = self._said(f" [{unit}]" if unit else "", self._ranges(limits), si=False)
         differ = "" if self.own_units else conversions((*units, *(signs()[name].unit for name in self._names)))
         place = 1 + bool(self._names)
@@ -98,7 +98,7 @@ class Formula:
 
 
 REGISTERED: Final[dict[str, Formula]] = {}
-"""By key; a module registers its formulas when it is imported."""
+"""Formulas by key; a module registers its formulas when it is imported."""
 
 
 def formula(
@@ -109,19 +109,19 @@ def formula(
 
     def registered(computes: _Computes) -> _Computes:
         key = f"{computes.__module__}:{computes.__qualname__}".removeprefix(_PACKAGE)
-        found = register(
+        entry = register(
             Formula(key, gives, equation, unit, where, checked, assumed, source, printed, signs, shown, own_units)
         )
-        computes.__doc__ = "\n\n".join(filter(None, (found.text, inspect.cleandoc(computes.__doc__ or ""))))
+        computes.__doc__ = "\n\n".join(filter(None, (entry.text, inspect.cleandoc(computes.__doc__ or ""))))
         return computes
 
     return registered
 
 
-def register(found: Formula) -> Formula:
+def register(entry: Formula) -> Formula:
     """Registers a formula that no function of its module computes."""
-    REGISTERED[found.key] = found
-    return found
+    REGISTERED[entry.key] = entry
+    return entry
 
 
 def formula_of(key: str) -> Formula:

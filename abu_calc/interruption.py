@@ -16,7 +16,7 @@ from typing import Any
 INTERRUPTED = 130
 """The exit status after Ctrl-C."""
 ENDING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
-"""Those that end a command, Ctrl-C first; no system has all of them."""
+"""Signals that end a command, Ctrl-C first; no system has all of them."""
 AGAIN_S = 0.05
 """Seconds between two tries to raise a signal that has not been heeded."""
 SAME_S = 1.0

@@ -24,17 +24,19 @@ LONG = 0.01
 
 
 def processors() -> int:
-    """How many threads of compiled code run at once."""
+    """Number of threads of compiled code that run at once."""
     return os.cpu_count() or 1
 
 
 def side_by_side(
-    work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], workers: int, told: Callable[[int], None]
+    work: Callable[..., T], tasks: Sequence[tuple[Any, ...]], workers: int, report: Callable[[int], None]
 ) -> Generator[T, None, None]:
-    """What the work gives for each task, in their order, as it is asked for; `told` how many are done.
+    """Yield the result of the work for each task, in the order of the tasks, as it is asked for.
 
-    By one worker one after the other. Who asks for no more ends what has not begun. Threads begin when the first task
-    is done, so that what all need is made once, and when a task has taken `LONG`: short ones only wait for each other.
+    `told` is called with the number of tasks done. One worker does the tasks one after the other. A caller that
+    asks for no more ends the tasks that have not begun. Threads begin after the first task, so that the data
+    all tasks need is made once. They also wait until a task has taken `LONG`: short tasks only wait for each
+    other.
     """
     alone, long = 0, False
     while alone < len(tasks) and not (workers > 1 and long):
@@ -42,7 +44,7 @@ def side_by_side(
         outcome = work(*tasks[alone])
         long = time.thread_time() - begun >= LONG
         alone += 1
-        told(alone)
+        report(alone)
         yield outcome
     if alone == len(tasks):
         return
@@ -53,7 +55,7 @@ def side_by_side(
             for future in futures:
                 while future in waiting:
                     waiting = wait(waiting, return_when=FIRST_COMPLETED).not_done
-                    told(len(tasks) - len(waiting))
+                    report(len(tasks) - len(waiting))
                 yield future.result()
         finally:
             for future in futures:

@@ -1,7 +1,8 @@
-"""How long the simulations of a command may take: a wall of seconds where one is asked for.
+"""Time limit on the simulations of a command: a wall-clock limit in seconds if one is asked for.
 
-Without it limits are counts of evaluations, equal on every computer. With it counts do not bound a run: what is not
-done when the time is up has no answer, and a check of it is not done. Threads share it.
+Without it limits are counts of evaluations, equal on every computer. With it counts do not bound a run. A
+run that is not done when the time is up has no answer, and its check is NOT EVALUATED. Threads share the
+limit.
 """
 
 import math
@@ -24,7 +25,7 @@ class _Wall:
 
     end: float | None = None
     aside: int = 0
-    """How many threads have put it aside."""
+    """Number of threads that have put it aside."""
 
 
 _LOCK: Final = threading.Lock()
@@ -44,7 +45,10 @@ def would_do(evaluations: float, states: int) -> str:
 
 @contextmanager
 def limited(seconds: float | None) -> Iterator[None]:
-    """All that is simulated within takes at most so many seconds; None: counts bound it. Raises RangeError."""
+    """Limit all simulations within the context to so many seconds; None: counts bound them.
+
+    Raises RangeError.
+    """
     if seconds is None:
         yield
         return
@@ -58,7 +62,7 @@ def limited(seconds: float | None) -> Iterator[None]:
 
 @contextmanager
 def aside() -> Iterator[None]:
-    """Within, only counts bound what is simulated: whoever enters holds it to the time by other means."""
+    """Context in which counts alone bound what is simulated; its user holds it to the time by other means."""
     with _LOCK:
         _Wall.aside += 1
     try:
@@ -74,10 +78,10 @@ def left() -> float:
 
 
 def given() -> bool:
-    """Whether there is a wall."""
+    """True if there is a wall-clock limit."""
     return _Wall.end is not None and not _Wall.aside
 
 
 def over() -> bool:
-    """Whether the time is up; never without a wall."""
+    """True if the time is up; never without a wall-clock limit."""
     return given() and left() < 0

@@ -5,7 +5,7 @@ from typing import Final, Self
 
 
 class Stage(str):
-    """What is being done, in a few words; `share`: how much of it is done, 0 … 1."""
+    """Description of the current work, in a few words; `share`: part of it that is done, 0 … 1."""
 
     __slots__ = ("share",)
     share: float
@@ -24,11 +24,11 @@ Share = Callable[[float], None]
 """Gets how much is done, 0 … 1."""
 
 STEP: Final = 0.01
-"""Of the share, between two reports."""
+"""Step of the share between two reports."""
 
 
 def silent(_: str) -> None:
-    """For whom does not watch."""
+    """Ignore the progress: the callback of a caller that does not watch."""
 
 
 def share_of(progress: Progress, text: str) -> Share | None:
@@ -47,7 +47,7 @@ def share_of(progress: Progress, text: str) -> Share | None:
 
 
 def within(progress: Progress, what: str) -> Progress:
-    """For a part of the work: its texts behind the name of the whole."""
+    """Progress callback for a part of the work: its texts follow the name of the whole."""
     if progress is silent:
         return silent
 

@@ -23,11 +23,11 @@ FUNCTIONS: Final = "sin cos tan arcsin arccos arctan lg ln exp Re Im arg min max
 SHORT: Final = "at of by to so in an or and i j k"
 """Short words, the imaginary unit, running numbers."""
 WORDS: Final = frozenset(f"{FUNCTIONS} {SHORT}".split())
-"""What is no sign."""
+"""Words of a formula that are no symbols."""
 
 
 class Sign(NamedTuple):
-    """What a sign means, and its unit: as keys of files name it, or as it is printed."""
+    """Meaning of a symbol, and its unit: as keys of files name it, or as it is shown."""
 
     meaning: str
     unit: str = ""
@@ -53,19 +53,19 @@ def signs_in(equation: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
     (('β', 'r', 'R'), ())
     """
     plain = equation.replace("\u0304", "")
-    found = [one for one in _pattern().findall(plain) if one not in WORDS and not re.fullmatch("[a-z]{3,}", one)]
-    known = tuple(dict.fromkeys(one for one in found if one in signs()))
-    return known, tuple(one for one in found if one not in signs() and one.isalpha())
+    names = [name for name in _pattern().findall(plain) if name not in WORDS and not re.fullmatch("[a-z]{3,}", name)]
+    known = tuple(dict.fromkeys(name for name in names if name in signs()))
+    return known, tuple(name for name in names if name not in signs() and name.isalpha())
 
 
 def told(names: tuple[str, ...], *, si: bool) -> str:
-    """What each of these means, with its unit."""
+    """Meaning of each of these symbols, with its unit."""
     return "; ".join(_told(name, signs()[name], si=si) for name in names)
 
 
-def _told(name: str, one: Sign, *, si: bool) -> str:
-    unit = unit_name(one.unit, si=si)
-    return f"{name} {one.meaning}{f' [{unit}]' if unit else ''}"
+def _told(name: str, sign: Sign, *, si: bool) -> str:
+    unit = unit_name(sign.unit, si=si)
+    return f"{name} {sign.meaning}{f' [{unit}]' if unit else ''}"
 
 
 def unit_name(unit: str, *, si: bool) -> str:
@@ -95,17 +95,17 @@ def in_files(limits: Range) -> str:
     unit = unit_in_files(limits.unit)
     if unit == limits.unit:
         return str(limits)
-    low, high = (from_si(one, unit) if math.isfinite(one) else one for one in (limits.low, limits.high))
+    low, high = (from_si(bound, unit) if math.isfinite(bound) else bound for bound in (limits.low, limits.high))
     return str(replace(limits, low=low, high=high, unit=SYMBOLS.get(unit, unit)))
 
 
 def conversions(units: tuple[str, ...]) -> str:
-    """How to come from the units of files to SI, of those that differ.
+    """Conversions from the units of files to SI, of those that differ.
 
     >>> conversions(("mm", "kg", "g"))
     '1 mm = 0.001 m, 1 g = 0.001 kg'
     """
-    differ = [one for one in dict.fromkeys(units) if one in SI_NAMES]
-    sizes = [bounded(float(f"{SI_PER_UNIT[one]:.4g}")) for one in differ]
+    differ = [unit for unit in dict.fromkeys(units) if unit in SI_NAMES]
+    sizes = [bounded(float(f"{SI_PER_UNIT[unit]:.4g}")) for unit in differ]
     pairs = zip(differ, sizes, strict=True)
-    return ", ".join(f"1 {SYMBOLS.get(one, one)} = {size} {SI_NAMES[one]}" for one, size in pairs)
+    return ", ".join(f"1 {SYMBOLS.get(unit, unit)} = {size} {SI_NAMES[unit]}" for unit, size in pairs)

@@ -61,7 +61,7 @@ SYMBOLS: Final[dict[str, str]] = {
     "kg_m2": "kg·m²",
     "db": "dB",
 }
-"""How a unit is printed, where that differs from its suffix."""
+"""Form in which a unit is shown, if that differs from its suffix."""
 
 
 def unit_of(key: str) -> str:

@@ -1,1 +1,1 @@
-"""What is computed from a motion: amplitudes, levels, settling, and how far the numbers can be trusted."""
+"""Quantities computed from a motion: amplitudes, levels, settling, and the trust in these numbers."""

@@ -1,4 +1,7 @@
-"""What accuracy costs in time: every rung, integrator and tolerance, against a reference that is verified."""
+"""Computing time against accuracy.
+
+Every model level, integrator and tolerance is compared with a verified reference.
+"""
 
 import math
 import statistics
@@ -33,7 +36,10 @@ FINEST: Final = 2e-6
 QUICK: Final = (*choice.LOOP, "scipy-dop853")
 """Integrators that are measured first."""
 MOST_EVALUATIONS, MOST_IN_PYTHON = 2_000_000, 150_000
-"""Of one run, events counted in, in compiled code and in Python: some seconds. What needs more is left out."""
+"""Most evaluations of one run, events included, in compiled code and in Python: some seconds.
+
+Runs that need more are left out.
+"""
 
 ASKED: Final = 1.2e-3
 """Time of an event by the second of the verifying integrators [s], whose decisions are made in Python."""
@@ -134,8 +140,8 @@ def study(full: Scene, ledger: Ledger, quantity: str, accuracy: float, budget: f
     while waiting:
         now = time.perf_counter()
         share = now + max(end - now, 0.0) / len(waiting)
-        found, left = _measured(full, waiting.pop(0), reference, quantity, share, told)
-        points += found
+        measured_points, left = _measured(full, waiting.pop(0), reference, quantity, share, told)
+        points += measured_points
         skipped += left
     return Study(quantity, accuracy, reference, tuple(points), cheapest(points, accuracy, reference), tuple(skipped))
 
@@ -146,7 +152,7 @@ def _measured(
     reference: Reference,
     quantity: str,
     end: float,
-    told: Callable[[Method], None],
+    report: Callable[[Method], None],
 ) -> tuple[list[Point], list[str]]:
     """One kind of method from loose to tight as long as there is time, and the names of those left out."""
     points: list[Point] = []
@@ -155,7 +161,7 @@ def _measured(
         before = points[-1].cold_s or 0.0 if points else 0.0
         if time.perf_counter() + before > end:
             return points, [each.name for each in group[place:]]
-        told(method)
+        report(method)
         try:
             points.append(_point(full, method, reference, quantity, end))
         except TooMuchWorkError:
@@ -178,19 +184,19 @@ def groups(full: Scene, scene: Scene) -> list[list[Method]]:
     Cheap ones first; closed forms and envelope leave out what they cannot average.
     """
     smooth = only(scene, [effect.name for effect in scene.effects if effect.averaged])
-    found = [[Method("closed-form", None, None, _after(partial(closed_form, smooth)), _estimated)]]
-    found.append([
+    kinds = [[Method("closed-form", None, None, _after(partial(closed_form, smooth)), _estimated)]]
+    kinds.append([
         Method("envelope", "scipy-lsoda", tolerance, _after(partial(averaged, smooth, tolerance)), _estimated)
         for tolerance in ENVELOPE_TOLERANCES
     ])  # fmt: skip
     here = list(choice.available(assemble(scene)))
     quick = [name for name in QUICK if name in here]
-    found += [[_integration("equations", scene, name, tolerance) for tolerance in TOLERANCES] for name in quick]
+    kinds += [[_integration("equations", scene, name, tolerance) for tolerance in TOLERANCES] for name in quick]
     if full.effects != scene.effects:
         usable = [name for name in quick if name in choice.available(assemble(full))]
-        found += [[_integration("everything", full, name, each) for each in TOLERANCES[1:5:2]] for name in usable]
+        kinds += [[_integration("everything", full, name, each) for each in TOLERANCES[1:5:2]] for name in usable]
     others = [name for name in here if name not in QUICK]
-    return found + [[_integration("equations", scene, name, each) for each in TOLERANCES] for name in others]
+    return kinds + [[_integration("equations", scene, name, each) for each in TOLERANCES] for name in others]
 
 
 def _after(estimate: Callable[[], Estimate]) -> Callable[[float], Estimate]:
@@ -207,7 +213,7 @@ def _integration(rung: str, scene: Scene, name: str, tolerance: float) -> Method
     most = MOST_EVALUATIONS if name.startswith("compiled") else MOST_IN_PYTHON
 
     def read(trajectory: Trajectory) -> tuple[Measures, int, int]:
-        """What is compared of a run, and its work."""
+        """Return the compared quantities of a run, its evaluations and its steps."""
         return evaluate(scene, trajectory), trajectory.evaluations, trajectory.steps
 
     def run(seconds: float) -> Trajectory:
@@ -303,21 +309,21 @@ def _reference(full: Scene, quantity: str, accuracy: float, budget: float) -> Re
 
 def _verified(full: Scene, quantity: str, accuracy: float, budget: float) -> Reference:
     equations, times, started = assemble(full), needed_times(full), time.perf_counter()
-    (one, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
+    (integrator, loose), (other, tight) = choice.verifiers(equations, max(accuracy, FINEST))
     end = time.thread_time() + LATEST * budget
-    trial, spent = _trial(one, equations, times, LATEST * budget)
+    trial, spent = _trial(integrator, equations, times, LATEST * budget)
     steps = 1 - EVENT * trial.events / work(trial)
     # Events are as many and as long at every tolerance; whoever is second asks Python for each.
     expected = spent * ((1 - steps) + steps * (TRIAL / loose) ** (1 / ORDER)) + trial.events * ASKED
     if expected > budget:
         raise _unaffordable(full, f"about {expected:.1f} s, {trial.events} events among it", 2 * expected)
     until = _until(times, end - time.thread_time())
-    first = evaluate(full, choice.integrate_with(one, equations, loose, until, MOST_EVALUATIONS))
+    first = evaluate(full, choice.integrate_with(integrator, equations, loose, until, MOST_EVALUATIONS))
     second = evaluate(full, choice.integrate_with(other, equations, tight, until, MOST_EVALUATIONS))
     apart = QUANTITIES[quantity](full, first, second)
     if not apart <= accuracy / 2:
         raise NotTrustworthyError(
-            f"{full.name}: no reference: {one} and {other} differ by {apart:.2g} in the {quantity}\n"
+            f"{full.name}: no reference: {integrator} and {other} differ by {apart:.2g} in the {quantity}\n"
             "  ask for less accuracy, or shorten the run: a chaotic motion has no reference"
         )
-    return Reference((one, other), (loose, tight), apart, second, time.perf_counter() - started)
+    return Reference((integrator, other), (loose, tight), apart, second, time.perf_counter() - started)

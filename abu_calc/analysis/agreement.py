@@ -1,4 +1,4 @@
-"""How far closed form and simulation of the same machine at its work agree."""
+"""Agreement of closed form and simulation for the same machine on its workpiece."""
 
 import cmath
 from dataclasses import replace
@@ -16,8 +16,10 @@ from abu_calc.scenes.from_design import scene_of_design
 from abu_calc.sizing.design import Design
 
 AGREES: Final = 0.02
-"""How far closed form and simulation of the same contact may be apart, relative: the averages leave out that balls
-swing twice per turn, and the run may not have settled to the last."""
+"""Permitted relative difference between closed form and simulation of the same contact.
+
+The averages leave out that balls swing twice per turn, and the run may not have settled completely.
+"""
 
 LONG, LONGEST = 7.0, 6.0
 """Decay times of the slowest balls that a run to be compared lasts, and the most seconds."""
@@ -66,9 +68,9 @@ def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agree
     sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
     slowest = min(loaded_rate(work.design, each) for each in (steady.balls.stiffness, steady.balls.worst))
     if min(slowest, sway) * LONGEST >= LONG:
-        found = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
-        if found.apart is not None and found.apart <= AGREES:
-            return found
+        comparison = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
+        if comparison.apart is not None and comparison.apart <= AGREES:
+            return comparison
     there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
     return replace(there, reached=False)
 
@@ -106,8 +108,8 @@ def compared(steady: Steady, run: Working, moment: float) -> Agreement:
     axis, total = steady.axis or (0j, 0j), steady.imbalance or 0j
     carried = max(abs(total - steady.own), 0.01 * moment)
     force = carried * steady.contact.speed**2
-    off = max(abs(found - told) for found, told in zip(run.axis, axis, strict=True))
+    off = max(abs(simulated - calculated) for simulated, calculated in zip(run.axis, axis, strict=True))
     usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
-    told = steady.reaction or 0j
-    pressed = abs(run.reaction - told) / max(abs(told), force) if len(run.force) else None
+    reaction = steady.reaction or 0j
+    pressed = abs(run.reaction - reaction) / max(abs(reaction), force) if len(run.force) else None
     return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)

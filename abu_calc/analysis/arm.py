@@ -20,7 +20,7 @@ from abu_calc.spec.machine import SwingArm
 from abu_calc.units import from_si
 
 MARGINS: Final = (1.05, 1.2, 1.5, 2.0, 3.0)
-"""Over each bound, one after another, until the balanced state is stable, too."""
+"""Factors over each bound, tried one after another until the balanced state is stable too."""
 
 STRONGER: Final = (2.0, 5.0, 20.0, 100.0)
 """Times the joint damping, where the bounds do not suffice."""
@@ -35,7 +35,7 @@ BOUNDS: Final = {
     "ABU503": ("pressing_moment_N_m", "contact_angle_deg"),
     "ABU504": ("contact_angle_deg",),
 }
-"""What the remedy of each check changes."""
+"""Keys that the action of each check changes."""
 
 
 @dataclass(frozen=True)
@@ -49,12 +49,15 @@ class ArmJudgement:
 
     @property
     def may_pass(self) -> bool:
-        """Whether all checks pass, as it is or with the changes."""
+        """True if all checks pass, as the arm is or with the changes."""
         return bool(self.changes) or not any(_bad(check) for check in self.checks)
 
 
 def judge_arm(design: Design, progress: Progress = silent) -> ArmJudgement | None:
-    """Of a sized machine; None where it hangs on no arm. What is advised was tried: every check of the arm passes."""
+    """Judge the swing arm of a sized machine; None if the machine has no swing arm.
+
+    Every advised change was tried: with it, every check of the arm passes.
+    """
     table, bounds = design.case.table.swing_arm, design.swing_arm
     if table is None or bounds is None:
         return None
@@ -66,19 +69,20 @@ def judge_arm(design: Design, progress: Progress = silent) -> ArmJudgement | Non
         return ArmJudgement(bounds, checks, f"nothing to change. {_room(bounds)}{doubt}")
     if not _carries(design):
         return ArmJudgement(bounds, checks, "the balls cannot carry the imbalance: no change of the arm helps.")
-    found = _tried(design, bad, progress)
-    if not found:
+    plans = _tried(design, bad, progress)
+    if not plans:
         text = f"no change found. Tried: inertia, damping and contact angle, to {MARGINS[-1]:g} times their bounds"
         return ArmJudgement(bounds, checks, f"{text}.{doubt}")
-    told = "; or ".join(", ".join(change.text for change in one) for one in found)
-    text = f"change {told}. {'Each tried' if len(found) > 1 else 'Tried'}: all checks of the arm pass.{doubt}"
-    return ArmJudgement(bounds, tuple(_remedied(check, found[0]) for check in checks), text, found[0])
+    advice = "; or ".join(", ".join(change.text for change in plan) for plan in plans)
+    text = f"change {advice}. {'Each tried' if len(plans) > 1 else 'Tried'}: all checks of the arm pass.{doubt}"
+    return ArmJudgement(bounds, tuple(_remedied(check, plans[0]) for check in checks), text, plans[0])
 
 
 def balanced_check(design: Design) -> Check:
-    """Whether the balls stay where they balance: off the work and on it, at the ends of the speed range.
+    """Check that the balls stay where they balance, off and on the workpiece, over the speed range.
 
-    Warns where they do not at the worst contact angle; there, at the lowest speed, evenly fanned balls are judged.
+    Judged are the ends of the speed range. The check warns if the balls do not stay at the worst contact
+    angle. At that angle, evenly spread balls are judged at the lowest speed.
     """
     code, unit = "ABU505", "1/s"
     if not _carries(design):
@@ -90,7 +94,7 @@ def balanced_check(design: Design) -> Check:
     except NotTrustworthyError as error:
         reason = f"not known: {str(error).splitlines()[0]}"
         return coded(code, "not-done", reason, unit=unit, remedy="Another drag, or more joint damping.")
-    place = max(rates, key=lambda one: rates[one][0], default="")
+    place = max(rates, key=lambda location: rates[location][0], default="")
     rate, stable = rates.get(place, (None, True))
     if stable and missing:
         grade: Grade = "warn" if rates else "not-done"
@@ -125,7 +129,7 @@ def _rates(design: Design) -> tuple[dict[str, tuple[float, bool]], str]:
 
 
 def _worst_angle(design: Design) -> bool:
-    """Whether it is stable at the worst contact angle."""
+    """True if the balanced state is stable at the worst contact angle."""
     angle = from_si(_bounds(design).worst_angle, "deg")
     turned = _with(design, _table(design).model_copy(update={"contact_angle_deg": angle}))
     try:
@@ -136,10 +140,10 @@ def _worst_angle(design: Design) -> bool:
 
 
 def _growth(design: Design, scene: Scene, arrangement: Arrangement) -> tuple[float, bool]:
-    found = stability(scene, contact_half_angle(design), arrangement)
-    if found.growth_rate is None or found.stable is None:
-        raise NotTrustworthyError(found.reason or "there is no balanced state")
-    return found.growth_rate, found.stable
+    assessment = stability(scene, contact_half_angle(design), arrangement)
+    if assessment.growth_rate is None or assessment.stable is None:
+        raise NotTrustworthyError(assessment.reason or "there is no balanced state")
+    return assessment.growth_rate, assessment.stable
 
 
 def _ways(bad: set[str]) -> Iterator[tuple[Way, ...]]:
@@ -155,37 +159,43 @@ def _ways(bad: set[str]) -> Iterator[tuple[Way, ...]]:
 
 
 def _stronger() -> Iterator[tuple[Way, ...]]:
-    """Where no margin over the bounds makes the balanced state stable: more damping, more inertia, both."""
-    yield tuple(Way(damping=one) for one in STRONGER)
-    yield tuple(Way(inertia=one) for one in MARGINS[1:])
-    yield tuple(Way(inertia=one, damping=two) for one in MARGINS[1:] for two in STRONGER)
+    """Stronger changes if no margin over the bounds makes the balanced state stable.
+
+    They are more damping, more inertia, or both.
+    """
+    yield tuple(Way(damping=damping) for damping in STRONGER)
+    yield tuple(Way(inertia=inertia) for inertia in MARGINS[1:])
+    yield tuple(Way(inertia=inertia, damping=two) for inertia in MARGINS[1:] for two in STRONGER)
 
 
 def _tried(design: Design, bad: set[str], progress: Progress) -> list[tuple[Change, ...]]:
     """A change of each kind that passes, the nearest first; more damping and more inertia where one is too little."""
-    found = [one for one in (_first(design, ways, progress) for ways in _ways(bad)) if one]
-    if not found:
+    plans = [plan for plan in (_first(design, ways, progress) for ways in _ways(bad)) if plan]
+    if not plans:
         damping, inertia, both = _stronger()
-        found = [one for one in (_first(design, damping, progress), _first(design, inertia, progress)) if one]
-        found = found or [one for one in (_first(design, both, progress),) if one]
-    found.sort(key=_reach)
-    return [one for one in found if one is found[0] or all(change.reach < FAR for change in one)]
+        plans = [plan for plan in (_first(design, damping, progress), _first(design, inertia, progress)) if plan]
+        plans = plans or [plan for plan in (_first(design, both, progress),) if plan]
+    plans.sort(key=_reach)
+    return [plan for plan in plans if plan is plans[0] or all(change.reach < FAR for change in plan)]
 
 
-def _reach(found: tuple[Change, ...]) -> float:
-    """How far it is, in halves of a power of e: of ways about as far the first one stays first."""
-    return round(2 * max(change.reach for change in found))
+def _reach(plan: tuple[Change, ...]) -> float:
+    """Size of a change, in halves of a power of e.
+
+    The rounding keeps the first of several changes of about the same size first.
+    """
+    return round(2 * max(change.reach for change in plan))
 
 
 def _first(design: Design, ways: tuple[Way, ...], progress: Progress) -> tuple[Change, ...]:
     """The smallest change of a kind with which every check of the arm passes; none where there is none."""
-    tried = ((way, found) for way in ways if (found := _changes(design, way)))
+    tried = ((way, plan) for way in ways if (plan := _changes(design, way)))
     before: Way | None = None
-    for way, found in tried:
-        progress(f"swing arm: with {', '.join(change.text for change in found)}")
-        if changed(design, found):
+    for way, plan in tried:
+        progress(f"swing arm: with {', '.join(change.text for change in plan)}")
+        if changed(design, plan):
             nearer = before and _changes(design, _between(before, way))
-            return nearer if nearer and changed(design, nearer) else found
+            return nearer if nearer and changed(design, nearer) else plan
         before = way
     return ()
 
@@ -195,23 +205,23 @@ def _changes(design: Design, way: Way) -> tuple[Change, ...]:
     return changes(arm, own, design.imbalance.value, lowest, way) or ()
 
 
-def _between(one: Way, other: Way) -> Way:
+def _between(failing: Way, other: Way) -> Way:
     """Half way from one that did not pass to one that did, by multiples."""
     return replace(
-        other, margin=math.sqrt(one.margin * other.margin), inertia=math.sqrt(one.inertia * other.inertia),
-        damping=math.sqrt(one.damping * other.damping),
+        other, margin=math.sqrt(failing.margin * other.margin), inertia=math.sqrt(failing.inertia * other.inertia),
+        damping=math.sqrt(failing.damping * other.damping),
     )  # fmt: skip
 
 
-def changed(design: Design, found: tuple[Change, ...]) -> Design | None:
+def changed(design: Design, plan: tuple[Change, ...]) -> Design | None:
     """The machine with another arm; None where some check of it does not pass."""
-    values = _table(design).model_dump() | {change.key: change.new for change in found}
+    values = _table(design).model_dump() | {change.key: change.new for change in plan}
     try:
         table = SwingArm.model_validate(values)
     except ValueError:  # beyond what a file may say
         return None
-    case, one = design.case, design.autobalancer
-    bounds = swing_arm_bounds(case, table, design.imbalance.value, one.mass, one.capacity)
+    case, autobalancer = design.case, design.autobalancer
+    bounds = swing_arm_bounds(case, table, design.imbalance.value, autobalancer.mass, autobalancer.capacity)
     if any(_bad(check) for check in bounds.checks):
         return None
     other = replace(_with(design, table), swing_arm=bounds)
@@ -228,18 +238,18 @@ def _with(design: Design, table: SwingArm) -> Design:
     return replace(design, case=replace(design.case, table=whole))
 
 
-def _remedied(check: Check, found: tuple[Change, ...]) -> Check:
+def _remedied(check: Check, plan: tuple[Change, ...]) -> Check:
     """A check that failed, with its part of the change."""
     if not _bad(check):
         return check
-    own = [change.text for change in found if change.key in BOUNDS.get(check.code, ())] or [
+    own = [change.text for change in plan if change.key in BOUNDS.get(check.code, ())] or [
         "what the line on the arm says"
     ]
     return replace(check, remedy=f"Tried: {', '.join(own)}.")
 
 
 def _room(bounds: SwingArmBounds) -> str:
-    """By how much the arm is better than it must be."""
+    """Sentence on how far the arm is inside its bounds."""
     arm, limit = bounds.arm, min(bounds.stiffness_limit, bounds.stiffness_limit_exact)
     stiffer = "any contact"
     if arm.contact_stiffness:
@@ -249,8 +259,8 @@ def _room(bounds: SwingArmBounds) -> str:
 
 
 def _carries(design: Design) -> bool:
-    one = design.autobalancer
-    return one.capacity >= design.imbalance.value * abs(one.requirement.plane_ratio)
+    autobalancer = design.autobalancer
+    return autobalancer.capacity >= design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
 
 
 def _bad(check: Check) -> bool:

@@ -23,10 +23,13 @@ TOLERANCE: Final = 1e-11
 SAMPLES: Final = 64
 NEWTON: Final = 6
 CLOSED: Final = 1e-8
-"""Of the motion's size: a revolution that ends where it began but for this is periodic."""
+"""Closing error, relative to the size of the motion, below which a revolution counts as periodic."""
 
 MOST_EVALUATIONS: Final = 20_000
-"""Of one revolution: a joint that damps all at once asks for more, and has no motion worth telling."""
+"""Most evaluations of one revolution.
+
+An arm whose pivot damps at once needs more, and has no motion worth reporting.
+"""
 
 NARROWEST: Final = 1e-7
 """Least κ whose tongue is wider than rounding."""
@@ -74,7 +77,10 @@ class ArmMotion:
 
 
 def arm_motion(scene: Scene) -> ArmMotion | str | None:
-    """Of a scene, None without a swing arm; in words why there is nothing to tell: nothing holds it, κ is too large."""
+    """Return the motion of a scene's swing arm; None without a swing arm.
+
+    If there is nothing to report, return the reason in words: nothing holds the arm, or κ is too large.
+    """
     held = scene.support.standing_arm(scene.balls)
     if held is None:
         return None
@@ -101,7 +107,10 @@ def arm_motion(scene: Scene) -> ArmMotion | str | None:
 
 
 def tongue(kappa: float, natural: float, mass: float, columns: int = COLUMNS) -> list[Edge]:
-    """Its edge at evenly spaced ω₀/Ω about its middle, ½ − 13κ²/32; `mass` 2J_O/l² makes damping of h."""
+    """Edge of the instability region at evenly spaced ω₀/Ω about its middle, ½ − 13κ²/32.
+
+    `mass` 2J_O/l² converts h to damping.
+    """
     middle = 0.5 - 13 * kappa**2 / 32
     ratios = middle - np.linspace(-1, 1, columns) * BESIDE * kappa / 4
     unit = mass * kappa * natural
@@ -140,10 +149,10 @@ def _simulated(scene: Scene, held: Arm, expected: Harmonics) -> Simulated | None
         angle = _run(equations, start, times)[0]
     except (NotTrustworthyError, np.linalg.LinAlgError):
         return None
-    found = [complex(2 * np.mean(angle * np.exp(1j * k * speed * times))) for k in orders]
+    harmonics = [complex(2 * np.mean(angle * np.exp(1j * k * speed * times))) for k in orders]
     sizes = np.sort(np.abs(np.linalg.eigvals(growth * units / units[:, None])))[::-1]
-    rates = [float(math.log(max(one, np.finfo(float).tiny)) / period) for one in sizes]
-    return Simulated(tuple(found), (rates[0], rates[1]))
+    rates = [float(math.log(max(multiplier, np.finfo(float).tiny)) / period) for multiplier in sizes]
+    return Simulated(tuple(harmonics), (rates[0], rates[1]))
 
 
 def _run(equations: Equations, start: Array, times: "list[float] | Array") -> Array:

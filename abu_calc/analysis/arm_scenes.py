@@ -1,5 +1,7 @@
-"""What the simulated scenes of a swing arm say: whether the disk stays on its work, and the joint damping that gives an
-answer where less gives none.
+"""Checks on the simulated scenes of a swing arm.
+
+The disk must stay on its workpiece. If a scene gives no answer with less pivot damping, the damping
+that gives one is advised.
 """
 
 from collections.abc import Sequence
@@ -18,7 +20,7 @@ LONGEST: Final = 3.0
 """Settling times permitted: as long as a scene lasts at most."""
 
 TIMES: Final = (1.0, 2.0, 4.0)
-"""Of the damping with which the arm has come to rest by then."""
+"""Factors on the damping with which the arm comes to rest within the longest scene."""
 
 
 FIRMER: Final = (1.5, 2.0, 3.0, 5.0, 10.0)
@@ -26,9 +28,10 @@ FIRMER: Final = (1.5, 2.0, 3.0, 5.0, 10.0)
 
 
 def on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress = silent) -> Check | None:
-    """Whether the disk stays on its work in the simulated scene at the work; None where the work has no stiffness.
+    """Check that the disk stays on its workpiece in the simulated scene.
 
-    Where it bounces, the remedy is the least pressing moment of some that were tried with which it stays there.
+    None if the workpiece has no stiffness. If the disk bounces, the action is the least of the tried
+    pressing moments with which it stays.
     """
     run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
     effect = None if run is None else run.simulation.scene.effect("lift_off")
@@ -52,7 +55,7 @@ def on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Prog
 
 
 def _firmer(design: Design, accuracy: float, progress: Progress) -> str:
-    """What was tried."""
+    """Sentence on the pressing moments that were tried."""
     table = design.case.table.swing_arm
     assert table is not None
     for times in FIRMER:

@@ -15,7 +15,7 @@ class Audit:
     difference: float
     promise: float
     effects: tuple[str, ...]
-    """Those taken in for the audit."""
+    """Effects added to the scene for the audit."""
     evaluations: int
     wall_s: float
 

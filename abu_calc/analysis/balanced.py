@@ -1,14 +1,14 @@
-"""When the balls of a design count as balancing it: one definition for one run and for many."""
+"""Criteria by which the balls of a design count as balancing it, for one run and for many."""
 
 from abu_calc.analysis.response import Response
 from abu_calc.formulas.motion import HARDLY, SETTLED
 from abu_calc.sizing.design import Design
 
 HALF = 0.5
-"""Of the imbalance, that friction may leave."""
+"""Share of the imbalance that friction may leave."""
 
 SLIPPING = 0.05
-"""Of the rotor's speed: balls whose mean speed against the race stays above hang."""
+"""Share of the rotor's speed: balls stall if their mean speed against the race stays above it."""
 
 
 def slip(response: Response, speed: float) -> float:
@@ -17,24 +17,25 @@ def slip(response: Response, speed: float) -> float:
 
 
 def allowed_imbalance(design: Design, moved: float) -> float:
-    """What may be left [kg m]: a tenth of the imbalance, and what eccentricity and dry friction leave in any case.
+    """Allowed residual imbalance [kg m]: a tenth of the imbalance, plus unavoidable shares.
 
-    Friction at its worst arrangement, but with that no more than half the imbalance: less would be no balancing. In a
-    design without worst arrangements it is that of balls fanned evenly: then what is allowed is the least that is.
+    Eccentricity and dry friction leave some imbalance in any case. Dry friction counts in its worst
+    arrangement, but with it at most half the imbalance is allowed: leaving more would be no balancing. A
+    design without worst arrangements takes the friction of evenly spread balls: the least that is allowed.
     """
-    one = design.autobalancer
-    mass, budget = one.requirement.effective_mass, one.budget
-    tenth = SETTLED * max(moved, HARDLY * one.static_moment) + mass * budget.race_eccentricity
+    autobalancer = design.autobalancer
+    mass, budget = autobalancer.requirement.effective_mass, autobalancer.budget
+    tenth = SETTLED * max(moved, HARDLY * autobalancer.static_moment) + mass * budget.race_eccentricity
     worst = max((each.rolling_friction for each in design.worst), default=0.0)
     return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
 
 
 def balances(left: float, allowed: float, slipping: float) -> bool:
-    """Whether the balls are at rest in their race, and what they leave [kg m] is allowed."""
+    """True if the balls are at rest in their race and the imbalance left [kg m] is allowed."""
     return slipping <= SLIPPING and left <= allowed
 
 
 def balanced_well(design: Design) -> bool:
-    """Whether the imbalance is so small beside the balls that they hardly feel it."""
-    one = design.autobalancer
-    return design.imbalance.value * abs(one.requirement.plane_ratio) < HARDLY * one.static_moment
+    """True if the imbalance is so small relative to the balls that they hardly react to it."""
+    autobalancer = design.autobalancer
+    return design.imbalance.value * abs(autobalancer.requirement.plane_ratio) < HARDLY * autobalancer.static_moment

@@ -27,19 +27,19 @@ AHEAD: Final = 2
 LOOK_S: Final = 2.0
 """Seconds without a result after which it is looked whether anybody computes."""
 TRIES: Final = 3
-"""How often a batch is handed out that an executor gives back uncomputed."""
+"""Most attempts to hand out a batch that an executor returns uncomputed."""
 ENDED: Final = "the process that computed it ended"
 KILLED: Final = "KilledWorker"
-"""What Dask raises once some of its workers ended on the same member."""
+"""Name of the Dask exception that is raised once several of its workers ended on the same sample."""
 
 Row = tuple[Any, ...]
 
 
 class Study(Protocol):
-    """What is computed: sent to the workers with each batch."""
+    """Computation of a sweep, sent to the workers with each batch."""
 
     def rows(self, members: tuple[int, ...], may_end_process: bool) -> tuple[list[Row], float]:
-        """What each member came to, and the seconds that it took."""
+        """Results of each sample, and the seconds that they took."""
 
     def lost(self, member: int, reason: str) -> Row:
         """The row of a member that gave nothing."""
@@ -57,10 +57,11 @@ class Here(Executor):
 
 @dataclass
 class RenewableExecutor:
-    """Who computes: `make` an executor, and how many work at once; `own`: it is ours to close and to make anew.
+    """Source of executors: `make` creates one, `count` workers run at once.
 
-    `ends`: whoever computes is a process that may be ended when it hangs, since another takes its place. `alive`: asks
-    whether anybody computes there; without an answer for `patience` seconds there is no more waiting.
+    `own`: this program may close the executor and make a new one. `ends`: its workers are processes that
+    may be ended if they hang, since others take their place. `alive`: asks whether any worker is there;
+    without one for `patience` seconds, waiting ends.
     """
 
     make: Callable[[], Executor]
@@ -80,7 +81,10 @@ class RenewableExecutor:
         return self._executor
 
     def renew(self) -> None:
-        """After a process of ours ended, and the pool with it. Raises NotTrustworthyError where it is another's."""
+        """Discard the executor after one of its processes ended, so that a new one is made.
+
+        Raises NotTrustworthyError if the executor belongs to the caller.
+        """
         if not self.own:
             raise NotTrustworthyError("the executor is broken, so no more members can be computed")
         self.close()
@@ -107,12 +111,12 @@ class RenewableExecutor:
 
 
 def here() -> RenewableExecutor:
-    """This process alone."""
+    """Return an executor that uses this process alone."""
     return RenewableExecutor(Here)
 
 
 def processes(count: int) -> RenewableExecutor:
-    """So many processes, started afresh on every system."""
+    """Return an executor of `count` processes, started afresh on every system."""
     return RenewableExecutor(lambda: process_pool(count), count, ends=True)
 
 
@@ -199,7 +203,7 @@ def _unloadable(error: ImportError) -> NotTrustworthyError:
 
 
 def _await(workers: RenewableExecutor, member: int, tries: Counter[int]) -> None:
-    """Before a batch that came back uncomputed is handed out again: until somebody computes there."""
+    """Wait until any worker is there, before a batch that came back uncomputed is handed out again."""
     tries[member] += 1
     if tries[member] > TRIES:
         raise NotTrustworthyError("the executor cancels what it is given, so no more members are computed")
@@ -233,7 +237,7 @@ def _one_by_one(
 ) -> None:
     """Members one after the other, so that it is seen whom it ends; that one is recorded with the reason."""
     broken = workers.own
-    for member in (one for batch in batches for one in batch):
+    for member in (number for batch in batches for number in batch):
         if broken:
             workers.renew()
         future = _alone(study, member, workers)

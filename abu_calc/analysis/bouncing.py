@@ -1,7 +1,7 @@
-"""How a machine moves whose wheel bounces on its work without ever repeating: by statistics of some long runs.
+"""Statistics of long runs of a machine whose wheel bounces on its workpiece without repeating.
 
-Where errors grow without end no run can be computed twice alike, nor happens twice on the shop floor. What stays the
-same from run to run is the mean; how far runs are apart says how well it is known.
+If errors grow without end, no run can be computed twice alike, nor does it happen twice on the shop
+floor. The mean stays the same from run to run; the scatter of the runs shows how well it is known.
 """
 
 import math
@@ -30,11 +30,14 @@ FURTHER: Final = 1e-3, 1e-6
 """Balls [rad] and axis [m]: chaos makes another run of less."""
 SECONDS: Final = 6.0
 TURNS: Final = 30
-"""At least: a rotor so slow that this takes longer is followed for longer, as far as the work goes."""
+"""Least length of a run, in seconds and in turns.
+
+A rotor so slow that the turns take longer is followed for longer, as far as the allowed work permits.
+"""
 DROPPED: Final = 1 / 3
-"""Of a run, in which the balls find their places."""
+"""Share of a run that is dropped, since the balls find their places in it."""
 TOLERANCES: Final = 2e-6, 2e-5
-"""In turn: what hangs on the tolerance shows as scatter."""
+"""Tolerances, used in turn: results that depend on the tolerance show as scatter."""
 LEAST: Final = 0.5
 """Scatter [dB] that four runs do not rule out by being alike."""
 WIDEST: Final = 3.0
@@ -42,7 +45,7 @@ WIDEST: Final = 3.0
 
 
 def bounces(scene: Scene) -> bool:
-    """Whether wheel and work may bounce in it."""
+    """True if wheel and workpiece may bounce in the scene."""
     return any(isinstance(effect, GrindingContact) and effect.contact == "compliant" for effect in scene.effects)
 
 
@@ -54,12 +57,12 @@ def bouncing(scene: Scene, accuracy: float, progress: Progress = silent) -> Work
     that starts decide, or take more work than one scene may.
     """
     scene = chosen(scene, accuracy).scene
-    found = []
+    runs = []
     for number, copy in enumerate(_copies(scene)):
         progress(f"{scene.name}: chaotic, run {number + 1} of {COPIES}")
-        found.append(_run(copy, TOLERANCES[number % len(TOLERANCES)]))
-    velocity = math.sqrt(sum(one.velocity**2 for one in found) / COPIES)
-    levels = [level_from_velocity(one.velocity) for one in found]
+        runs.append(_run(copy, TOLERANCES[number % len(TOLERANCES)]))
+    velocity = math.sqrt(sum(run.velocity**2 for run in runs) / COPIES)
+    levels = [level_from_velocity(run.velocity) for run in runs]
     farthest = max(abs(each - level_from_velocity(velocity)) for each in levels)
     scatter = max(2 * float(np.std(levels, ddof=1)), farthest, LEAST)
     if scatter > WIDEST:
@@ -70,8 +73,8 @@ def bouncing(scene: Scene, accuracy: float, progress: Progress = silent) -> Work
     warning = (
         f"wheel and work bounce without ever repeating (chaotic): levels are means of {COPIES} runs of {SECONDS:g} s"
     )
-    force = np.concatenate([one.force for one in found])
-    return replace(found[0], velocity=velocity, force=force, parts=bool(force.min() <= 0), scatter=scatter,
+    force = np.concatenate([run.force for run in runs])
+    return replace(runs[0], velocity=velocity, force=force, parts=bool(force.min() <= 0), scatter=scatter,
                    settled=False, warnings=(warning,))  # fmt: skip
 
 

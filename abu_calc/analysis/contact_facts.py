@@ -16,7 +16,7 @@ from abu_calc.units import to_si
 CURVE = 8
 """Steps of the curve over speeds."""
 AROUND = 0.7, 1.1
-"""Of the rated speed, where the file gives no range."""
+"""Speed range as shares of the rated speed, for a file that gives no range."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Friction:
 
 
 def hodograph(design: Design, count: int = 24) -> tuple[AtAngle, ...]:
-    """Round the turn."""
+    """Steady contact at `count` angles of the runout round a full turn."""
     return tuple(_at_angle(design, cmath.rect(design.case.runout, angle), angle)
                  for angle in (2 * math.pi * step / count for step in range(count)))  # fmt: skip
 
@@ -68,7 +68,7 @@ def _at_angle(design: Design, runout: complex, angle: float) -> AtAngle:
 
 
 def response(design: Design) -> tuple[AtSpeed, ...]:
-    """Over the speed range, or about the rated speed where there is none."""
+    """Steady contact over the speed range, or about the rated speed if the file gives no range."""
     case, runout = design.case, runout_of(design.case)
     low, high = case.speed_range
     if low == high:
@@ -114,10 +114,10 @@ def largest_runout(case: Case, steady: Steady) -> float | None:
 
 
 def friction(work: Work) -> Friction:
-    """What dry friction holds, and what shakes it out at work."""
+    """Imbalance that dry friction holds, and the motions that release it on the workpiece."""
     design = work.design
-    case, one, steady = design.case, design.autobalancer, work.fitted.steady
-    threshold = shaking_threshold(case.friction_arm, one.pitch_radius, one.ball_diameter / 2)
+    case, autobalancer, steady = design.case, design.autobalancer, work.fitted.steady
+    threshold = shaking_threshold(case.friction_arm, autobalancer.pitch_radius, autobalancer.ball_diameter / 2)
     face = case.contact is not None and case.contact.kind == "face"
     axial = to_si(case.table.wheel.axial_runout_mm, "mm") if face and design.track.groove_radius else 0.0
     axis = steady.axis
@@ -127,5 +127,5 @@ def friction(work: Work) -> Friction:
         drag = case.drag + shaken_drag(threshold, whirl, case.speed, case.inertia_factor)
         stiffness = [k.real for k in steady.balls.stiffness if k.real > 0]
         creep = drag / min(stiffness) if stiffness else None
-    worst = max((one.rolling_friction for one in design.worst if one.speed == case.speed), default=math.nan)
-    return Friction(one.budget.rolling_friction, worst, threshold, axial, whirl, creep)
+    worst = max((budget.rolling_friction for budget in design.worst if budget.speed == case.speed), default=math.nan)
+    return Friction(autobalancer.budget.rolling_friction, worst, threshold, axial, whirl, creep)

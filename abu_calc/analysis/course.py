@@ -1,4 +1,7 @@
-"""What settling and the largest amplitude need of a run, read as it goes on: three numbers of each sample."""
+"""Residual history of a run, read as it goes on: three numbers of each sample.
+
+Settling and the largest amplitude need no more of a run.
+"""
 
 import math
 from copy import copy
@@ -11,7 +14,10 @@ from abu_calc.dynamics.trajectory import Array, Samples
 from abu_calc.errors import NotTrustworthyError
 
 SAMPLES_PER_REVOLUTION = 16
-"""Over the whole run: the residual ripples with the speed, and a crest may be the last to pass the limit."""
+"""Settling samples per revolution, over the whole run.
+
+The residual imbalance ripples with the speed, and a crest may be the last value above the limit.
+"""
 
 
 class Course:
@@ -28,7 +34,7 @@ class Course:
 
     @property
     def times(self) -> Array:
-        """Those it has read or will read [s]."""
+        """Settling times [s] that have been read or will be read."""
         return settling_times(self.scene)[: self.count + 1]
 
     def until(self, t: float) -> "Course":
@@ -51,7 +57,7 @@ class Course:
 
 
 def settling_count(scene: Scene) -> int:
-    """Of the intervals between settling times."""
+    """Number of intervals between settling times."""
     return math.ceil(scene.duration / scene.revolution * SAMPLES_PER_REVOLUTION)
 
 

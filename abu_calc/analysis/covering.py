@@ -28,16 +28,19 @@ SPREADS: Final = 12
 a run-up, too."""
 
 TIMES: Final = (1.0, 0.6, 1.6)
-"""Of the run-up of the file, in turn."""
+"""Factors on the run-up time of the file, used in turn."""
 
 ROUNDS: Final = 2
-"""Of the search round the worst so far."""
+"""Rounds of the search about the worst start case so far."""
 
 HALF, MARGIN = 0.5, 2.0
-"""Of the settling time permitted, and below the level permitted [dB]: round a start that is worse it is searched."""
+"""Share of the permitted settling time, and distance below the permitted level [dB].
+
+The search continues about start cases that are worse than either.
+"""
 
 TURNED: Final = math.radians(15)
-"""By which a start is turned in the search."""
+"""Angle by which a start case is turned in the search."""
 
 RARE: Final = 1e-3
 """Share of all starts that may take longer than permitted."""
@@ -60,7 +63,7 @@ class Searched:
     lost: int = 0
     hurried: bool = False
     listed: tuple[Outcome, ...] = ()
-    """Of the listed starts at the same drag."""
+    """Outcomes of the listed starts at the same drag."""
 
     @property
     def foreseen(self) -> float:
@@ -91,23 +94,23 @@ def exceeded(times: Sequence[float], share: float) -> float:
 
 def search(design: Design, accuracy: float, progress: Progress = silent, workers: int = 1) -> Searched:
     """The designed starts, and those near the worst of them. The same whatever the number of workers."""
-    found, tried, lost = list[Outcome](), set[Member](), 0
+    outcomes, tried, lost = list[Outcome](), set[Member](), 0
     round_of_starts = list(designed(design))
     for _ in range(1 + ROUNDS):
         tried.update(round_of_starts)
         answers = _run(design, round_of_starts, accuracy, progress, workers)
         lost += len(round_of_starts) - len(answers)
-        found += answers
-        if not found or patience.over():
+        outcomes += answers
+        if not outcomes or patience.over():
             break
-        worst = [max(found, key=order) for order in (_slowness, _loudness)]
+        worst = [max(outcomes, key=order) for order in (_slowness, _loudness)]
         near = (start for outcome in worst if _doubtful(outcome, design) for start in neighbours(outcome.member))
         round_of_starts = [start for start in dict.fromkeys(near) if start not in tried]
-    return Searched(tuple(found), lost, hurried=patience.over())
+    return Searched(tuple(outcomes), lost, hurried=patience.over())
 
 
 def _doubtful(outcome: Outcome, design: Design) -> bool:
-    """Whether a start near this one might break a limit."""
+    """True if a start case near this one might exceed a limit."""
     late = outcome.time > HALF * design.case.table.limits.settling_time_s
     return late or outcome.loudest > design.case.level_limit - MARGIN
 
@@ -168,7 +171,7 @@ def neighbours(member: Member) -> Iterator[Member]:
 
 
 def _run(design: Design, starts: Sequence[Member], accuracy: float, progress: Progress, workers: int) -> list[Outcome]:
-    """Those that gave an answer."""
+    """Outcomes of the start cases that gave an answer."""
     early = [(start, True) for start in starts]
     answers = every_start(design, early, accuracy, first_tolerance(design), within(progress, "further"), workers)
     return [outcome for outcome in answers if isinstance(outcome, Outcome)]
@@ -238,4 +241,7 @@ BROKEN: Final[dict[str, Broken]] = {
     "ABU702": (_late, _slowness, _time_in_words),
     "ABU704": (lambda outcome, _: outcome.hanging, lambda outcome: outcome.slip, lambda _: "leave balls hanging"),
 }
-"""Of each check that starts decide: which break it, which is worst, and what they do."""
+"""Rules of each check that start cases decide.
+
+They give the failing cases, the worst of these, and the words for the failure.
+"""

@@ -1,4 +1,4 @@
-"""How far two runs of one scene are apart, counted as accuracy counts errors."""
+"""Differences between two runs of one scene, measured as accuracy measures errors."""
 
 import math
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from abu_calc.dynamics.supports.receptance import weighing_amplitude
 
 
 class Measures(Protocol):
-    """What of a run is compared: a response, or the estimate of a method that integrates no equations."""
+    """Compared quantities of a run: of a response, or of an estimate that integrates no equations."""
 
     @property
     def axis_amplitude(self) -> float:
@@ -20,15 +20,15 @@ class Measures(Protocol):
 
     @property
     def velocity_rms(self) -> float:
-        """In the larger of x and y [m/s]."""
+        """RMS velocity in the larger of x and y [m/s]."""
 
     @property
     def settling_time(self) -> float | None:
-        """From full speed [s]; None if later than the run."""
+        """Settling time, from full speed [s]; None if later than the run."""
 
     @property
     def ball_angles(self) -> tuple[float, ...]:
-        """At the end [rad]."""
+        """Ball angles at the end [rad]."""
 
 
 def difference(scene: Scene, coarse: Measures, fine: Measures) -> float:
@@ -44,7 +44,7 @@ def amplitude(scene: Scene, coarse: Measures, fine: Measures) -> float:
 
 
 def level(scene: Scene, coarse: Measures, fine: Measures) -> float:
-    """Of the velocities, likewise relative: 0.01 is 0.09 dB."""
+    """Difference of the rms velocities, likewise relative: 0.01 is 0.09 dB."""
     apart = abs(coarse.velocity_rms - fine.velocity_rms)
     least = weighing_amplitude(scene) * scene.speed / math.sqrt(2)
     return apart / max(fine.velocity_rms, least) if apart > 0 else 0.0
@@ -76,7 +76,7 @@ QUANTITIES: Final[dict[str, Callable[[Scene, Measures, Measures], float]]] = {
     "settling": settling,
     "angles": angles,
 }
-"""What the error of a computation may be asked of."""
+"""Quantities for which the error of a computation can be requested."""
 
 
 def _circular_distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

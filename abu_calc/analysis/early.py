@@ -1,4 +1,4 @@
-"""When a run of a start may end before its time: its balls rest where they balance, and nothing that is left moves."""
+"""Early stopping of a run: the balls rest where they balance, and the imbalance left no longer moves."""
 
 import math
 from collections.abc import Callable
@@ -19,27 +19,31 @@ LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
 """Shares of the time at full speed after which a run may end."""
 
 SEEN: Final = 0.25
-"""Of the time at full speed so far: what happened last is looked at."""
+"""Share of the time at full speed so far, counted back from its end, that is examined."""
 
 CREEP: Final = 0.05
-"""Of the imbalance, or of what it is small against: the way that what is left may still go, at the pace of late."""
+"""Permitted further change of the residual imbalance, as a share of the reference imbalance.
+
+The change is extrapolated at its recent pace.
+"""
 
 ALIKE: Final = 0.02
 """Relative difference of the settling times that what is left may still make."""
 
 RESTING: Final = 0.01
-"""Of the imbalance, or of what it is small against: a way beyond which what is left has not come to rest."""
+"""Share of the imbalance, or of what it is small against: with a larger way left, a run has not come to rest."""
 
 RISE, FALL = 0.3, 0.1
-"""By how much [dB] the second half of what is looked at may be louder than the first, or less loud."""
+"""Permitted rise and fall [dB] of the level from the first to the second half of the examined time."""
 
 
 @dataclass(frozen=True)
 class Early:
-    """Where a run of a scene, at full speed from a time [s] on, may end.
+    """Early stopping of a run of a scene that is at full speed from a time [s] on.
 
-    `decided(response, creep, rise)`: whether a response can be judged where what is left may change by `creep` [kg m]
-    and the level rise [dB], both at the pace of late. Its settling time is the latest that this leaves.
+    `decided(response, creep, rise)`: True if a response can be judged although the residual imbalance may
+    change by `creep` [kg m] and the level may rise [dB], both at their recent pace. Its settling time is
+    the latest possible one.
     """
 
     scene: Scene
@@ -54,12 +58,12 @@ class Early:
         return tuple(float(times[k]) for k in dict.fromkeys(near.tolist()) if times[k] >= self.scene.revolution)
 
     def sampling(self) -> Sampling:
-        """With what must be known of a run that ends early."""
-        windows = [amplitude_window(replace(self.scene, duration=one)).times for one in self.looks]
+        """Sampling with all times that a run needs to end early."""
+        windows = [amplitude_window(replace(self.scene, duration=duration)).times for duration in self.looks]
         return Sampling(merged(needed_times(self.scene), *windows), until=Until(self.looks, self.enough))
 
     def response(self, samples: Samples, creep: float = 0.0) -> Response:
-        """Of a run that ended where it might, settled where what is left may yet go down by `creep` [kg m]."""
+        """Response of a run that may have ended early; its residual imbalance may yet fall by `creep` [kg m]."""
         end = float(samples.t[-1])
         if end == self.scene.duration:
             return evaluate(self.scene, samples, creep=creep)
@@ -70,11 +74,11 @@ class Early:
 
     @cached_property
     def _courses(self) -> dict[float, Course]:
-        """What was read of a run that might end at each of these times."""
+        """Residual history of the run up to each time at which it might end."""
         return {}
 
     def enough(self, samples: Samples) -> bool:
-        """Whether nothing will change what is judged."""
+        """True if no further motion will change the judged results."""
         creep, rise = self.moving(samples)
         if creep > CREEP * reference_imbalance(self.scene) or not -FALL <= rise <= RISE:
             return False
@@ -84,20 +88,23 @@ class Early:
         return self.decided(latest, creep, self.rising(samples))
 
     def _alike(self, earliest: float | None, latest: float | None) -> bool:
-        """Whether two settling times [s] are one, or both never."""
+        """True if two settling times [s] agree, or both are None."""
         if earliest is None or latest is None:
             return earliest is latest
         return latest - earliest <= max(ALIKE * latest, self.scene.revolution)
 
     def rising(self, samples: Samples) -> float:
-        """By how much [dB] the level may rise until the run's time is over; 0 where it is."""
+        """Possible rise of the level [dB] until the end of the run; 0 if it has ended."""
         end = float(samples.t[-1])
         if end == self.scene.duration:
             return 0.0
         return 2 * (self.scene.duration - end) / (SEEN * (end - self.at_speed)) * max(self.moving(samples)[1], 0.0)
 
     def moving(self, samples: Samples) -> tuple[float, float]:
-        """How far what is left may go until then [kg m], and by how much the level rose of late [dB]; at first all."""
+        """Possible further change of the residual imbalance [kg m] and recent rise of the level [dB].
+
+        Both are infinite at first.
+        """
         end = float(samples.t[-1])
         if end not in self._moves:
             self._moves[end] = self._moving(samples, end)
@@ -105,11 +112,11 @@ class Early:
 
     @cached_property
     def _moves(self) -> dict[float, tuple[float, float]]:
-        """What was said of a run that might end at each of these times."""
+        """Change and rise found at each time at which the run might end."""
         return {}
 
     def goes_on(self, samples: Samples) -> bool:
-        """Whether a run that did not end early ended before what is left came to rest."""
+        """True if a run that did not end early ended before what is left came to rest."""
         end = float(samples.t[-1])
         if end < self.scene.duration:
             return False

@@ -31,10 +31,13 @@ from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import level_at_loudest
 
 TOLERANCE, TIGHTER = 2e-4, 0.1
-"""Of the first run of a member, and by how much that of the run which confirms one that decides a check is tighter."""
+"""Tolerance of the first run of a start case, and the factor on it for a confirming run.
+
+A case that decides a check is confirmed by a run at the tighter tolerance.
+"""
 
 MARGIN = 1.0
-"""Below the level allowed [dB]: a run that may come nearer does not end early."""
+"""Distance below the permitted level [dB]: a run that may come nearer does not end early."""
 
 WORK, MOST_LOST = 400_000, 3
 """Evaluations of one run, in SciPy's: half a second in compiled code. Machines that balance take a twentieth of that.
@@ -51,14 +54,14 @@ LONGEST_SETTLING = 3.0
 """Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
 
 LINGERING = 0.1
-"""Of the imbalance: what balls leave that differs by more from what they leave balanced shows that they are not."""
+"""Share of the imbalance: if balls leave more beyond what they leave balanced, they are not balanced."""
 
 ALWAYS = ("dry_rolling_friction", "ball_contact")
 """Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
 
 
 class StartRun(NamedTuple):
-    """What one start came to, and the run that says so."""
+    """Outcome of one start case, and the run it is from."""
 
     outcome: Outcome
     scene: Scene
@@ -78,16 +81,16 @@ def simulate_members(
     if doubtful is None:
         doubtful = hanging_bounds(design).largest or 0.0
     starts, tolerance = list(members(design, doubtful, shares)), first_tolerance(design)
-    found = _found(design, starts, accuracy, tolerance, progress, workers)
-    while undecided := deciding(found, design.case.drag):
-        again = [(found[k].member, early_end) for k, early_end in undecided.items()]
+    results = _found(design, starts, accuracy, tolerance, progress, workers)
+    while undecided := deciding(results, design.case.drag):
+        again = [(results[k].member, early_end) for k, early_end in undecided.items()]
         closer = within(progress, "closer")
         runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers))
         runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers)
-        for k, one in zip(undecided, runs, strict=True):
-            found[k] = worse(found[k], one)
-    outcomes = tuple(one for one in found if isinstance(one, Outcome))
-    return Ensemble(design.case.drag, outcomes, tuple(one for one in found if isinstance(one, Lost)))
+        for k, rerun in zip(undecided, runs, strict=True):
+            results[k] = worse(results[k], rerun)
+    outcomes = tuple(result for result in results if isinstance(result, Outcome))
+    return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
 
 
 def first_tolerance(design: Design) -> float:
@@ -115,7 +118,10 @@ def start_once(
 
 
 def _would_do(design: Design, member: Member, error: TooMuchWorkError) -> str:
-    """How many seconds for all starts would do, by how far this one came, in round numbers; nothing if not begun."""
+    """Advice on how many seconds suffice for all start cases, rounded, by how far this one came.
+
+    Empty if this run never began.
+    """
     if not error.reached:
         return ""
     scene = scene_of_member(design, member)
@@ -124,9 +130,10 @@ def _would_do(design: Design, member: Member, error: TooMuchWorkError) -> str:
 
 
 def integrator_for(design: Design, member: Member, accuracy: float, tolerance: float) -> str:
-    """What to ask of `choose` for all starts of a design, by one of them: they differ in where the balls are.
+    """Integrator to request from `choose` for all start cases of a design, found from one of them.
 
-    To find for each how fast its motion dies out takes as long as many a run.
+    The cases differ only in where the balls are. Finding the decay rate of each would take as long as many
+    runs.
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
     name = choose(assemble(scene), "auto", tolerance).name
@@ -148,30 +155,32 @@ def run_of_start(
     longer: their run is done again, as long as settling may matter.
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    found, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
-    goes_on = goes_on or _linger(design, scene, found.outcome)
+    outcome, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    goes_on = goes_on or _linger(design, scene, outcome.outcome)
     limit = design.case.table.limits.settling_time_s
     longest = scene.full_speed + LONGEST_SETTLING * limit
-    late = found.outcome.hanging or (found.outcome.settling or 0.0) > limit
+    late = outcome.outcome.hanging or (outcome.outcome.settling or 0.0) > limit
     if not goes_on or late or longest <= scene.duration:
-        return found
+        return outcome
     longer = replace(scene, duration=longest)
     again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
-    whole = replace(again.outcome, work=found.outcome.work + again.outcome.work, duration=longest)
+    whole = replace(again.outcome, work=outcome.outcome.work + again.outcome.work, duration=longest)
     return again._replace(outcome=whole)
 
 
 def _linger(design: Design, scene: Scene, outcome: Outcome) -> bool:
-    """Whether balls that friction does not hold stand elsewhere than where they balance: sooner or later they leave.
+    """True if balls that friction does not hold stand elsewhere than where they balance; sooner or later they leave.
 
     On a horizontal spindle gravity shakes them loose, see `shaken_drag`. Balanced they leave M Δ, as the race's centre
     then stands still.
     """
-    case, one = design.case, design.autobalancer
-    radius, held = one.ball_diameter / 2, case.friction_arm > 0
+    case, autobalancer = design.case, design.autobalancer
+    radius, held = autobalancer.ball_diameter / 2, case.friction_arm > 0
     if case.table.machine.spindle_axis == "horizontal":
-        held = held and not shaken_drag(case.friction_arm, radius, one.pitch_radius, scene.speed, case.inertia_factor)
-    balanced = one.requirement.effective_mass * case.race_eccentricity
+        held = held and not shaken_drag(
+            case.friction_arm, radius, autobalancer.pitch_radius, scene.speed, case.inertia_factor
+        )
+    balanced = autobalancer.requirement.effective_mass * case.race_eccentricity
     return not held and abs(outcome.imbalance - balanced) > LINGERING * reference_imbalance(scene)
 
 
@@ -184,56 +193,57 @@ def _run_of_scene(
     early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
     times = early.sampling() if early_end else needed_times(scene)
     run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
-    found = outcome_of(design, member, scene, early.response(run))
-    outcome = replace(found, work=choice.work(run), rise=early.rising(run))
+    outcome = outcome_of(design, member, scene, early.response(run))
+    outcome = replace(outcome, work=choice.work(run), rise=early.rising(run))
     return StartRun(outcome, scene, run), early.goes_on(run)
 
 
 def _decided(
     design: Design, member: Member, scene: Scene, response: Response, creep: float, rise: float
 ) -> bool:  # fmt: skip
-    """Whether a start balances well and soon, what may still change counted in: else it is followed to the end.
+    """True if a start case balances well and in time, even with the change still possible.
 
-    The level follows what is left: where that is little, a small creep is many decibels.
+    Otherwise the run goes on to its end. The level follows the residual imbalance: if little is left, a
+    small creep is many decibels.
     """
-    one, limits = outcome_of(design, member, scene, response), design.case.table.limits
-    if _linger(design, scene, one):
+    outcome, limits = outcome_of(design, member, scene, response), design.case.table.limits
+    if _linger(design, scene, outcome):
         return False
-    if not balances(one.imbalance + creep, one.allowed, one.slip) or one.time > limits.settling_time_s:
+    if not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip) or outcome.time > limits.settling_time_s:
         return False
-    louder = max(rise, 20 * math.log10(1 + creep / one.imbalance)) if one.imbalance else math.inf
-    return one.level + louder <= design.case.level_limit - MARGIN
+    louder = max(rise, 20 * math.log10(1 + creep / outcome.imbalance)) if outcome.imbalance else math.inf
+    return outcome.level + louder <= design.case.level_limit - MARGIN
 
 
 def _found(
     design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int
 ) -> list[Outcome | Lost]:
     """All starts, those at the drag given first; the others only where these have answers."""
-    first = [(one, True) for one in starts if one.drag == design.case.drag]
-    others = [(one, True) for one in starts if one.drag != design.case.drag]
+    first = [(start, True) for start in starts if start.drag == design.case.drag]
+    others = [(start, True) for start in starts if start.drag != design.case.drag]
     with closing(every_start(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
-        found = list(islice(runs, len(first)))
-        found = _with_more(design, found, first, accuracy, tolerance, progress, workers)
-        if sum(isinstance(one, Lost) for one in found) >= MOST_LOST:
-            return [*found, *(Lost(one, "not tried, since others gave no answer", 0) for one, _ in others)]
+        results = list(islice(runs, len(first)))
+        results = _with_more(design, results, first, accuracy, tolerance, progress, workers)
+        if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
+            return [*results, *(Lost(start, "not tried, since others gave no answer", 0) for start, _ in others)]
         rest = list(runs)
-    return [*found, *_with_more(design, rest, others, accuracy, tolerance, progress, workers)]
+    return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers)]
 
 
 def _with_more(
-    design: Design, found: list[Outcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
+    design: Design, results: list[Outcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
     tolerance: float, progress: Progress, workers: int,
 ) -> list[Outcome | Lost]:  # fmt: skip
-    """What came of the starts, those whose work did not suffice tried once more with more of it."""
-    short = [k for k, outcome in enumerate(found) if isinstance(outcome, Lost) and outcome.short]
+    """Outcomes of the start cases; those that ran out of allowed work are tried once more with more of it."""
+    short = [k for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
     if not short:
-        return found
+        return results
     work = min(MORE * WORK, MOST_MORE // len(short))
     runs = every_start(
         design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work
     )
     longer = dict(zip(short, runs, strict=True))
-    return [longer.get(k, outcome) for k, outcome in enumerate(found)]
+    return [longer.get(k, outcome) for k, outcome in enumerate(results)]
 
 
 def every_start(
@@ -242,7 +252,7 @@ def every_start(
 ) -> Generator[Outcome | Lost, None, None]:  # fmt: skip
     """Each start once, and whether it may end early."""
     wanted = integrator_for(design, starts[0][0], accuracy, tolerance) if starts else "auto"
-    tasks = [(design, one, accuracy, tolerance, work, early_end, wanted) for one, early_end in starts]
+    tasks = [(design, start, accuracy, tolerance, work, early_end, wanted) for start, early_end in starts]
 
     def told(done: int) -> None:
         progress(Stage(f"idle: {done} of {len(tasks)} starts", done / len(tasks)))
@@ -251,7 +261,7 @@ def every_start(
 
 
 def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> Outcome:
-    """What the response of a member's scene says."""
+    """Return the outcome that the response of a start case's scene gives."""
     speed = abs(response.final.speed) or scene.speed
     case = replace(design.case, speed=speed)
     return Outcome(

@@ -22,19 +22,22 @@ from abu_calc.sizing.vibration import Levels, Vibration, handle_levels
 from abu_calc.units import from_si
 
 EXCEEDED: Final = math.sqrt(2)
-"""How many times the closed form a run may show, until it is believed instead: 3 dB."""
+"""Ratio of run to closed form above which the run is trusted instead: 3 dB."""
 
 LONGEST: Final = 6.0
 """Seconds after which a start that is louder than the usual one is taken to stay so."""
 
 LOUDER: Final = 1.0
-"""By so many dB a start is another state than the usual one, not the same with what has not died out."""
+"""Difference in dB above which a start case counts as another state than the usual one.
+
+A smaller difference counts as the same state with a decaying transient.
+"""
 LOUD: Final = 10 ** (LOUDER / 20)
 
 What = Literal["runout", "stiffness", "press"]
 
 LESS: Final = 1.0, 0.75, 0.5
-"""Of what would just do, tried one after another."""
+"""Shares of the value that would just suffice, tried one after another."""
 
 SOFTEST: Final = 1e-3
 """Share of the contact's stiffness down to which a softer one is tried."""
@@ -54,17 +57,17 @@ class Side:
 
     @property
     def parts(self) -> bool:
-        """Whether wheel and work would have to pull in the steady motion, or part in the run."""
+        """True if the steady contact would have to pull, or wheel and workpiece lose contact in the run."""
         return self.pulls or (self.run is not None and self.run.parts)
 
     @property
     def scatter(self) -> float:
-        """How far its level may be off [dB] where it is the mean of chaotic runs."""
+        """Uncertainty of the level [dB] if it is the mean of chaotic runs; else 0."""
         return 0.0 if self.run is None else self.run.scatter
 
     @property
     def pulls(self) -> bool:
-        """Whether the variable force of the steady motion is above the press [N]."""
+        """True if the variable force of the steady motion exceeds the normal force [N]."""
         return abs(self.steady.reaction or 0.0) > self.press
 
 
@@ -89,35 +92,35 @@ class Work:
 
     @property
     def levels(self) -> Levels:
-        """At the loudest handle, pressed when the balls have settled: as one works."""
+        """Levels at the loudest handle, pressed after the balls have settled: the usual way to work."""
         return self.settled.worst
 
     @property
     def level_at_once(self) -> float | None:
-        """With the autobalancer at the loudest handle, pressed before the balls have settled."""
+        """Level with the autobalancer at the loudest handle, pressed before the balls have settled."""
         return self.hasty.worst.after
 
     @property
     def stays_loud(self) -> bool:
-        """Whether wheel and work go on bouncing when pressed at once, louder than otherwise: a state of its own."""
+        """True if wheel and workpiece, pressed at once, keep bouncing louder than otherwise: a separate state."""
         usual, loud = self.levels.after, self.level_at_once
         return self.at_once.parts and usual is not None and loud is not None and loud > usual + LOUDER
 
     @property
     def lowered(self) -> bool | None:
-        """Whether the autobalancer lowers the level when balls have settled; None where that is not known."""
+        """True if the autobalancer lowers the level once the balls have settled; None if not known."""
         return below(self.levels.after, self.levels.before, self.fitted.scatter + self.without.scatter)
 
     @property
     def always(self) -> bool | None:
-        """Whether it does so when pressed at once, too."""
+        """True if the autobalancer lowers the level also when pressed at once; None if not known."""
         doubt = self.at_once.scatter + self.without.scatter
         both = self.lowered, below(self.level_at_once, self.levels.before, doubt)
         return None if None in both else all(both)
 
 
 def below(after: float | None, before: float | None, doubt: float) -> bool | None:
-    """Whether a level [dB] is below another.
+    """True if a level [dB] is below another.
 
     None where one is not known, or where they are no further apart than chaotic runs scatter, by the `doubt` [dB].
     """
@@ -128,7 +131,10 @@ def below(after: float | None, before: float | None, doubt: float) -> bool | Non
 
 @dataclass(frozen=True)
 class Remedy:
-    """What was tried and lowers the level: runout [m], contact stiffness [N/m] or press force [N], and what it gave."""
+    """Tried change that lowers the level, and its result.
+
+    The change is a runout [m], a contact stiffness [N/m] or a normal force [N].
+    """
 
     what: What
     value: float
@@ -140,9 +146,9 @@ def at_work(design: Design, accuracy: float, progress: Progress = silent, hard: 
 
     `hard`: what came of the scene of grinding from bunched balls, where that was simulated before.
     """
-    runout, case, one = runout_of(design.case), design.case, design.autobalancer
+    runout, case, abu = runout_of(design.case), design.case, design.autobalancer
     press = case.contact.press_force if case.contact else math.inf
-    budget = accuracy_budget(case, design.imbalance.value, one.requirement, one.balls, one.budget.resting_angles,
+    budget = accuracy_budget(case, design.imbalance.value, abu.requirement, abu.balls, abu.budget.resting_angles,
                              case.speed)  # fmt: skip
     rest = budget.residual - budget.shortfall
     without, free = Side(bare(design, runout), press=press), Side(fitted(design, runout), press=press)
@@ -155,7 +161,7 @@ def at_work(design: Design, accuracy: float, progress: Progress = silent, hard: 
         loud = _displacement(design, at_once, rest)
         if left and loud and loud > LOUD * left and at_once.parts and not at_once.scatter:
             at_once = _still(design, at_once, accuracy, progress)
-    levels, hasty = (handle_levels(case, moved, found, one.mass) for found in
+    levels, hasty = (handle_levels(case, moved, displacement, abu.mass) for displacement in
                      (left, _displacement(design, at_once, rest)))  # fmt: skip
     return Work(design, without, usual, at_once, levels, hasty, left, rest, moved)
 
@@ -177,7 +183,10 @@ def _still(design: Design, loud: Side, accuracy: float, progress: Progress) -> S
 
 
 def _run(side: Side, scene: Scene, accuracy: float, progress: Progress, work: int | None = None) -> Side:
-    """Where a bouncing motion cannot be computed, its statistics: chaos is known long before all work is spent."""
+    """Simulate one side; if its bouncing motion cannot be computed, take statistics of several runs.
+
+    Chaos is recognised long before all the allowed work is spent.
+    """
     if work is None:
         work = WORK // 4 if bounces(scene) else WORK
     try:
@@ -187,7 +196,10 @@ def _run(side: Side, scene: Scene, accuracy: float, progress: Progress, work: in
 
 
 def _by_statistics(side: Side, scene: Scene, accuracy: float, reason: str, progress: Progress) -> Side:
-    """What a run that failed comes to on average, if wheel and work may bounce; else why it failed."""
+    """Average of several runs in place of a failed one.
+
+    If wheel and workpiece cannot bounce, or these runs fail too, the reason for the failure is kept.
+    """
     first = replace(side, failure=reason.splitlines()[0])
     if not bounces(scene):
         return first
@@ -208,22 +220,23 @@ def _displacement(design: Design, side: Side, rest: float) -> float | None:
     rigid = contact is not None and contact.kind == "rigid"
     seen = None if side.run is None else math.sqrt(2) * side.run.velocity / design.case.speed
     if steady.amplitude is not None and not (side.parts and (not rigid or side.pulls)):
-        told = math.hypot(steady.amplitude, rest)
+        amplitude = math.hypot(steady.amplitude, rest)
         if steady.balls is not None and steady.balls.places == "restless":
-            return None if seen is None else max(seen, told)
-        return told if seen is None or seen <= EXCEEDED * told else seen
+            return None if seen is None else max(seen, amplitude)
+        return amplitude if seen is None or seen <= EXCEEDED * amplitude else seen
     return None if rigid and side.parts else seen
 
 
 def remedies(
     work: Work, accuracy: float, progress: Progress = silent, loudest: Callable[[Work], float | None] | None = None
 ) -> tuple[Remedy, ...]:
-    """What lowers the level of a machine whose autobalancer does not always: each was simulated, pressed either way.
+    """Changes that lower the level of a machine whose autobalancer does not always; each was simulated, pressed either
+    way.
 
     Of each kind first as little as helps by steady contact, then more. `loudest`: the highest level [dB] of the start
     cases of a machine that was tried, None if it does not help in all of them; without it they are not tried.
     """
-    found = []
+    helpful_remedies = []
     for what, values in _candidates(work):
         for value in values:
             tried = at_work(_sized(work.design, what, value), accuracy, progress)
@@ -232,13 +245,13 @@ def remedies(
                 if started is None:
                     continue
                 worst = max(tried.level_at_once, tried.levels.after or tried.level_at_once, started)
-                found.append(Remedy(what, value, Levels(tried.levels.before, worst)))
+                helpful_remedies.append(Remedy(what, value, Levels(tried.levels.before, worst)))
                 break
-    return tuple(found)
+    return tuple(helpful_remedies)
 
 
 def _sized(design: Design, what: What, value: float) -> Design:
-    """What sizing makes of a file with the remedy in it."""
+    """Size the design again with the change in its file."""
     table = design.case.table
     if what == "runout":
         runout = {"runout_mm": from_si(value, "mm"), "runout_tir_mm": None}
@@ -275,7 +288,7 @@ def _candidates(work: Work) -> Iterator[tuple[What, tuple[float, ...]]]:
 
 
 def _better(work: Work, what: What, value: float) -> bool:
-    """Whether the steady motion with the autobalancer holds, and is the smaller one."""
+    """True if steady contact with the autobalancer holds and moves less than without it."""
     design = _with(work.design, what, value)
     runout, contact = runout_of(design.case), design.case.contact
     free, without = fitted(design, runout), bare(design, runout)

@@ -1,4 +1,4 @@
-"""What the work of a machine must show for its autobalancer to pass, in `abu grinding`."""
+"""Checks on a machine at its workpiece that its autobalancer must pass, in `abu grinding`."""
 
 from abu_calc.analysis.agreement import AGREES, Agreement
 from abu_calc.analysis.grinding import Work
@@ -56,7 +56,10 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) 
     settled, early = loads.lowered("settled"), loads.lowered("at once")
     if usual.status == "fail" or (usual.status == "not-done" and settled is not False):
         return usual
-    before, worst = work.levels.before, max((one.level for one in loads.ensemble.pressed("settled")), default=None)
+    before, worst = (
+        work.levels.before,
+        max((outcome.level for outcome in loads.ensemble.pressed("settled")), default=None),
+    )
     after = max((level for level in (work.levels.after, worst) if level is not None), default=None)
     if settled is False:
         louder, count = loads.louder("settled"), loads.count("settled")
@@ -79,7 +82,7 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) 
 
 
 def _early_starts(loads: Loads) -> str:
-    """What start cases pressed at once come to, where they do not all lower the level."""
+    """Text on the start cases pressed at once that do not lower the level."""
     louder, count = loads.louder("at once"), loads.count("at once")
     if louder:
         highest = max(outcome.level for outcome in louder)
@@ -91,22 +94,22 @@ def _early_starts(loads: Loads) -> str:
 
 
 def _carried(work: Work) -> Check:
-    balls, one = work.fitted.steady.balls, work.design.autobalancer
+    balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
     needed = abs(balls.needed) if balls else 0.0
-    enough = needed <= one.capacity
+    enough = needed <= autobalancer.capacity
     return coded("ABU422", verdict(enough), "balls side by side against what this contact asks of them",
-                 from_si(one.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
+                 from_si(autobalancer.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
                  None if enough else "More or larger balls, a truer or better balanced wheel, a softer contact.",
                  "least")  # fmt: skip
 
 
 def flutter_limits(work: Work) -> tuple[float, float] | None:
     """Drag [1/s] below which light balls flutter where they stand, and in a cross; None where they do not balance."""
-    balls, case, one = work.fitted.steady.balls, work.design.case, work.design.autobalancer
+    balls, case, autobalancer = work.fitted.steady.balls, work.design.case, work.design.autobalancer
     if balls is None or balls.places not in ("balanced", "restless"):
         return None
     whirl = work.fitted.steady.contact.whirl_per_imbalance
-    cross = loaded_stiffness(whirl, one.ball_mass, case.speed, one.ball_count, 0.0)
+    cross = loaded_stiffness(whirl, autobalancer.ball_mass, case.speed, autobalancer.ball_count, 0.0)
     return flutter_drag(balls.stiffness, case.inertia_factor), flutter_drag(cross, case.inertia_factor)
 
 

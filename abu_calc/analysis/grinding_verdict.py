@@ -1,4 +1,7 @@
-"""What the work of a machine comes to, in words: whether the autobalancer helps, why, and what would change that."""
+"""Verdict on a machine at its workpiece, in words.
+
+It tells whether the autobalancer helps, why, and what would change that.
+"""
 
 import math
 from collections.abc import Sequence
@@ -51,7 +54,7 @@ def starts_in_words(work: Work, loads: Loads | None) -> str:
 
 
 def _level(value: float, side: Side) -> str:
-    """With what chaotic runs scatter."""
+    """Level in words, with the scatter of chaotic runs."""
     return f"{value:.1f} ± {side.scatter:.1f}" if side.scatter else f"{value:.1f}"
 
 
@@ -59,11 +62,11 @@ NOTHING = " Neither a truer wheel, a softer contact nor a harder press was found
 
 
 def changes(tried: Sequence[Remedy], what: str = "What helps") -> str:
-    """What was tried and helps, with the level that it gives; nothing without remedies."""
+    """Sentence on the tried changes that help, with the level of each; empty without any."""
     if not tried:
         return ""
-    told = [f"{_remedy(one)} ({one.levels.after:.1f} dB against {one.levels.before:.1f})" for one in tried]
-    return f" {what}, by trial: {', or '.join(told)}."
+    texts = [f"{_remedy(remedy)} ({remedy.levels.after:.1f} dB against {remedy.levels.before:.1f})" for remedy in tried]
+    return f" {what}, by trial: {', or '.join(texts)}."
 
 
 def shortest(tried: Sequence[Remedy]) -> str | None:
@@ -71,32 +74,32 @@ def shortest(tried: Sequence[Remedy]) -> str | None:
     return f"By trial, {_remedy(tried[0])}." if tried else None
 
 
-def _remedy(one: Remedy) -> str:
-    if one.what == "runout":
-        return f"a runout of {from_si(one.value, 'mm'):g} mm at most"
-    if one.what == "stiffness":
-        return f"a contact of {_plain(one.value)} N/m at most"
-    return f"a press force of {one.value:g} N at least"
+def _remedy(remedy: Remedy) -> str:
+    if remedy.what == "runout":
+        return f"a runout of {from_si(remedy.value, 'mm'):g} mm at most"
+    if remedy.what == "stiffness":
+        return f"a contact of {_plain(remedy.value)} N/m at most"
+    return f"a press force of {remedy.value:g} N at least"
 
 
 def _haste(work: Work) -> str:
-    """What a start with balls on the heavy side comes to."""
+    """Sentence on a start case with the balls on the heavy side."""
     start, level, run = "pressed before the balls have settled", work.level_at_once, work.at_once.run
     if level is None:
         return f"{start[0].upper()}{start[1:]}: not known, {work.at_once.failure or 'no way to compute it holds'}."
-    told = _level(level, work.at_once)
+    level_text = _level(level, work.at_once)
     if work.stays_loud and run is not None:
-        return f"But {start} wheel and work go on bouncing, at {told} dB: so still after {run.duration:.2g} s."
-    return f"But {start} {'they bounce, at' if work.at_once.parts else 'it comes to'} {told} dB."
+        return f"But {start} wheel and work go on bouncing, at {level_text} dB: so still after {run.duration:.2g} s."
+    return f"But {start} {'they bounce, at' if work.at_once.parts else 'it comes to'} {level_text} dB."
 
 
 def _helps(work: Work) -> str:
     contact, case = work.design.case.contact, work.design.case
     if contact is None or contact.kind == "face":
         return "A face does not press in the plane: balls do as they do at idle."
-    balls, one = work.fitted.steady.balls, work.design.autobalancer
+    balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
     if balls is not None and balls.places == "short":
-        carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
+        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
         return f"But the balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for."
     if balls is None or balls.places != "balanced":
         return "But the balls do not stay where they would balance, see ABU423."
@@ -111,7 +114,7 @@ def _helps(work: Work) -> str:
 
 def _worse(work: Work) -> str:
     case, steady = work.design.case, work.fitted.steady
-    balls, one = steady.balls, work.design.autobalancer
+    balls, autobalancer = steady.balls, work.design.autobalancer
     moved = work.design.imbalance.value / case.body.effective_mass()
     runout = f"ε = {_um(case.runout)} {'exceeds' if case.runout > moved else 'against'} m₀e/M = {_um(moved)}"
     if balls is not None and balls.places in ("gathered", "turning"):
@@ -119,7 +122,7 @@ def _worse(work: Work) -> str:
     if balls is not None and balls.places == "restless":
         return f"The balls do not stay where they would balance, see ABU423; {runout}."
     if balls is not None and balls.places == "short":
-        carried, needed = (from_si(each, "g_mm") for each in (one.capacity, abs(balls.needed)))
+        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
         return f"The balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for; {runout}."
     if work.fitted.parts and case.contact is not None:
         force = abs(steady.reaction or 0.0)

@@ -1,4 +1,4 @@
-"""What each hand carries of a machine that is held still in the air."""
+"""Loads on each hand of a machine that is held still in the air."""
 
 from abu_calc.frozen import dataclass
 from abu_calc.sizing.design import Design
@@ -15,10 +15,11 @@ class HeldLoad:
 
 
 def held_loads(design: Design) -> tuple[HeldLoad, ...] | None:
-    """By the lever of two handles, the machine's centre of mass between or outside them; None where that does not tell.
+    """Load on each handle by the lever of two handles; None if statics does not give it.
 
-    Equilibrium of a horizontal spindle: F₁ + F₂ = (M + m)g, F₁p₁ + F₂p₂ = m·g·a_r, places from the centre of mass of
-    machine and wheel, the autobalancer in the plane of its race. One handle carries all; of three no statics tells.
+    The machine's centre of mass may lie between or outside the handles. Equilibrium of a horizontal
+    spindle: F₁ + F₂ = (M + m)g, F₁p₁ + F₂p₂ = m·g·a_r, places from the centre of mass of machine and wheel,
+    the autobalancer in the plane of its race. One handle carries all; three are statically indeterminate.
     """
     case, added = design.case, design.autobalancer.mass
     handles = case.handles
@@ -36,4 +37,6 @@ def held_loads(design: Design) -> tuple[HeldLoad, ...] | None:
         return at_first, weight - at_first
 
     bare, fitted = share(0.0), share(added)
-    return tuple(HeldLoad(one.name, before, after) for one, before, after in zip(handles, bare, fitted, strict=True))
+    return tuple(
+        HeldLoad(handle.name, before, after) for handle, before, after in zip(handles, bare, fitted, strict=True)
+    )

@@ -1,4 +1,4 @@
-"""What the many starts of an idle machine must show for its design to pass, in `abu size`."""
+"""Checks on the many start cases of an idle machine that its design must pass, in `abu size`."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -33,8 +33,8 @@ def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | Non
         reason = "the balls cannot carry the imbalance side by side"
         return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in JUDGED)
     first = _balances(design, ensemble, remedy)
-    told = SEE if first.remedy else remedy
-    return first, _settles(design, ensemble, told), _none_hangs(ensemble, told)
+    advice = SEE if first.remedy else remedy
+    return first, _settles(design, ensemble, advice), _none_hangs(ensemble, advice)
 
 
 def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = None) -> Check:
@@ -52,9 +52,9 @@ def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = N
         return closed
     if given.level > closed.limit and given.level > closed.value:
         # A truer race helps where the closed form fails, too; what helps a start that does not balance was tried.
-        told = closed.remedy if closed.status == "fail" and given.balanced else remedy
+        advice = closed.remedy if closed.status == "fail" and given.balanced else remedy
         message = f"simulated, the loudest start is {_named(given)}"
-        return coded("ABU401", "fail", message, given.level, closed.limit, "dB", told or BALANCE)
+        return coded("ABU401", "fail", message, given.level, closed.limit, "dB", advice or BALANCE)
     if closed.status == "pass" and worst.level > closed.limit:
         return coded("ABU401", "warn", f"kept at the drag given, but not {_named(worst)}: {worst.level:.1f} dB",
                      max(given.level, closed.value), closed.limit, "dB")  # fmt: skip
@@ -66,18 +66,18 @@ def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = N
 
 def _balances(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
     given = ensemble.given
-    failing = [one for one in given if not one.balanced]
-    worst = max(given, key=lambda one: one.imbalance, default=None)
-    status = _grade(ensemble, lambda one: one.balanced)
+    failing = [outcome for outcome in given if not outcome.balanced]
+    worst = max(given, key=lambda outcome: outcome.imbalance, default=None)
+    status = _grade(ensemble, lambda outcome: outcome.balanced)
     left = f"{ensemble.balanced} of {ensemble.members} starts balance"
-    others = failing or [one for one in ensemble.outcomes if not one.balanced]
+    others = failing or [outcome for outcome in ensemble.outcomes if not outcome.balanced]
     if others:
         left += f"; not {_listed(others)}"
     moved = design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio)
     if worst and worst.imbalance > moved:
         left += "; the balls make it worse, they gather on the heavy side or hang"
-    for one in ensemble.lost[:1]:
-        left += f"; without an answer {_words(one.member.name, one.member.drag)}: {one.reason}"
+    for lost in ensemble.lost[:1]:
+        left += f"; without an answer {_words(lost.member.name, lost.member.drag)}: {lost.reason}"
     value, limit = (worst.imbalance, worst.allowed) if worst else (None, None)
     return coded("ABU701", status, f"{left}; imbalance left by the worst", _g_mm(value), _g_mm(limit), "g·mm",
                  None if status == "pass" else remedy)  # fmt: skip
@@ -85,29 +85,29 @@ def _balances(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
 
 def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
     limit = design.case.table.limits.settling_time_s
-    status = _grade(ensemble, lambda one: one.time <= limit)
-    if status == "fail" and balanced_well(design) and all(one.balanced for one in ensemble.given):
+    status = _grade(ensemble, lambda outcome: outcome.time <= limit)
+    if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
         message = "the wheel is balanced so well that balls creep to their places; none leaves more than is allowed"
         return coded("ABU702", "warn", message, None, limit, "s")
-    late = max(ensemble.given, key=lambda one: one.time, default=None)
-    latest = max(ensemble.outcomes, key=lambda one: one.time, default=None)
+    late = max(ensemble.given, key=lambda outcome: outcome.time, default=None)
+    latest = max(ensemble.outcomes, key=lambda outcome: outcome.time, default=None)
     message = "no start gave an answer" if late is None else f"the slowest start is {_named(late)}"
     if status == "warn" and latest and latest.time > limit:
         when = "never" if math.isinf(latest.time) else f"{latest.time:.3g} s"
         message += f"; {_named(latest)}: {when}"
     if guided(design, 0.0).pause:
         message += "; counted from full speed, after the pause"
-    elif any(one.member.run_up for one in ensemble.given):
+    elif any(outcome.member.run_up for outcome in ensemble.given):
         message += "; counted from full speed, after the run-up"
     value = None if late is None or math.isinf(late.time) else late.time
     return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)
 
 
 def _none_hangs(ensemble: Ensemble, remedy: str | None) -> Check:
-    status = _grade(ensemble, lambda one: not one.hanging)
+    status = _grade(ensemble, lambda outcome: not outcome.hanging)
     message = "no start leaves balls going round behind the rotor"
-    for one in ensemble.lost[:1]:
-        message += f"; without an answer {_words(one.member.name, one.member.drag)}"
+    for lost in ensemble.lost[:1]:
+        message += f"; without an answer {_words(lost.member.name, lost.member.drag)}"
     if ensemble.hanging:
         message = f"balls hang {_listed(ensemble.hanging)}"
     return coded("ABU704", status, message, float(len(ensemble.hanging)), 0.0, "starts",
@@ -119,19 +119,19 @@ def _grade(ensemble: Ensemble, good: Callable[[Outcome], bool]) -> Grade:
     given = ensemble.given
     if not all(map(good, given)):
         return "fail"
-    if not given or any(one.member.drag == ensemble.drag for one in ensemble.lost):
+    if not given or any(lost.member.drag == ensemble.drag for lost in ensemble.lost):
         return "not-done"
     return verdict(True, all(map(good, ensemble.outcomes)) and not ensemble.lost)
 
 
 def _loudest(outcomes: Iterable[Outcome]) -> Outcome | None:
-    return max(outcomes, key=lambda one: one.level, default=None)
+    return max(outcomes, key=lambda outcome: outcome.level, default=None)
 
 
-def _named(one: Outcome) -> str:
+def _named(outcome: Outcome) -> str:
     """The start in words, with the race's centre unless that is opposite the imbalance, as in other commands."""
-    side = "" if one.member.eccentricity == OPPOSITE else f", race centre {one.member.race_centre_deg:g}°,"
-    return _words(f"{one.member.name}{side}", one.member.drag)
+    side = "" if outcome.member.eccentricity == OPPOSITE else f", race centre {outcome.member.race_centre_deg:g}°,"
+    return _words(f"{outcome.member.name}{side}", outcome.member.drag)
 
 
 def _words(name: str, drag: float) -> str:
@@ -140,7 +140,7 @@ def _words(name: str, drag: float) -> str:
 
 def _listed(outcomes: Iterable[Outcome]) -> str:
     """The first few in words."""
-    names = [_named(one) for one in outcomes]
+    names = [_named(outcome) for outcome in outcomes]
     more = f" and {len(names) - 2} more" if len(names) > 2 else ""
     return "from " + ", ".join(names[:2]) + more
 

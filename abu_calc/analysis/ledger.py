@@ -1,4 +1,4 @@
-"""Which effects of a scene are simulated: those whose absence would be seen at the accuracy asked for."""
+"""Choice of the effects to simulate: those whose absence would be seen at the requested accuracy."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -10,7 +10,10 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
 
 SHARE: Final = 0.5
-"""Of the accuracy; what all effects left out may weigh together. The rest is for the errors of integration."""
+"""Share of the accuracy that all omitted effects together may use.
+
+The rest is for the errors of integration.
+"""
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class Ledger:
 
     @property
     def promise(self) -> float:
-        """What the effects left out should change at most, where that is known."""
+        """Largest expected influence of the omitted effects, as far as it is known."""
         return sum((entry.weight or 0.0) for entry in self.entries if not entry.included)
 
 

@@ -1,4 +1,8 @@
-"""What levels say of the limits: octaves, corrected total (GOST 17770-86), daily exposure (Directive 2002/44/EC)."""
+"""Checks of levels against limits.
+
+They cover octaves, the weighted overall level (GOST 17770-86) and the daily exposure (Directive
+2002/44/EC).
+"""
 
 import math
 from collections.abc import Sequence
@@ -18,46 +22,49 @@ LONGER: Final = "A longer record, or one sampled faster."
 
 
 def level_checks(places: Sequence[PlaceLevels], minutes: float | None) -> tuple[Check, ...]:
-    """Of the loudest place: octave by octave, corrected, and the daily exposure where its minutes are given."""
+    """Checks of the loudest place: each octave, the weighted overall level, and the daily exposure.
+
+    The daily exposure is checked if its minutes are given.
+    """
     count = len(places[0].axes[0].bands)
     octaves = tuple(_octave(places, index) for index in range(count))
     return (*octaves, _corrected(places), *([] if minutes is None else [_exposure(places, minutes)]))
 
 
 def _octave(places: Sequence[PlaceLevels], index: int) -> Check:
-    place, band = max(((one, one.loudest(index)) for one in places), key=lambda pair: pair[1].velocity or -1.0)
+    place, band = max(((point, point.loudest(index)) for point in places), key=lambda pair: pair[1].velocity or -1.0)
     name, limit = f"{band.octave.nominal:g} Hz", band.octave.limit.level
     if band.velocity is None:
         return coded("ABU411", "not-done", band.reason or "not known", None, limit, "dB", LONGER, of=name)
-    found = level(band.velocity)
-    kept = found is None or found <= limit
-    return coded("ABU411", verdict(kept), f"rms velocity, {_axis_of(place, band, index)}", found, limit, "dB", of=name)
+    actual = level(band.velocity)
+    kept = actual is None or actual <= limit
+    return coded("ABU411", verdict(kept), f"rms velocity, {_axis_of(place, band, index)}", actual, limit, "dB", of=name)
 
 
 def _axis_of(place: PlaceLevels, band: Band, index: int) -> str:
-    axis = next(one for one in place.axes if one.bands[index] is band)
+    axis = next(candidate for candidate in place.axes if candidate.bands[index] is band)
     return axis.name if place.name == axis.name or len(place.axes) == 1 else f"{place.name}, {axis.name}"
 
 
 def _corrected(places: Sequence[PlaceLevels]) -> Check:
     """A total that lacks octaves is at least so high: it can fail, not pass."""
-    limit, found = corrected_limit().level, level(largest(one.corrected for one in places))
-    if found is not None and found > limit:
-        return coded("ABU412", "fail", "all octaves, that of 8 Hz at half its velocity", found, limit, "dB")
-    if not all(one.complete for one in places):
-        return coded("ABU412", "not-done", "octaves are missing in it", found, limit, "dB", LONGER)
-    return coded("ABU412", "pass", "all octaves, that of 8 Hz at half its velocity", found, limit, "dB")
+    limit, total_level = corrected_limit().level, level(largest(place.corrected for place in places))
+    if total_level is not None and total_level > limit:
+        return coded("ABU412", "fail", "all octaves, that of 8 Hz at half its velocity", total_level, limit, "dB")
+    if not all(place.complete for place in places):
+        return coded("ABU412", "not-done", "octaves are missing in it", total_level, limit, "dB", LONGER)
+    return coded("ABU412", "pass", "all octaves, that of 8 Hz at half its velocity", total_level, limit, "dB")
 
 
 def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     """Against the limit; a warning above the action value, or where axes that were not measured leave it open."""
     limit, action = exposure_limit_value(), exposure_action_value()
-    totals = [one.total for one in places]
-    found = largest(totals)
-    if found is None or None in totals:
-        reason = next(axis.reason for one in places for axis in one.axes if axis.weighted is None)
+    totals = [place.total for place in places]
+    largest_total = largest(totals)
+    if largest_total is None or None in totals:
+        reason = next(axis.reason for place in places for axis in place.axes if axis.weighted is None)
         return coded("ABU413", "not-done", reason or "not known", None, limit, "m/s²", LONGER)
-    exposure = daily_exposure(found, 60 * minutes)
+    exposure = daily_exposure(largest_total, 60 * minutes)
     highest = daily_exposure(max(map(_highest_total, places)), 60 * minutes)
     message = f"A(8) of {minutes:g} minutes a day; {action:g} m/s² calls for measures"
     if highest > exposure * (1 + 1e-9):

@@ -69,7 +69,7 @@ class PlaceLevels:
 
     @property
     def corrected(self) -> float | None:
-        """Of the axis where it is largest [m/s]."""
+        """Weighted velocity of the axis where it is largest [m/s]."""
         return largest(axis.corrected for axis in self.axes)
 
     @property
@@ -84,7 +84,7 @@ class PlaceLevels:
 
     @property
     def complete(self) -> bool:
-        """Whether every octave is known."""
+        """True if every octave is known."""
         return all(band.velocity is not None for axis in self.axes for band in axis.bands)
 
     def loudest(self, index: int) -> Band:
@@ -93,7 +93,7 @@ class PlaceLevels:
 
 
 def largest(values: Iterable[float | None]) -> float | None:
-    """Of those that are known."""
+    """Largest of the known values; None if there is none."""
     return max((value for value in values if value is not None), default=None)
 
 
@@ -103,11 +103,15 @@ def level(velocity: float | None) -> float | None:
 
 
 def axis_levels(name: str, signal: Signal) -> AxisLevels:
-    """Of a signal. Its whole velocity: rms about the mean from its start on, of accelerations that of the octaves."""
+    """Levels of a signal along one axis.
+
+    The whole velocity is the rms about the mean from the signal's start on; for accelerations it is that of
+    the octaves.
+    """
     bands = tuple(_band(signal, octave) for octave in octaves())
     wide = place_filter(), acceleration_filter(), hand_arm_filter()
     reason = why_not(signal, wide[0])
-    place, acceleration, weighted = (band_rms(signal, one) if reason is None else None for one in wide)
+    place, acceleration, weighted = (band_rms(signal, weighting) if reason is None else None for weighting in wide)
     return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason)
 
 
@@ -136,7 +140,7 @@ def _whole(signal: Signal, bands: Sequence[Band]) -> float | None:
 
 
 def halves_differ(signal: Signal) -> float | None:
-    """By how much the second half of what is averaged is louder than the first [dB]; None where one is silent."""
+    """Level of the second half of the averaged signal over the first half [dB]; None if a half is silent."""
     values = np.asarray(signal.samples[math.ceil(signal.start * signal.rate) :], dtype=float)
     first, second = (float(np.std(half)) for half in np.array_split(values, 2))
     return 20 * math.log10(second / first) if first > 0 and second > 0 else None

@@ -24,7 +24,7 @@ def work_of(
 
 
 def loaded_levels(design: Design, work: Work | Failure | None) -> Loaded | None:
-    """What steady contact and runs say: pressed when the balls have settled, and at once."""
+    """Levels by steady contact and runs: pressed after the balls have settled, and at once."""
     steady = design.loaded
     if steady is None or work is None:
         return steady

@@ -51,7 +51,7 @@ class LoadedGroup:
 
     @property
     def share(self) -> float:
-        """Of the start cases of that way of pressing, those without an answer included."""
+        """Share among the start cases of that way of pressing, those without an answer included."""
         return self.count / self.all
 
 
@@ -69,13 +69,13 @@ def state_of(work: Work, outcome: LoadedOutcome) -> State:
         return "stalled"
     if outcome.swings:
         return "swinging"
-    steady, one = work.fitted.steady, work.design.autobalancer
+    steady, autobalancer = work.fitted.steady, work.design.autobalancer
     balls = steady.balls
     friction = work.design.case.friction_arm > 0
     if balls is None or balls.places not in ("balanced", "restless"):
         return "held by friction" if balls is not None and balls.places == "turning" and friction else "not balanced"
     wanted = _without_friction(work, outcome)
-    near = max(SAME * abs(wanted), HARDLY * abs(work.design.imbalance.value * one.requirement.plane_ratio))
+    near = max(SAME * abs(wanted), HARDLY * abs(work.design.imbalance.value * autobalancer.requirement.plane_ratio))
     if abs(outcome.imbalance - wanted) <= near:
         return "balanced"
     return "held by friction" if friction else "not balanced"
@@ -87,30 +87,30 @@ def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
     G·U + runout's part + Δ·e^{iβ} = 0 with the whirl G per imbalance: U = U₀ − Δ·e^{iβ}/G, where U₀ is that of a
     race on the axis. Source: derived, from `formulas.contact`; race in the plane of the wheel.
     """
-    steady, case, one = work.fitted.steady, work.design.case, work.design.autobalancer
+    steady, case, autobalancer = work.fitted.steady, work.design.case, work.design.autobalancer
     centre = cmath.rect(case.race_eccentricity, outcome.start.member.eccentricity)
-    ratio = one.requirement.plane_ratio
+    ratio = autobalancer.requirement.plane_ratio
     on_axis = work.design.imbalance.value * abs(ratio) + (steady.balls.needed if steady.balls else 0j)
     return on_axis - centre / steady.contact.whirl_per_imbalance
 
 
 def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
-    """Of each way of pressing the motions it ends with, the loudest first.
+    """Motions that start cases end with, for each way of pressing, the loudest first.
 
     Levels of one state that leave a gap of more than 1 dB are two motions, and of more by as much as they still change.
     Balls held by friction may rest anywhere within a band, so that they are one.
     """
-    found: list[LoadedGroup] = []
+    groups: list[LoadedGroup] = []
     for when in ("settled", "at once"):
         outcomes = ensemble.pressed(when)
         count = len(outcomes) + len(ensemble.without_answer(when))
         by_state: dict[State, list[LoadedOutcome]] = {}
-        for outcome in sorted(outcomes, key=lambda one: one.level):
+        for outcome in sorted(outcomes, key=lambda candidate: candidate.level):
             by_state.setdefault(state_of(work, outcome), []).append(outcome)
         groups = [_group(when, state, part, count) for state, several in by_state.items()
                   for part in _parts(state, several)]  # fmt: skip
-        found += sorted(groups, key=lambda group: -group.highest)
-    return tuple(found)
+        groups += sorted(groups, key=lambda group: -group.highest)
+    return tuple(groups)
 
 
 def _parts(state: State, outcomes: Sequence[LoadedOutcome]) -> list[list[LoadedOutcome]]:
@@ -163,24 +163,26 @@ class Loads:
         return max(self.groups, key=lambda group: group.highest, default=None)
 
     def lowered(self, when: Pressed) -> bool | None:
-        """Whether every start case of one way of pressing ends below the level without the autobalancer.
+        """True if every start case of one way of pressing ends below the level without the autobalancer.
 
         False if one does not. None if one has no answer, or its level is too near to tell: they differ by no more than
         chaotic runs scatter.
         """
-        found = [below(outcome.level, self.before, self._doubt(outcome)) for outcome in self.ensemble.pressed(when)]
-        if False in found:
+        answers = [below(outcome.level, self.before, self._doubt(outcome)) for outcome in self.ensemble.pressed(when)]
+        if False in answers:
             return False
-        return None if None in found or not found or self.ensemble.without_answer(when) else True
+        return None if None in answers or not answers or self.ensemble.without_answer(when) else True
 
     def count(self, when: Pressed) -> int:
-        """How many start cases of one way of pressing there are, those without an answer included."""
+        """Number of start cases of one way of pressing, those without an answer included."""
         return len(self.ensemble.pressed(when)) + len(self.ensemble.without_answer(when))
 
     def louder(self, when: Pressed) -> tuple[LoadedOutcome, ...]:
         """The start cases that do not end below the level without the autobalancer, the loudest last."""
-        outcomes = sorted(self.ensemble.pressed(when), key=lambda one: one.level)
-        return tuple(one for one in outcomes if below(one.level, self.before, self._doubt(one)) is False)
+        outcomes = sorted(self.ensemble.pressed(when), key=lambda outcome: outcome.level)
+        return tuple(
+            outcome for outcome in outcomes if below(outcome.level, self.before, self._doubt(outcome)) is False
+        )
 
     def _doubt(self, outcome: LoadedOutcome) -> float:
         own = max(outcome.drift if outcome.drift > STEADY else 0.0, self.bouncing if outcome.parts else 0.0)

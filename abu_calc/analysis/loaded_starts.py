@@ -33,7 +33,7 @@ from abu_calc.sizing.vibration import handle_levels
 Pressed = Literal["settled", "at once"]
 
 TOLERANCE: Final = 2e-5
-"""Of the runs. Levels of the presets and of an angle grinder are the same at 2e-4, to 0.1 dB."""
+"""Tolerance of the runs. Levels of the presets and of an angle grinder are the same at 2e-4, to 0.1 dB."""
 
 WORK: Final = 400_000
 """Evaluations of one run, in SciPy's: that of an idle start."""
@@ -57,7 +57,7 @@ MOVING: Final = 0.05
 """Angle [rad] through which a ball swings in the race that counts as swinging: three degrees."""
 
 FEW: Final = 4
-"""Of each way of pressing, where a machine is sized: each kind of start once, the race off to either side in turn."""
+"""Start cases of each way of pressing when a machine is sized: each kind once, the race off to either side in turn."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class LoadedStart:
 
     @property
     def name(self) -> str:
-        """In words."""
+        """Name of the start case in words."""
         return f"{self.member.name}, race centre {self.member.race_centre_deg:g}°, pressed {WHEN[self.pressed]}"
 
 
@@ -78,7 +78,7 @@ WHEN: Final[dict[str, str]] = {"settled": "after the balls settled", "at once": 
 
 @dataclass(frozen=True)
 class LoadedOutcome:
-    """What one start case ends with: the level [dB] at the loudest handle over the last third of the run.
+    """Outcome of one start case: the level [dB] at the loudest handle over the last third of the run.
 
     `velocity` [m/s] rms, the larger of both axes; `drift` [dB]: change of the level within that time; `apart`: share
     of it in which wheel and workpiece do not touch; `imbalance` [kg m] of wheel and balls in the race plane; `slip`:
@@ -99,12 +99,12 @@ class LoadedOutcome:
 
     @property
     def stalls(self) -> bool:
-        """Whether a ball keeps going round in the race."""
+        """True if a ball keeps going round in the race."""
         return self.slip > SLIPPING
 
     @property
     def swings(self) -> bool:
-        """Whether a ball keeps swinging in the race."""
+        """True if a ball keeps swinging in the race."""
         return self.swing > MOVING
 
 
@@ -125,7 +125,7 @@ class LoadedEnsemble:
 
     @property
     def count(self) -> int:
-        """How many start cases there are, those without an answer included."""
+        """Number of start cases, those without an answer included."""
         return len(self.outcomes) + len(self.lost)
 
     def pressed(self, when: Pressed) -> tuple[LoadedOutcome, ...]:
@@ -156,11 +156,11 @@ def loaded_ensemble(
     def told(done: int) -> None:
         progress(Stage(f"grinding: {done} of {len(tasks)} starts", done / len(tasks)))
 
-    found = list(side_by_side(loaded_start, tasks, workers, told))
+    outcomes = list(side_by_side(loaded_start, tasks, workers, told))
     longer = MOST_LONGER if most is None else FEW_LONGER
-    found = _longer(design, found, accuracy, progress, workers, longer)
-    lost += [outcome for outcome in found if isinstance(outcome, LoadedLost)]
-    return LoadedEnsemble(tuple(outcome for outcome in found if isinstance(outcome, LoadedOutcome)), tuple(lost))
+    outcomes = _longer(design, outcomes, accuracy, progress, workers, longer)
+    lost += [outcome for outcome in outcomes if isinstance(outcome, LoadedLost)]
+    return LoadedEnsemble(tuple(outcome for outcome in outcomes if isinstance(outcome, LoadedOutcome)), tuple(lost))
 
 
 def _settled(
@@ -247,33 +247,35 @@ def _rms(squares: Array) -> float:
 
 
 def _level(design: Design, velocity: float) -> float:
-    """At the loudest handle [dB]."""
+    """Level at the loudest handle [dB]."""
     moved = math.sqrt(2) * velocity / design.case.speed
     level = handle_levels(design.case, None, moved, design.autobalancer.mass).worst.after
     return -math.inf if level is None else level
 
 
 def _longer(
-    design: Design, found: list[LoadedOutcome | LoadedLost], accuracy: float, progress: Progress, workers: int,
+    design: Design, outcomes: list[LoadedOutcome | LoadedLost], accuracy: float, progress: Progress, workers: int,
     most: int,
 ) -> list[LoadedOutcome | LoadedLost]:  # fmt: skip
     """Run at most so many again for longer whose level is not steady, or that bounce louder than the quietest.
 
     They may go over to another motion yet. A run that fails leaves the first one.
     """
-    levels = [outcome.level for outcome in found if isinstance(outcome, LoadedOutcome)]
+    levels = [outcome.level for outcome in outcomes if isinstance(outcome, LoadedOutcome)]
     if not levels:
-        return found
+        return outcomes
     doubtful = [
         k
-        for k, outcome in enumerate(found)
+        for k, outcome in enumerate(outcomes)
         if isinstance(outcome, LoadedOutcome) and outcome.duration < LONGEST
         and (outcome.drift > STEADY or (outcome.parts and outcome.level > min(levels) + 2 * STEADY))
     ][:most]  # fmt: skip
-    tasks = [(design, found[k].start, accuracy, LONGEST) for k in doubtful]
+    tasks = [(design, outcomes[k].start, accuracy, LONGEST) for k in doubtful]
 
     def told(done: int) -> None:
         progress(Stage(f"grinding, longer: {done} of {len(tasks)} starts", done / len(tasks)))
 
     longer = dict(zip(doubtful, side_by_side(loaded_start, tasks, workers, told), strict=True))
-    return [later if isinstance(later := longer.get(k), LoadedOutcome) else outcome for k, outcome in enumerate(found)]
+    return [
+        later if isinstance(later := longer.get(k), LoadedOutcome) else outcome for k, outcome in enumerate(outcomes)
+    ]

@@ -22,7 +22,7 @@ ALWAYS: Final = ("wheel waviness", "forces of chip formation")
 
 @dataclass(frozen=True)
 class LowerBound:
-    """What sets a level under load in the model, and what the model lacks; `total` a_hv [m/s²] of the level.
+    """Excitation that sets a level under load in the model, and what the model lacks; `total` a_hv [m/s²] of the level.
 
     `total` None: the speed is beyond the range of W_h.
     """
@@ -45,7 +45,7 @@ class LowerBound:
 
 
 def lower_bound(level: float | None, case: Case) -> LowerBound | None:
-    """Whether a level under load [dB], at the loudest handle, is a lower bound; None if the level is not known.
+    """Lower bound that a level under load [dB] at the loudest handle may be; None if the level is not known.
 
     It is one if its weighted total is below `LEAST`; or if a contact presses in the plane of the wheel and the file
     gives a wheel without runout: then nothing but the imbalance that the balls remove drives the machine. What the

@@ -54,8 +54,8 @@ def simulated(
         if watched is silent:
             progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
 
-    found = list(side_by_side(_simulated, tasks, workers, told))
-    return tuple(one for one in found if isinstance(one, Run)), tuple(one for one in found if isinstance(one, Failure))
+    runs = list(side_by_side(_simulated, tasks, workers, told))
+    return tuple(run for run in runs if isinstance(run, Run)), tuple(run for run in runs if isinstance(run, Failure))
 
 
 def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -> Run | Failure:

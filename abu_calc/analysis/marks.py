@@ -1,4 +1,7 @@
-"""When the zero mark passes its sensor: from pulses of either polarity, square or rounded, to times of revolutions."""
+"""Passages of the zero mark at its sensor.
+
+Pulses of either polarity, square or rounded, give the times of revolutions.
+"""
 
 from typing import Final, Literal
 
@@ -15,7 +18,7 @@ Edge = Literal["leading", "middle", "trailing"]
 
 LOW: Final = 0.3
 HIGH: Final = 0.7
-"""Of a pulse's height: it begins beyond HIGH and ends below LOW, so that noise makes none."""
+"""Shares of a pulse's height: it begins above HIGH and ends below LOW, so that noise makes no pulse."""
 ALIKE: Final = 0.1
 """Part of a revolution by which the mark must be longer up than down, or down than up."""
 CLEAR: Final = 6.0
@@ -37,9 +40,9 @@ class Passages:
     width: float
     square: bool
     step: float
-    """Between samples [s]."""
+    """Time between samples [s]."""
     unsure: float
-    """By how much the passages may all be off [s], since samples do not tell them more closely."""
+    """Possible common error of all passages [s], limited by the sampling."""
 
 
 def passages(time: Array, mark: Array, edge: Edge | None = None) -> Passages:
@@ -101,13 +104,13 @@ def _upward(mark: Array) -> tuple[Array, bool]:
 
 
 def _begins_at_the_mark(signal: Array, rises: Indices, falls: Indices) -> bool:
-    """Whether the record begins with a pulse, and with its first sample: it was started by the mark."""
+    """True if the record begins with a whole pulse at its first sample: the mark started the record."""
     length = int(np.median(falls[:, 1] - rises[:, 1]))
     return bool(signal[0] > HIGH) and int(np.argmax(signal < LOW)) == length
 
 
 def _edges(signal: Array) -> tuple[Indices, Indices]:
-    """Of every whole pulse the last sample before and the first after its rise, and likewise of its fall."""
+    """Return the last sample before and the first after each whole pulse's rise, and likewise its fall."""
     high, low = signal > HIGH, signal < LOW
     places = np.arange(len(signal))
     last = np.maximum.accumulate(np.where(high | low, places, -1))
@@ -127,13 +130,13 @@ def _edges(signal: Array) -> tuple[Indices, Indices]:
 
 def _crossings(time: Array, signal: Array, before: Indices, after: Indices) -> Array:
     """Times at half height, by the straight line through the samples of each edge."""
-    found = []
+    edge_times = []
     for first, last in zip(before, after, strict=True):
         times, heights = time[first : last + 1], signal[first : last + 1]
         spread = heights - heights.mean()
         slope = float(spread @ (times - times.mean()) / (spread @ spread))
-        found.append(times.mean() + slope * (0.5 - heights.mean()))
-    return np.array(found)
+        edge_times.append(times.mean() + slope * (0.5 - heights.mean()))
+    return np.array(edge_times)
 
 
 def _between_samples(time: Array, before: Indices, after: Indices, *, first: bool) -> tuple[Array, float]:
@@ -158,9 +161,9 @@ def smooth(times: Array) -> Array:
     where = 2 * counts / max(len(times) - 1, 1) - 1
     best, least = times, np.inf
     for degree in range(1, min(6, len(times) - 2) + 1):
-        told = np.asarray(polynomial.polyval(where, polynomial.polyfit(where, times, degree)), dtype=np.float64)
-        error = float(np.mean((times - told) ** 2)) + (1e-9 * float(np.ptp(times))) ** 2
+        fitted = np.asarray(polynomial.polyval(where, polynomial.polyfit(where, times, degree)), dtype=np.float64)
+        error = float(np.mean((times - fitted) ** 2)) + (1e-9 * float(np.ptp(times))) ** 2
         worth = len(times) * np.log(error) + 2 * degree * np.log(len(times))
         if worth < least:
-            best, least = told, worth
+            best, least = fitted, worth
     return best

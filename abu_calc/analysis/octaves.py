@@ -18,7 +18,10 @@ from abu_calc.units import from_si
 Array = NDArray[np.float64]
 
 ORDER: Final = 12
-"""Of the Butterworth band pass: within 0.01 dB over three quarters of an octave, 78 dB down amid the next one."""
+"""Order of the Butterworth band pass.
+
+It is within 0.01 dB over three quarters of an octave, and 78 dB down in the middle of the next one.
+"""
 SETTLED: Final = 28.0
 """Periods of a band's centre until its filter has settled to 0.01 dB."""
 FADED: Final = 0.3
@@ -30,7 +33,7 @@ WIDE_PERIOD: Final = 1 / 50
 LEAST: Final = SETTLED + 2 * RAMP
 """Periods of a band's centre that a record must last."""
 SHARE_OF_NYQUIST: Final = 0.9
-"""Of half the sampling rate, up to which a record is believed."""
+"""Share of half the sampling rate up to which a record is trusted."""
 BLOCK: Final = 2**18
 """Samples that are filtered at once."""
 
@@ -61,7 +64,7 @@ class Signal:
 
     @property
     def duration(self) -> float:
-        """Of the record [s]."""
+        """Duration of the record [s]."""
         return len(self.samples) / self.rate
 
 
@@ -179,12 +182,15 @@ def _filtered(signal: Signal, band: Filter, first: int) -> Iterator[tuple[Array,
 
 
 def _response(signal: Signal, band: Filter, frequencies: Array) -> NDArray[np.complex128]:
-    """Of a filter to a signal at frequencies [rad/s]; nothing three octaves away, where 200 dB are left."""
-    found = np.zeros(len(frequencies), dtype=np.complex128)
+    """Response of a filter to a signal at frequencies [rad/s].
+
+    It is set to zero three octaves away, where it is 200 dB down.
+    """
+    response = np.zeros(len(frequencies), dtype=np.complex128)
     near = (frequencies > band.low / 8) & (frequencies < 8 * band.high)
     s = np.asarray(1j * frequencies[near], dtype=np.complex128)
-    found[near] = band.response(s) * s ** (-signal.derivative)
-    return found
+    response[near] = band.response(s) * s ** (-signal.derivative)
+    return response
 
 
 def folded_share(signal: Signal) -> float:

@@ -1,4 +1,4 @@
-"""What one machine comes to that is built and switched on once."""
+"""Results of one machine that is built and switched on once."""
 
 from dataclasses import replace
 
@@ -23,11 +23,11 @@ def machine_started(design: Design, start: SwitchedOn, lighter: tuple[float, ...
     """One start of one machine, by one run with every effect there is data for. Raises NotTrustworthyError."""
     scene, _ = with_parted_balls(scene_switched_on(design, start, lighter))
     response = _response(scene, tolerance, WORK)
-    found = outcome_of(design, start.member(design), scene, response)
-    if found.balanced or found.hanging or found.imbalance > HALF * scene.imbalance:
-        return found
+    outcome = outcome_of(design, start.member(design), scene, response)
+    if outcome.balanced or outcome.hanging or outcome.imbalance > HALF * scene.imbalance:
+        return outcome
     # Only where it decides: the worst arrangement of balls that friction holds takes longer than all the rest.
-    return replace(found, allowed=allowed_imbalance(with_worst(design), scene.imbalance))
+    return replace(outcome, allowed=allowed_imbalance(with_worst(design), scene.imbalance))
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What one run of a machine says of the limits in its file."""
+"""Checks of one run of a machine against the limits in its file."""
 
 import math
 from collections.abc import Callable
@@ -17,7 +17,7 @@ HELD: Final = frozenset({"idle", "run-up", "grinding"})
 LIMITED: Final = frozenset({"idle", "run-up"})
 """Scenes that the limits of a file are for; under load a level is information."""
 Level = Callable[[float], float]
-"""Of a velocity of the axis, rms [m/s], the level [dB]."""
+"""Function from the rms velocity of the axis [m/s] to the level [dB]."""
 LAST: Final = 0.95
 """Share of a run by which balls must have settled to count as settled."""
 TRIES: Final = "abu size tries what helps."
@@ -80,10 +80,11 @@ def _level_of(design: Design, response: Response, place: float) -> Level:
 def one_run_checks(
     design: Design, response: Response, start: str, error: float = 0.0, *, asked: bool = False
 ) -> tuple[Check, ...]:
-    """Whether the balls balance, soon enough, and the level is kept: for the scenes that idle at full speed.
+    """Check that the balls balance, settle in time and keep the level.
 
-    `start`: how the balls began, in words; `error`: of the run, relative; `asked`: its duration was asked for: where it
-    ends too soon to tell, the checks are not done. After a run-up settling counts from full speed.
+    Only scenes that idle at full speed are checked. `start`: the start case in words; `error`: of the run,
+    relative; `asked`: the user set its duration. If such a run ends too soon to judge, the checks are NOT
+    EVALUATED. After a run-up, settling counts from full speed.
     """
     if response.scene not in LIMITED:
         return ()
@@ -99,10 +100,13 @@ def one_run_checks(
 
 
 def _balancing(design: Design, response: Response, start: str) -> tuple[Check, ...]:
-    """That the balls balance, and soon enough; not done where, side by side, they cannot carry the imbalance."""
-    one, limit = design.autobalancer, design.case.table.limits.settling_time_s
-    moved = design.imbalance.value * abs(one.requirement.plane_ratio)
-    if one.capacity < moved:
+    """Check that the balls balance, and in time.
+
+    NOT EVALUATED if balls side by side cannot carry the imbalance.
+    """
+    autobalancer, limit = design.autobalancer, design.case.table.limits.settling_time_s
+    moved = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
+    if autobalancer.capacity < moved:
         reason = "the balls cannot carry the imbalance side by side"
         return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in ("ABU701", "ABU702"))
     left, allowed, time = response.residual_imbalance, allowed_imbalance(design, moved), response.settling_time
@@ -125,7 +129,7 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
 
 def _level(design: Design, response: Response, error: float) -> Check:
     """The loudest place against the limit; a warning where the error of the run leaves it open."""
-    loudest, limit = max(levels_at_places(design, response), key=lambda one: one.level), design.case.level_limit
+    loudest, limit = max(levels_at_places(design, response), key=lambda place: place.level), design.case.level_limit
     passed, safe = loudest.level <= limit, loudest.level + 20 * math.log10(1 + error) <= limit
     message = f"at the end of this run, {loudest.name}"
     if passed and not safe:

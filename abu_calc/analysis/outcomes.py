@@ -1,4 +1,7 @@
-"""What the starts of one design came to: which are worst, and which decide its checks and have to be confirmed."""
+"""Outcomes of the start cases of one design.
+
+They tell which cases are worst, and which decide the design's checks and must be confirmed.
+"""
 
 import math
 import statistics
@@ -15,9 +18,10 @@ from abu_calc.scenes.members import Member
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one start came to. Settling [s] from full speed on, None: never; `residual`: axis amplitude [m].
+    """Outcome of one start case.
 
-    `level` [dB] at the loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
+    Settling [s] from full speed on, None: never; `residual`: axis amplitude [m]; `level` [dB] at the
+    loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
     """
 
     member: Member
@@ -30,20 +34,20 @@ class Outcome:
     work: int = 0
     confirmed: bool = False
     rise: float = 0.0
-    """By how much the level might still have risen [dB] where the run ended early."""
+    """Possible further rise of the level [dB] if the run ended early."""
     ball_angles: tuple[float, ...] = ()
-    """Of the balls in the rotor at the end [rad]."""
+    """Angles of the balls in the rotor at the end [rad]."""
     duration: float = 0.0
-    """Of a run [s] that went on for longer than its scene, since the balls were not at rest by then; 0 of others."""
+    """Duration [s] of a run that went on longer than its scene, since the balls were not at rest by then; else 0."""
 
     @property
     def hanging(self) -> bool:
-        """Whether balls keep going round behind the rotor."""
+        """True if balls stall: they keep turning more slowly than the rotor."""
         return self.slip > SLIPPING
 
     @property
     def balanced(self) -> bool:
-        """Whether the balls are at rest in their race, and what they leave is allowed [kg m]."""
+        """True if the balls are at rest in their race and the imbalance left is allowed [kg m]."""
         return balances(self.imbalance, self.allowed, self.slip)
 
     @property
@@ -85,41 +89,41 @@ class Ensemble:
 
     @property
     def members(self) -> int:
-        """How many starts there are."""
+        """Number of start cases."""
         return len(self.outcomes) + len(self.lost)
 
     @property
     def work(self) -> int:
         """Evaluations of all of them, in SciPy's."""
-        return sum(one.work for one in self.outcomes) + sum(one.work for one in self.lost)
+        return sum(outcome.work for outcome in self.outcomes) + sum(lost.work for lost in self.lost)
 
     @property
     def given(self) -> tuple[Outcome, ...]:
-        """Those at the drag given."""
-        return tuple(one for one in self.outcomes if one.member.drag == self.drag)
+        """Outcomes at the given drag rate."""
+        return tuple(outcome for outcome in self.outcomes if outcome.member.drag == self.drag)
 
     @property
     def rated(self) -> tuple[Outcome, ...]:
-        """Those at the rated speed."""
-        return tuple(one for one in self.outcomes if one.member.speed is None)
+        """Outcomes at the rated speed."""
+        return tuple(outcome for outcome in self.outcomes if outcome.member.speed is None)
 
     @property
     def balanced(self) -> int:
-        """How many balance."""
-        return sum(one.balanced for one in self.outcomes)
+        """Number of start cases that balance."""
+        return sum(outcome.balanced for outcome in self.outcomes)
 
     @property
     def hanging(self) -> tuple[Outcome, ...]:
-        """Those whose balls hang."""
-        return tuple(one for one in self.outcomes if one.hanging)
+        """Outcomes in which balls stall."""
+        return tuple(outcome for outcome in self.outcomes if outcome.hanging)
 
     @property
     def worst(self) -> Outcome | None:
-        """Of all: hanging before not balanced before loud."""
-        return max(self.outcomes, key=lambda one: one.badness, default=None)
+        """Worst outcome: stalled ranks before not balanced, and not balanced before loud."""
+        return max(self.outcomes, key=lambda outcome: outcome.badness, default=None)
 
     def typical(self, values: Iterable[float]) -> float | None:
-        """Their median; None where most are infinite."""
+        """Median of the values; None if most are infinite."""
         middle = statistics.median(list(values) or [math.inf])
         return middle if math.isfinite(middle) else None
 
@@ -128,32 +132,36 @@ SLACK = 0.3
 """A difference in level [dB] that decides nothing."""
 
 Order = tuple[Callable[[Outcome], Any], float, bool]
-"""By what starts are judged, the last of it a number; a difference of that number that decides nothing; and whether a
-run that confirms one may end early: its level is that at the very end, when it settled is known before."""
+"""Criterion that ranks start cases, its insignificant difference, and whether early end is allowed.
+
+The criterion ends in a number; a smaller difference of that number decides nothing. The last item
+applies to the confirming run: the level is that at the very end, the settling time is known earlier.
+"""
 
 ORDERS: tuple[Order, ...] = (
     (attrgetter("badness"), SLACK, False),
-    (lambda one: (one.level,), SLACK, False),
-    (lambda one: (one.time,), 0.0, True),
+    (lambda outcome: (outcome.level,), SLACK, False),
+    (lambda outcome: (outcome.time,), 0.0, True),
 )
 
 
-def deciding(found: Sequence[Outcome | Lost], drag: float) -> dict[int, bool]:
-    """Which are worst, among those at the drag given and among all, and not confirmed, nor as bad as one that is.
+def deciding(results: Sequence[Outcome | Lost], drag: float) -> dict[int, bool]:
+    """Outcomes to confirm: the worst ones that are neither confirmed nor as bad as a confirmed one.
 
-    And those that might have become the loudest. With whether the run that confirms it may end early.
+    The worst are found at the given drag rate and among all. Outcomes that might have become the loudest
+    are included. The value tells whether the confirming run may end early.
     """
-    done = [(k, one) for k, one in enumerate(found) if isinstance(one, Outcome)]
-    groups = [group for group in (done, [(k, one) for k, one in done if one.member.drag == drag]) if group]
+    done = [(k, outcome) for k, outcome in enumerate(results) if isinstance(outcome, Outcome)]
+    groups = [group for group in (done, [(k, outcome) for k, outcome in done if outcome.member.drag == drag]) if group]
     undecided: dict[int, bool] = {}
     for group in groups:
-        most = max(one.level for _, one in group)
+        most = max(outcome.level for _, outcome in group)
         # Half of it: what is near would be asked for next, by itself.
-        undecided.update((k, False) for k, one in group if one.loudest > most + SLACK / 2)
+        undecided.update((k, False) for k, outcome in group if outcome.loudest > most + SLACK / 2)
     for (order, slack, early_end), group in product(ORDERS, groups):
         k, worst = max(group, key=lambda pair: order(pair[1]))
         *kind, value = order(worst)
-        confirmed = [order(one) for _, one in group if one.confirmed]
+        confirmed = [order(outcome) for _, outcome in group if outcome.confirmed]
         if not any([*same] == kind and (near == value or near >= value - slack) for *same, near in confirmed):
             undecided.setdefault(k, early_end)
     return undecided
@@ -165,4 +173,4 @@ def worse(loose: Outcome | Lost, tight: Outcome | Lost) -> Outcome | Lost:
         return tight if isinstance(tight, Lost) else loose
     if (loose.hanging, loose.balanced) == (tight.hanging, tight.balanced):
         return replace(tight, confirmed=True)
-    return replace(max(loose, tight, key=lambda one: one.badness), confirmed=True)
+    return replace(max(loose, tight, key=lambda outcome: outcome.badness), confirmed=True)

@@ -37,7 +37,7 @@ class Proven:
     remedy: str | None = None
     warnings: tuple[str, ...] = ()
     searched: Searched | None = None
-    """What further starts came to, where all those listed pass."""
+    """Result of further start cases, if all listed ones pass."""
 
 
 def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1) -> Proven:
@@ -59,33 +59,33 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         # A file that places its balls has an angle for each.
         if sound(design.case, candidate) and (placed is None or len(placed.angles_deg) == candidate.ball_count)
     )
-    for one in islice(others, MOST_OTHERS):
+    for runner_up in islice(others, MOST_OTHERS):
         if spent > MOST_WORK:
             break
-        other = instead(design, one, "does not balance from every start")
-        found = simulate_members(other, accuracy, within(progress, f"{_words(one)} instead"), workers)
-        spent += found.work
-        if passes(other, found):
+        other = instead(design, runner_up, "does not balance from every start")
+        ensemble = simulate_members(other, accuracy, within(progress, f"{_words(runner_up)} instead"), workers)
+        spent += ensemble.work
+        if passes(other, ensemble):
             text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
-            return _with_search(Proven(other, found, warnings=(text,)), accuracy, progress, workers)
+            return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
     return Proven(design, first, remedy(design, first, left, accuracy, progress, workers))
 
 
-def _with_search(found: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:
-    """With further starts, unless these would take too long: then it says so."""
-    if found.ensemble is not None and found.ensemble.work > MOST_SEARCHED and not patience.given():
-        return replace(found, warnings=(*found.warnings, NOT_SEARCHED))
-    searched = search(found.design, accuracy, progress, workers)
+def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:
+    """Add the result of further start cases, or a warning if they would take too long."""
+    if proof.ensemble is not None and proof.ensemble.work > MOST_SEARCHED and not patience.given():
+        return replace(proof, warnings=(*proof.warnings, NOT_SEARCHED))
+    searched = search(proof.design, accuracy, progress, workers)
     return replace(
-        found, searched=searched if found.ensemble is None else replace(searched, listed=found.ensemble.given)
+        proof, searched=searched if proof.ensemble is None else replace(searched, listed=proof.ensemble.given)
     )
 
 
 def _carries(design: Design) -> bool:
-    one = design.autobalancer
-    return one.capacity >= design.imbalance.value * abs(one.requirement.plane_ratio)
+    autobalancer = design.autobalancer
+    return autobalancer.capacity >= design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
 
 
-def _words(one: Candidate) -> str:
-    return f"{one.ball_count} × Ø{1e3 * one.ball_diameter:g} mm"
+def _words(candidate: Candidate) -> str:
+    return f"{candidate.ball_count} × Ø{1e3 * candidate.ball_diameter:g} mm"

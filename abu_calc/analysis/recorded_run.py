@@ -24,24 +24,24 @@ LEAST_REVOLUTIONS: Final = 3
 TREND_FROM: Final = 6
 """Revolutions from which a change of the amplitude and harmonics are fitted too."""
 LEAST_SAMPLES: Final = 8
-"""Of a revolution."""
+"""Least number of samples in a revolution."""
 MOST_DRIFT: Final = 0.2
-"""Of the speed over a record; beyond it is no run at steady speed."""
+"""Largest relative drift of the speed over a record; beyond it the run is not at steady speed."""
 SPEED_AGREES: Final = 0.05
 UNEVEN: Final = 0.25
 """Part of a revolution by which two passages in a row may be off."""
 HARMONICS: Final = (2, 3)
 ROUGH: Final = 0.3
-"""Of a step between samples: how well even revolutions must tell the passages."""
+"""Share of a step between samples within which even revolutions must match the passages."""
 
 
 @dataclass(frozen=True)
 class Tone:
-    """What one sensor shows at the speed of rotation, in its unit: A·cos(θ − phase).
+    """Signal of one sensor at the speed of rotation, in its unit: A·cos(θ − phase).
 
-    `noise`: standard error of the amplitude by what the fit leaves; `change`: of amplitude and phase
-    together over the record, as a vector, relative;
-    `share`: of the motion about its mean (rms) that it makes.
+    `noise`: standard error of the amplitude, from the residual of the fit; `change`: of amplitude and phase
+    together over the record, as a vector, relative; `share`: of the motion about its mean (rms) that it
+    makes.
     """
 
     amplitude: float
@@ -64,7 +64,7 @@ class RecordedRun:
 
     @property
     def unsure(self) -> float:
-        """How much all phases may be off, since samples do not tell the passages more closely [rad]."""
+        """Possible common error of all phases, limited by the sampling of the passages [rad]."""
         return self.speed * self.marks.unsure
 
     @property
@@ -95,8 +95,8 @@ def recorded_run(record: RigRecord, edge: Edge | None = None, speed: float | Non
     angle = _angle(record.time[inside], marks, counts)
     terms = _terms(angle, revolutions)
     values = np.column_stack([record.left[inside], record.right[inside]])
-    found, *_ = np.linalg.lstsq(terms, values, rcond=None)
-    left, right = (_tone(terms, found[:, k], values[:, k], revolutions) for k in (0, 1))
+    solution, *_ = np.linalg.lstsq(terms, values, rcond=None)
+    left, right = (_tone(terms, solution[:, k], values[:, k], revolutions) for k in (0, 1))
     return RecordedRun(mean, left, right, revolutions, drift, marks)
 
 
@@ -114,14 +114,14 @@ def _counted(times: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(turns)])
 
 
-def _check_speed(found: float, given: float | None) -> None:
-    if given is None or abs(found / given - 1) <= SPEED_AGREES:
+def _check_speed(measured: float, given: float | None) -> None:
+    if given is None or abs(measured / given - 1) <= SPEED_AGREES:
         return
-    ratio = found / given
+    ratio = measured / given
     twice = next((n for n in (2, 3, 4) if abs(ratio / n - 1) < SPEED_AGREES), None)
     remedy = f"{twice} pulses a revolution? One is needed." if twice else "correct speed_rpm, or leave it out"
     raise InputError(
-        "the marks tell another speed", found=f"{from_si(found, 'rpm'):.1f} rpm by the marks",
+        "the marks tell another speed", found=f"{from_si(measured, 'rpm'):.1f} rpm by the marks",
         allowed=f"{from_si(given, 'rpm'):g} rpm ± {SPEED_AGREES:.0%}", remedy=remedy,
     )  # fmt: skip
 
@@ -166,22 +166,22 @@ def _curved(time: Array, times: Array, counts: Array) -> Array:
 
 
 def _terms(angle: Array, revolutions: int) -> Array:
-    """What is fitted, a column each: cosine and sine first, then what else may be there."""
+    """Columns of the fit: cosine and sine first, then trend and harmonics."""
     along = 2 * angle / angle[-1] - 1
-    one = np.cos(angle), np.sin(angle)
+    fundamental = np.cos(angle), np.sin(angle)
     rest = [np.ones_like(angle), along]
     if revolutions >= TREND_FROM:
-        rest += [along**2, along * one[0], along * one[1]]
+        rest += [along**2, along * fundamental[0], along * fundamental[1]]
         rest += [wave(k * angle) for k in HARMONICS for wave in (np.cos, np.sin)]
-    return np.column_stack([*one, *rest])
+    return np.column_stack([*fundamental, *rest])
 
 
-def _tone(terms: Array, found: Array, values: Array, revolutions: int) -> Tone:
+def _tone(terms: Array, solution: Array, values: Array, revolutions: int) -> Tone:
     """The tone of fitted terms, cosine and sine first."""
-    left = values - terms @ found
-    amplitude = math.hypot(found[0], found[1])
+    left = values - terms @ solution
+    amplitude = math.hypot(solution[0], solution[1])
     spread = float(np.std(values - np.polyval(np.polyfit(terms[:, 3], values, 1), terms[:, 3])))
-    change = math.hypot(found[5], found[6]) * 2 / amplitude if revolutions >= TREND_FROM and amplitude else 0.0
+    change = math.hypot(solution[5], solution[6]) * 2 / amplitude if revolutions >= TREND_FROM and amplitude else 0.0
     noise = float(np.std(left)) * math.sqrt(2 / len(values))
     share = min(1.0, amplitude / math.sqrt(2) / spread) if spread > 0 else 0.0
-    return Tone(amplitude, math.atan2(found[1], found[0]), noise, change, share)
+    return Tone(amplitude, math.atan2(solution[1], solution[0]), noise, change, share)

@@ -42,10 +42,11 @@ class Mode:
 
 @dataclass(frozen=True)
 class TrueRegion:
-    """Whether the idle balanced state is stable at the rated speed, and where that changes; None: not known.
+    """Stability of the idle balanced state at the rated speed, and the speeds at which it changes.
 
-    In the worst arrangement that balances. Boundaries from half the lowest natural frequency, or half the lowest speed
-    where that is less, to twice the highest speed. `modes`: those that swing, ascending.
+    None: not known. It is judged in the worst arrangement that balances. Boundaries are searched from half
+    the lowest natural frequency, or half the lowest speed if that is less, to twice the highest speed.
+    `modes`: the oscillating ones, ascending.
     """
 
     stable: bool | None
@@ -70,9 +71,10 @@ class SpeedRange:
 
 
 def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
-    """By the eigenvalues of the idle scene, with the drag and the damping of the file.
+    """Stability of the idle scene by its eigenvalues, with the drag and the damping of the file.
 
-    Where a disturbance grows, starts are simulated to see whether dry friction holds the balls: see `stuck_balls`.
+    If a disturbance grows, start cases are simulated to see whether dry friction holds the balls: see
+    `stuck_balls`.
     """
     modes, hanging = _modes(idle_scene(design)), hanging_bounds(design)
     try:

@@ -1,4 +1,7 @@
-"""What the effects have to say of a run, once each, and what the scene leaves out whatever acts in it."""
+"""Remarks of the effects on a run, once each.
+
+Added is what the scene leaves out, whichever effects act in it.
+"""
 
 import math
 from typing import Final
@@ -42,13 +45,13 @@ class Remarks:
 
     @property
     def texts(self) -> tuple[str, ...]:
-        """Of the scene, and of all effects."""
-        scene, found = self.equations.scene, self.found
+        """Remarks of the scene and of all effects."""
+        scene, remarks = self.equations.scene, self.found
         if self.kept:
-            whole = Samples(np.concatenate([one.t for one in self.kept]), np.hstack([one.y for one in self.kept]))
-            rows = zip(scene.effects, found, strict=True)
-            found = [effect.remarks(self.equations, whole) if effect.whole_run else one for effect, one in rows]
-        return (*without_size(scene), *(text for texts in found for text in texts))
+            whole = Samples(np.concatenate([part.t for part in self.kept]), np.hstack([part.y for part in self.kept]))
+            rows = zip(scene.effects, remarks, strict=True)
+            remarks = [effect.remarks(self.equations, whole) if effect.whole_run else prior for effect, prior in rows]
+        return (*without_size(scene), *(text for texts in remarks for text in texts))
 
 
 def _drawn(times: Array) -> Array:
@@ -61,15 +64,16 @@ def _drawn(times: Array) -> Array:
 
 
 def _within(times: Array, samples: Samples) -> Array:
-    """Those of the times that samples span."""
-    found: Array = times[np.searchsorted(times, samples.t[0]) : np.searchsorted(times, samples.t[-1], side="right")]
-    return found
+    """Return the times that lie within the samples."""
+    inside: Array = times[np.searchsorted(times, samples.t[0]) : np.searchsorted(times, samples.t[-1], side="right")]
+    return inside
 
 
 def without_size(scene: Scene) -> tuple[str, ...]:
-    """That balls of unknown size are run up without their own spin, and what that is of their lag, (J − 1) r/R_p.
+    """Remark that balls of unknown size are run up without their own spin.
 
-    A race that speeds up turns the balls that roll in it; r is that of steel balls of the same mass.
+    It gives the share of their lag that this is, (J − 1) r/R_p. A race that speeds up turns the balls that
+    roll in it; r is that of steel balls of the same mass.
     """
     balls = scene.balls
     unknown = (balls.sizes == 0) & (balls.factors > 1)

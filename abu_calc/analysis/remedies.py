@@ -1,4 +1,7 @@
-"""What would make a design pass from every start: small changes of its machine, each tried before it is named."""
+"""Small changes of a machine with which its design passes from every start case.
+
+Each change is tried before it is named.
+"""
 
 import math
 from collections.abc import Iterator
@@ -16,22 +19,24 @@ from abu_calc.units import from_si
 OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
 MOST_DRAGS, NEAR = 5, 1.2
-"""How many are tried, and the factor within which another drag is none."""
+"""Most drag rates that are tried, and the factor within which another drag rate counts as the same."""
 
 FASTER, DAMPED = 0.5, 2.0
-"""Of the run-up's time, and of the suspension's damping."""
+"""Factors on the time of the run-up and on the damping of the suspension."""
 
 BEFORE = 2
 """Drags that are tried before what leaves the oil as it is."""
 
 BELOW, LEAST = 2 / 3, 0.05
-"""Of the speed at which balls hang, to which the rotor is slowed; and the least speed, of the rotor's, at which they
-hang turning."""
+"""Share of the stalling speed to which the rotor is slowed, and least stalling speed.
+
+The least stalling speed is a share of the rotor's speed; slower balls hardly turn.
+"""
 
 
 @dataclass(frozen=True)
 class Change:
-    """What is changed, in words, and the machines then, each of which must pass."""
+    """Change in words, and the machines with it, each of which must pass."""
 
     name: str
     designs: tuple[Design, ...]
@@ -46,13 +51,13 @@ def remedy(design: Design, first: Ensemble, most: int, accuracy: float, progress
     for change in changes(design, first):
         if most <= 0:
             break
-        for one in change.designs:
-            found = simulate_members(one, accuracy, within(progress, f"with {change.name}"), workers, (1.0,))
-            most -= found.work
-            if not passes(one, found):
+        for variant in change.designs:
+            ensemble = simulate_members(variant, accuracy, within(progress, f"with {change.name}"), workers, (1.0,))
+            most -= ensemble.work
+            if not passes(variant, ensemble):
                 break
         else:
-            return f"Tried: with {change.name} all {found.members} starts pass."
+            return f"Tried: with {change.name} all {ensemble.members} starts pass."
         tried.append(change.name)
     return f"Tried without success: {'; '.join(tried)}." if tried else None
 
@@ -67,11 +72,11 @@ def changes(design: Design, first: Ensemble) -> Iterator[Change]:
     ]
     yield from with_drags[:BEFORE]
     yield from _pause(design, first)
-    if table.run_up and not table.motor and all(one.member.run_up for one in first.given if not one.balanced):
+    if table.run_up and not table.motor and all(start.member.run_up for start in first.given if not start.balanced):
         time = FASTER * table.run_up.time_s
         yield Change(f"run_up.time_s = {time:.3g}", (_running_up(design, table.run_up, time_s=time),))
     if isinstance(case.suspension, Springs):
-        x, y = (DAMPED * one for one in case.suspension.damping)
+        x, y = (DAMPED * damping for damping in case.suspension.damping)
         held = replace(case.suspension, damping=(x, y))
         damped = replace(design, case=replace(case, suspension=held))
         yield Change("suspension.damping_ratios twice as large", (damped,))
@@ -79,20 +84,22 @@ def changes(design: Design, first: Ensemble) -> Iterator[Change]:
 
 
 def _pause(design: Design, first: Ensemble) -> Iterator[Change]:
-    """Below the speed at which balls hang, where they come to rest in their race; up as in a run-up, and sooner.
+    """Temporary speed reduction that brings stalled balls to rest in their race.
 
-    Above that speed they go on hanging, the better the nearer the rotor is to it. None for a motor, which sets its own
-    pace, for balls that hardly turn, and where that speed is one at which the machine works.
+    The rotor is slowed below the speed at which the balls stall. It then speeds up again as in a run-up,
+    and sooner. Above that speed the balls go on stalling, the more so the nearer the rotor is to it. None
+    for a motor, which sets its own pace, for balls that hardly turn, and if that speed is in the working
+    range.
     """
     table, speed = design.case.table, design.case.speed
-    caught = min(((1 - one.slip) * (one.member.speed or speed) for one in first.given if one.hanging), default=0.0)
+    caught = min(((1 - run.slip) * (run.member.speed or speed) for run in first.given if run.hanging), default=0.0)
     given = table.run_up or RunUp()
     low, lowest = _rounded(from_si(BELOW * caught, "rpm")), from_si(design.case.speed_range[0], "rpm")
     if table.motor or caught < LEAST * speed or low >= min(given.pause_speed_rpm or math.inf, lowest):
         return
     rise = _rounded((1 - low / from_si(speed, "rpm")) * given.time_s)
     rises = rise, FASTER * rise
-    designs = tuple(_running_up(design, given, pause_speed_rpm=low, pause_rise_s=one) for one in rises)
+    designs = tuple(_running_up(design, given, pause_speed_rpm=low, pause_rise_s=rise_time) for rise_time in rises)
     yield Change(f"run_up.pause_speed_rpm = {low:.0f} and run_up.pause_rise_s = {rise:g}", designs)
 
 
@@ -113,7 +120,7 @@ def other_drags(given: float, *, only_more: bool) -> list[float]:
 
 
 def passes(design: Design, ensemble: Ensemble) -> bool:
-    """Whether every start at the drag given balances, in time and within the level."""
+    """True if every start case at the given drag rate balances, in time and within the level."""
     limits, level = design.case.table.limits, design.case.level_limit
-    lost = any(one.member.drag == ensemble.drag for one in ensemble.lost)
-    return not lost and all(one.time <= limits.settling_time_s and one.level <= level for one in ensemble.given)
+    lost = any(start.member.drag == ensemble.drag for start in ensemble.lost)
+    return not lost and all(start.time <= limits.settling_time_s and start.level <= level for start in ensemble.given)

@@ -1,4 +1,4 @@
-"""What one run says: amplitude, velocity, level, settling, residual imbalance, and where everything ended."""
+"""Results of one run: amplitude, velocity, level, settling, residual imbalance and final state."""
 
 import math
 
@@ -13,7 +13,7 @@ from abu_calc.frozen import dataclass
 from abu_calc.units import level_from_velocity
 
 SAMPLES_PER_REVOLUTION = 64
-"""In the amplitude window."""
+"""Samples per revolution in the amplitude window."""
 
 BLOCK = 2**16
 """Samples of which distances are taken at once."""
@@ -42,10 +42,10 @@ class Window:
 
 @dataclass(frozen=True)
 class FinalState:
-    """Where the run ended: axis [m, m/s], ball angles [rad] unwrapped, their mean speeds in the window, and at the end.
+    """Final state of a run: axis [m, m/s], ball angles [rad] unwrapped, and their speeds.
 
-    `tilt` [rad]: θ_y, −θ_x on a support that tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s]
-    of the rotor.
+    The speeds are means over the window, and those at the end. `tilt` [rad]: θ_y, −θ_x on a support that
+    tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s] of the rotor.
     """
 
     t: float
@@ -78,15 +78,15 @@ class Response:
     level: float | None
     unbalanced_amplitude: float
     largest_amplitude: float
-    """Of the axis over the whole run, about its mean place in the window [m]."""
+    """Largest amplitude of the axis over the whole run, about its mean place in the window [m]."""
     bearing_amplitudes: tuple[float, ...]
-    """As `axis_amplitude`, at each bearing of a support that tilts."""
+    """Amplitudes, defined like `axis_amplitude`, at each bearing of a support that tilts."""
     final: FinalState
     full_speed: float = 0.0
 
     @property
     def ball_angles(self) -> tuple[float, ...]:
-        """At the end [rad], unwrapped."""
+        """Ball angles at the end [rad], unwrapped."""
         return self.final.ball_angles
 
 
@@ -105,8 +105,10 @@ def needed_times(scene: Scene) -> Array:
 
 
 def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
-    """At the needed times and further ones [s]. Trajectories of up to 32 MB hold all of them; of longer runs the
-    beginning, what is wanted and the amplitude window stay, and results have to be read as they go on, by a course.
+    """Sampling at the needed times and at further ones [s].
+
+    Trajectories of up to 32 MB hold all of them. Longer runs keep their beginning, the wanted times and the
+    amplitude window; a course must read their results as they go on.
     """
     wanted = np.empty(0) if wanted is None else wanted
     times = merged(needed_times(scene), wanted)
@@ -207,7 +209,7 @@ def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
 
 
 def _crossing(t: Array, values: Array, limit: float, last: int) -> float:
-    """Where values, of which that at `last` is above the limit and the next one not, pass it."""
+    """Time at which values fall to the limit, after the sample `last`, the last one above it."""
     near, low, high = slice(max(last - 2, 0), last + 4), float(t[last]), float(t[last + 1])
     curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near] - limit)
     inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
@@ -225,7 +227,7 @@ def _mean(values: Array) -> Array:
 
 
 def _squares(place: Array, middle: Array, first: int, count: int) -> Array:
-    """Of the distances from the middle."""
+    """Squared distances from the middle."""
     return np.asarray(((place[:, first : first + count] - middle) ** 2).sum(axis=0))
 
 

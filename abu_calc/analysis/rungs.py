@@ -40,12 +40,15 @@ FINER, TIGHT = 1e-4, 1e-6
 """Tolerance of the envelope's integration: this share of the accuracy, and no more than that; it costs little."""
 
 MOST_TIMES: Final = 1001
-"""Between two of so many a slow motion is straight."""
+"""Most times at which a slow motion is evaluated; it is straight between two of them."""
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What a rung finds of a run, as `differences` compares it; `evaluations` of whatever it evaluates."""
+    """Results of a model level for a run, as `differences` compares them.
+
+    `evaluations`: number of evaluations of the functions that this level needs.
+    """
 
     axis_amplitude: float
     velocity_rms: float
@@ -57,9 +60,9 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Offer:
-    """What the envelope has to offer in place of the equations: an estimated error, None where it does not hold at all.
+    """Estimated error of the envelope in place of the full equations; None if it does not hold at all.
 
-    `trajectory`: the run, None where it is not good enough; `why` says so in words.
+    `trajectory`: the run, None if it is not accurate enough; `why` gives the reason in words.
     """
 
     error: float | None
@@ -117,7 +120,7 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> Estimate:
 
 
 def _window(scene: Scene) -> float:
-    """When the amplitude window begins [s]."""
+    """Begin of the amplitude window [s]."""
     return scene.duration - max(scene.duration / 20, scene.revolution)
 
 
@@ -155,7 +158,11 @@ def _followed(scene: Scene, limit: float, tolerance: float, times: Times) -> Off
 
 
 def _slowness(scene: Scene) -> float:
-    """What the orders left out change: the square of the balls' rate, or speed at the start, over the gap."""
+    """Error by the orders left out: the squared ratio of the fastest slow motion to the gap.
+
+    The fastest motion is the balls' rate or their speed at the start; the gap is that of the natural
+    frequencies.
+    """
     fastest = max(ball_rate(scene), *(abs(speed) for race in scene.races for speed in race.start_speeds))
     return SLOWNESS * (fastest / natural_gap(scene)) ** 2
 

@@ -1,8 +1,10 @@
-"""Which values each member of a sweep has: known from the seed and its number alone, whoever computes it, and when.
+"""Values of each sample of a sweep.
 
-Latin hypercubes (McKay, Beckman & Conover 1979, Technometrics 21(2), 239) of 1024 members, one after another; Sobol
-sequences, scrambled (Owen 1998); Saltelli's design for sensitivities (Saltelli et al. 2010, Comput. Phys. Commun. 181,
-259). Listed values are dealt in turn. Nothing is held that grows with the number of members.
+They are known from the seed and the sample's number alone, whoever computes them, and when. Latin
+hypercubes (McKay, Beckman & Conover 1979, Technometrics 21(2), 239) of 1024 samples, one after another;
+Sobol sequences, scrambled (Owen 1998); Saltelli's design for sensitivities (Saltelli et al. 2010,
+Comput. Phys. Commun. 181, 259). Listed values are dealt in turn. The memory used does not grow with the
+number of samples.
 """
 
 import inspect
@@ -38,7 +40,7 @@ class Factor:
 
 @dataclass(frozen=True)
 class Sample:
-    """Who is in a sweep: `runs` members, numbered from 0. `base`: rows of Saltelli's two matrices."""
+    """Samples of a sweep: `runs` of them, numbered from 0; `base`: rows of Saltelli's two matrices."""
 
     factors: tuple[Factor, ...]
     runs: int
@@ -49,22 +51,22 @@ class Sample:
     @property
     def points(self) -> int:
         """Combinations of listed values."""
-        return math.prod(len(one.variation.values) for one in self.factors if one.variation.listed)
+        return math.prod(len(factor.variation.values) for factor in self.factors if factor.variation.listed)
 
     @property
     def drawn(self) -> int:
-        """How many are drawn each for itself: in Saltelli's design those of its first two matrices."""
+        """Number of independently drawn samples: in Saltelli's design those of its first two matrices."""
         return 2 * self.base if self.scheme == "saltelli" else self.runs
 
     def probabilities(self, member: int) -> tuple[float, ...]:
-        """Where each value of a member lies in its distribution, 0 … 1."""
+        """Places of a sample's values in their distributions, 0 … 1."""
         first = member - member % BLOCK
         return tuple(block(self, first // BLOCK)[member - first].tolist())
 
     def values(self, member: int) -> tuple[object, ...]:
         """The values of a member, in the order of the factors."""
         pairs = zip(self.factors, self.probabilities(member), strict=True)
-        return tuple(value_at(one.variation, probability) for one, probability in pairs)
+        return tuple(value_at(factor.variation, probability) for factor, probability in pairs)
 
     def member_seed(self, member: int) -> int:
         """The seed of what is particular to one member; in Saltelli's design the same for a row of all matrices."""
@@ -80,17 +82,17 @@ def block(sample: Sample, number: int) -> Array:
     count = min(BLOCK, sample.runs - first)
     if sample.scheme == "saltelli":
         return _saltelli(sample, np.arange(first, first + count))
-    found = np.empty((count, len(sample.factors)))
-    drawn = [k for k, one in enumerate(sample.factors) if not one.variation.listed]
+    probabilities = np.empty((count, len(sample.factors)))
+    drawn = [k for k, drawn_factor in enumerate(sample.factors) if not drawn_factor.variation.listed]
     if drawn:
-        found[:, drawn] = _drawn(sample, number, count, len(drawn))
+        probabilities[:, drawn] = _drawn(sample, number, count, len(drawn))
     members, step = np.arange(first, first + count), sample.points
-    for k, one in enumerate(sample.factors):
-        if one.variation.listed:
-            many = len(one.variation.values)
+    for k, factor in enumerate(sample.factors):
+        if factor.variation.listed:
+            many = len(factor.variation.values)
             step //= many
-            found[:, k] = (members // step % many + 0.5) / many
-    return found
+            probabilities[:, k] = (members // step % many + 0.5) / many
+    return probabilities
 
 
 def _drawn(sample: Sample, number: int, count: int, width: int) -> Array:
@@ -122,7 +124,7 @@ def _random(kind: Any, seed: np.random.SeedSequence) -> dict[str, Any]:
 
 def _saltelli(sample: Sample, members: NDArray[np.int64]) -> Array:
     """Rows of A, then of B, then of A with one column after another from B."""
-    width, found = len(sample.factors), np.empty((len(members), len(sample.factors)))
+    width, probabilities = len(sample.factors), np.empty((len(members), len(sample.factors)))
     for part in np.unique(members // sample.base).tolist():
         here = members // sample.base == part
         rows = members[here] % sample.base
@@ -130,8 +132,8 @@ def _saltelli(sample: Sample, members: NDArray[np.int64]) -> Array:
         own = both[:, width:] if part == 1 else both[:, :width].copy()
         if part > 1:
             own[:, part - 2] = both[:, width + part - 2]
-        found[here] = own
-    return found
+        probabilities[here] = own
+    return probabilities
 
 
 def value_at(variation: Variation, probability: float) -> object:

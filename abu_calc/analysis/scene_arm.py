@@ -1,4 +1,7 @@
-"""What to change on the arm of a scene file: it has one stiffness, at one speed, and no bounds over contact angles."""
+"""Advice on the arm of a scene file.
+
+Such an arm has one stiffness, at one speed, and no bounds over contact angles.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -16,9 +19,9 @@ MARGIN: Final = 1.05
 
 
 def advise_scene(scene: Scene) -> str | None:
-    """In a line, what makes the balanced state stable and the joint damped above its bound; None without a swing arm.
+    """Advice in one line that makes the balanced state stable and the pivot damped above its bound.
 
-    What is advised was tried.
+    None without a swing arm. Every advised change was tried.
     """
     arm = scene.support.standing_arm(scene.balls)
     if arm is None:
@@ -32,9 +35,9 @@ def advise_scene(scene: Scene) -> str | None:
             limit = critical_damping(scene)
             share = f"more than {100 * limit / arm.joint_damping:.2g} %" if limit else "none"
             return f"nothing to change. The bound asks for {share} of the joint damping."
-        for changed, told in _changed(scene):
+        for changed, description in _changed(scene):
             if _holds(*changed):
-                return f"change {told}. Tried: it is stable, and the bound on the joint damping holds."
+                return f"change {description}. Tried: it is stable, and the bound on the joint damping holds."
     except NotTrustworthyError as error:
         return f"no change was tried: {str(error).splitlines()[0]}."
     return f"no change found. Tried: up to {INERTIA[-1]:g} times the inertia, {DAMPING[-1]:g} times the joint damping."
@@ -54,10 +57,10 @@ def _changed(scene: Scene) -> Iterator[tuple[tuple[Scene, float], str]]:
                 Change("moment_of_inertia_kg_m2", support.inertia, inertia),
                 Change("joint_damping_N_s_per_m", support.damping, damping),
             )
-            told = ", ".join(one.text for one in changes if one.new != one.old)
-            if told:
+            description = ", ".join(change.text for change in changes if change.new != change.old)
+            if description:
                 other = replace(heavier, support=replace(support, inertia=inertia, damping=damping))
-                yield (other, damping), told
+                yield (other, damping), description
 
 
 def _holds(scene: Scene, damping: float) -> bool:

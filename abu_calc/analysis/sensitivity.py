@@ -1,9 +1,11 @@
-"""Which of the values that vary decides: first-order and total indices (Sobol' 1993), of the variance of one number.
+"""Sensitivity of one number to the values that vary: first-order and total indices (Sobol' 1993).
 
-From members drawn in any way: a sum of products of orthonormal polynomials in the probabilities of the values is fitted
-to them, from whose coefficients both indices follow (Sudret 2008, Reliab. Eng. Syst. Saf. 93(7), 964). How many
-products are taken is decided by what a fit to four fifths of the members says of the last fifth. Products of more than
-two values are left out; what no product explains is told beside. From Saltelli's design: scipy.stats.sobol_indices.
+Both indices are shares of the number's variance. For samples drawn in any way, a sum of products of
+orthonormal polynomials in the probabilities of the values is fitted. Both indices follow from its
+coefficients (Sudret 2008, Reliab. Eng. Syst. Saf. 93(7), 964). A fit to four fifths of the samples is
+tested on the last fifth, which decides how many products are taken. Products of more than two values
+are left out; the variance that no product explains is reported too. For Saltelli's design:
+scipy.stats.sobol_indices.
 """
 
 from itertools import combinations, product
@@ -105,12 +107,12 @@ class Fit:
         return Indices(each, float(1 - min(shares.sum(), 1.0)))
 
     def _index(self, factor: int, terms: list[Term], shares: Array) -> Index:
-        first = sum(s for term, s in zip(terms, shares, strict=True) if [one for one, _ in term] == [factor])
-        total = sum(s for term, s in zip(terms, shares, strict=True) if factor in [one for one, _ in term])
+        first = sum(s for term, s in zip(terms, shares, strict=True) if [variable for variable, _ in term] == [factor])
+        total = sum(s for term, s in zip(terms, shares, strict=True) if factor in [variable for variable, _ in term])
         return Index(float(min(first, 1.0)), float(min(total, 1.0)))
 
     def _error(self, picked: tuple[int, ...], unseen: list[tuple[Array, Array]]) -> float:
-        """Of members that the fit has not seen; `unseen`: the sums without each fold."""
+        """Squared error for samples that the fit has not seen; `unseen`: the sums without each fold."""
         if len(picked) * EACH > self.count.sum():
             return np.inf
         error = 0.0
@@ -136,7 +138,7 @@ def _solve(gram: Array, right: Array) -> Array:
 def _terms(levels: tuple[int, ...], members: int) -> list[Term]:
     """Products by their degree; of one value before those of two."""
     room = min(MOST, members // EACH)
-    found: list[Term] = []
+    terms: list[Term] = []
     for degree in range(1, HIGHEST + 1):
         alone = [((k, degree),) for k, count in enumerate(levels) if degree < (count or HIGHEST + 1)]
         pairs = [
@@ -146,9 +148,9 @@ def _terms(levels: tuple[int, ...], members: int) -> list[Term]:
             if a < (levels[i] or HIGHEST) and degree - a < (levels[j] or HIGHEST)
         ]
         for some in (alone, pairs):
-            if len(found) + len(some) <= room:
-                found += some
-    return found
+            if len(terms) + len(some) <= room:
+                terms += some
+    return terms
 
 
 def _nested(terms: list[Term]) -> list[tuple[int, ...]]:
@@ -187,14 +189,14 @@ def _functions(levels: int, probability: Array) -> list[Array]:
 
 
 def saltelli(values: Array, factors: int) -> Indices:
-    """Of the members of Saltelli's design in their order, each of its parts a power of two."""
+    """Indices from the samples of Saltelli's design in their order, each of its parts a power of two."""
     from scipy.stats import sobol_indices
 
     parts = values.reshape(factors + 2, -1)
     if np.ptp(parts) <= ROUNDING * np.abs(parts).max():
         return Indices((Index(0.0, 0.0),) * factors, 0.0)
-    found: Any = sobol_indices(
+    indices: Any = sobol_indices(
         func={"f_A": parts[:1].copy(), "f_B": parts[1:2].copy(), "f_AB": parts[2:, None, :].copy()}, n=parts.shape[1]
     )
-    pairs = zip(np.atleast_1d(found.first_order), np.atleast_1d(found.total_order), strict=True)
+    pairs = zip(np.atleast_1d(indices.first_order), np.atleast_1d(indices.total_order), strict=True)
     return Indices(tuple(Index(float(first), float(total)) for first, total in pairs), 0.0)

@@ -1,8 +1,8 @@
-"""What dry friction leaves of an imbalance at work, with and without what shakes its balls: by simulation.
+"""Residual displacement by dry friction at work, with and without shaking of the balls, by simulation.
 
-Nothing is in it but the balls, their friction and what shakes them: an axial runout, by which a face wheel moves the
-machine along its spindle so that balls roll across their race, or the runout in the plane, which moves the race along
-their way. Source of the question: Kladiev 1996.
+The model has only the balls, their friction and the shaking. An axial runout of a face wheel moves the
+machine along its spindle, so that balls roll across their race. A runout in the plane moves the race
+along the balls' path. Source of the question: Kladiev 1996.
 """
 
 from dataclasses import replace
@@ -31,22 +31,22 @@ from abu_calc.units import to_si
 TRIED: Final = 3.0
 """Times the threshold: the axial runout that is tried of a wheel that has none."""
 SECONDS: Final = 1.0, 6.0
-"""Of a run that is shaken across the race, and along it, where balls creep."""
+"""Seconds of a run that is shaken across the race, and of one shaken along it, in which balls creep."""
 TOLERANCE: Final = 2e-4
 MOST: Final = 750_000
 """Evaluations, of the loop that is compiled where it can be. Balls that shake less than they are held by start and stop
 each turn, which takes the most.
 """
 TURNS: Final = 5
-"""At the end, over which what is left is averaged."""
+"""Turns at the end over which the residual is averaged."""
 
 
 @dataclass(frozen=True)
 class Shaken:
-    """What balls leave [m] of where they would balance, unshaken and shaken by an amplitude [m], after `seconds`.
+    """Residual [m] of the balls' balance, unshaken and shaken by an amplitude [m], after `seconds`.
 
-    `way`: across the race by an axial runout, which is `given` or tried only, or along it by runout in the plane. One
-    is None where its run takes too long.
+    `way`: across the race by an axial runout, which is `given` or only tried, or along it by runout in the
+    plane. A residual is None if its run takes too long.
     """
 
     way: Literal["across", "along"]
@@ -58,10 +58,11 @@ class Shaken:
 
 
 def shaken(work: Work, progress: Progress = silent) -> Shaken | None:
-    """By two runs from the same start; None without friction, without a groove, or where nothing of it is asked.
+    """Residuals of two runs from the same start, unshaken and shaken.
 
-    Balls of a face start bunched on the heavy side; those in contact in the plane where they balance at idle, if they
-    balance and wheel and work do not part.
+    None without friction, without a groove, or if no shaking applies. Balls of a face start together on the
+    heavy side. Balls with a contact in the plane start where they balance at idle, if they balance and
+    wheel and workpiece do not lose contact.
     """
     design = work.design
     if design.case.friction_arm == 0:
@@ -71,11 +72,11 @@ def shaken(work: Work, progress: Progress = silent) -> Shaken | None:
 
 
 def _across(design: Design) -> Shaken | None:
-    case, one, groove = design.case, design.autobalancer, design.track.groove_radius
+    case, autobalancer, groove = design.case, design.autobalancer, design.track.groove_radius
     if groove is None or case.contact is None:
         return None
-    radius, given = one.ball_diameter / 2, to_si(case.table.wheel.axial_runout_mm, "mm")
-    amplitude = given or TRIED * shaking_threshold(case.friction_arm, one.pitch_radius, radius)
+    radius, given = autobalancer.ball_diameter / 2, to_si(case.table.wheel.axial_runout_mm, "mm")
+    amplitude = given or TRIED * shaking_threshold(case.friction_arm, autobalancer.pitch_radius, radius)
     full = scene_of_design(design, "grinding")
     scene = replace(full, effects=(DryRollingFriction(case.friction_arm, radius),))
     moved = replace(scene, effects=(TransverseMotion(groove, radius, amplitude), *scene.effects))
@@ -91,10 +92,10 @@ def _along(work: Work) -> Shaken | None:
     friction = DryRollingFriction(case.friction_arm, design.autobalancer.ball_diameter / 2)
     left = []
     for runout in (0.0, case.runout):
-        one = replace(design, case=replace(case, runout=runout))
-        scene = only_contact(scene_of_design(one, "grinding", "bunched"))
-        ends = steady.imbalance if runout else fitted(one, 0j).imbalance
-        left.append(_left(one, replace(scene, effects=(*scene.effects, friction)), ends or 0j, SECONDS[1]))
+        variant = replace(design, case=replace(case, runout=runout))
+        scene = only_contact(scene_of_design(variant, "grinding", "bunched"))
+        ends = steady.imbalance if runout else fitted(variant, 0j).imbalance
+        left.append(_left(variant, replace(scene, effects=(*scene.effects, friction)), ends or 0j, SECONDS[1]))
     return Shaken("along", abs(axis[0] - 1j * axis[1]) / 2, True, SECONDS[1], *left)
 
 

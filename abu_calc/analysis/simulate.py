@@ -38,15 +38,24 @@ WORK_PLAIN = 700_000
 """The same for plain code that was asked for, at some 25 µs for each evaluation of its own: a minute or two."""
 
 SAFETY, FALL, FLOOR = 3.0, 0.1, 20.0
-"""On the difference of two runs, of the two before, and on the tolerance: errors mostly fall with the tolerance, but
-two runs may come near each other by chance. By 300 random scenes and both integrators: tests/studies/claims.py."""
+"""Factors of the error estimate on three differences.
+
+They apply to the difference of two runs, to that of the two before, and to the tolerance. Errors mostly
+fall with the tolerance, but two runs may come near each other by chance. Found with 300 random scenes
+and both integrators: tests/studies/claims.py.
+"""
 
 LEAST = 0.9
-"""Of the work of a run, that one at a tighter tolerance takes: 0.98 and more by three integrators on 17 scenes."""
+"""Least share of a run's work that a run at a tighter tolerance takes.
+
+Three integrators on 17 scenes took 0.98 and more.
+"""
 
 RESTING = 0.01
-"""Of the rotor's speed: balls that are slower in the mean, seen from the race, rest in it, though a wheel that bounces
-may shake them."""
+"""Share of the rotor's speed below which balls count as resting in the race.
+
+It applies to the mean speed against the race; a bouncing wheel may still shake the balls.
+"""
 
 CHAOTIC_END = (
     "the motion is chaotic, so that errors decide how it gets to its end: in every run the balls come to rest and "
@@ -54,7 +63,7 @@ CHAOTIC_END = (
 )
 
 LAST_TOLERANCE = 1e-13
-"""Below, rounding decides."""
+"""Tightest tolerance; below it, rounding decides."""
 
 
 @dataclass(frozen=True)
@@ -186,7 +195,7 @@ def _integrated(
 
 
 def balls_rest(scene: Scene, response: Response) -> bool:
-    """Whether all balls have come to rest in their races, and carry more of the imbalance than they add."""
+    """True if all balls have come to rest in their races, and carry more of the imbalance than they add."""
     return (
         all(abs(speed) < RESTING * scene.speed for speed in response.final.ball_speeds)
         and response.residual_imbalance < reference_imbalance(scene)
@@ -194,7 +203,7 @@ def balls_rest(scene: Scene, response: Response) -> bool:
 
 
 def _with_end(failure: NotTrustworthyError, ended: Simulation | None) -> NotTrustworthyError:
-    """What is known of a chaotic motion all the same."""
+    """Add the known end of a chaotic motion to its error."""
     if isinstance(failure, ChaoticError) and ended is not None:
         failure.ended = replace(ended, warnings=(*ended.warnings, CHAOTIC_END))
     return failure
@@ -211,10 +220,11 @@ def _cost(run: Trajectory, evaluations: int, steps: int, spent: float, why: str)
 
 
 def _apart(scene: Scene, before: Response, response: Response) -> float:
-    """Their difference; infinite where the balls made other turns: such runs went other ways, and end alike by chance.
+    """Difference of two runs; infinite if the balls made other turns.
 
-    Where balls slip behind the rotor, errors far below the accuracy may decide which of several ends they come to, and
-    loose tolerances may agree on the wrong one.
+    Such runs took different paths and end alike by chance. If balls slip behind the rotor, errors far below
+    the accuracy may decide which of several ends they reach, and loose tolerances may agree on the wrong
+    one.
     """
     turns = zip(*(np.sort(run.ball_angles) for run in (before, response)), strict=True)
     return math.inf if any(abs(a - b) > math.pi for a, b in turns) else difference(scene, before, response)

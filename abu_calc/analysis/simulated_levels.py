@@ -21,7 +21,7 @@ LAST: Final = 0.95
 
 
 def duration_for(scene: Scene) -> float:
-    """How long [s] to simulate, that every octave is known of what is left when a scene's own time is over."""
+    """Time [s] to simulate so that every octave of the motion left after the scene's own time is known."""
     return scene.duration + LEAST * _slowest_period()
 
 
@@ -39,7 +39,7 @@ def _slowest_period() -> float:
 
 
 def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
-    """Of the axis, along x and y, from the states of a run that was sampled at these times."""
+    """Levels of the axis along x and y, from the states of a run sampled at these times."""
     velocities = axis_velocity(run.scene, run.trajectory.at(times))
     rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * run.scene.duration - float(times[0])
     signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
@@ -47,10 +47,10 @@ def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
 
 
 def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]:
-    """At the handles, or in the wheel plane: what the race does, carried there as by a free rigid body.
+    """Levels at the handles, or in the wheel plane, carried there from the race as by a free rigid body.
 
-    What balls in another plane than the imbalance's leave is a tone of the spindle, added as energy, as in sizing.
-    Without the background, whose octaves are not known.
+    Balls in another plane than the imbalance leave a tone of the spindle. It is added as energy, as in
+    sizing. The background is left out, since its octaves are not known.
     """
     case = design.case
     held = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
@@ -58,7 +58,7 @@ def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]
 
 
 def moved_at(design: Design, at_race: PlaceLevels, name: str, place: float) -> PlaceLevels:
-    """At one place [m] from the centre of mass, as `held_levels`."""
+    """Levels at one place [m] from the centre of mass, computed like `held_levels`."""
     case, added = design.case, design.autobalancer.mass
     body, race = case.body, case.race_place
     imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio

@@ -1,4 +1,4 @@
-"""What to do in a plane: take metal off at the heavy spot, put it on opposite, or split it over places."""
+"""Corrections in a plane: remove metal at the heavy spot, add it opposite, or split it over places."""
 
 import cmath
 import math
@@ -35,14 +35,14 @@ def correction(mass: float, angle: float, removable: float | None, places: Seque
         if removable is None or mass <= removable:
             return (Share("remove", mass, turned(angle)),)
         return (Share("add", mass, turned(angle + math.pi)),)
-    options = [found for pair in combinations(places, 2) if (found := _split(mass, angle, *pair)) is not None]
+    options = [split for pair in combinations(places, 2) if (split := _split(mass, angle, *pair)) is not None]
 
     def worth(shares: tuple[Share, ...]) -> tuple[bool, bool, float]:
         off = removed(shares)
         return (
             removable is not None and off > removable,
-            off < sum(one.mass for one in shares),
-            sum(one.mass for one in shares),
+            off < sum(share.mass for share in shares),
+            sum(share.mass for share in shares),
         )
 
     return min(options, key=worth)
@@ -54,13 +54,13 @@ def turned(angle: float) -> float:
     >>> turned(-1e-70), turned(7.0) < 1
     (0.0, True)
     """
-    found = angle % math.tau
-    return 0.0 if found == math.tau else found
+    remainder = angle % math.tau
+    return 0.0 if remainder == math.tau else remainder
 
 
 def removed(shares: Sequence[Share]) -> float:
     """Mass that is taken off in all [kg]."""
-    return sum(one.mass for one in shares if one.action == "remove")
+    return sum(share.mass for share in shares if share.action == "remove")
 
 
 def _split(mass: float, angle: float, first: float, second: float) -> tuple[Share, ...] | None:
@@ -78,5 +78,8 @@ def _split(mass: float, angle: float, first: float, second: float) -> tuple[Shar
 
 
 def total(shares: Sequence[Share]) -> complex:
-    """What the shares take away, as mass·e^{iψ} [kg]: removed metal where it was, added metal opposite."""
-    return sum(((1 if one.action == "remove" else -1) * cmath.rect(one.mass, one.angle) for one in shares), 0j)
+    """Sum of the masses that the shares remove, as mass·e^{iψ} [kg].
+
+    Removed metal counts where it was, added metal opposite.
+    """
+    return sum(((1 if share.action == "remove" else -1) * cmath.rect(share.mass, share.angle) for share in shares), 0j)

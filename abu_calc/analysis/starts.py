@@ -34,43 +34,46 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, Outcome], ...]:
     """The worst of all; at the rated speed that of the median time among those that balance, then the slowest of each
     kind at the drag given.
     """
-    found = [] if ensemble.worst is None else [("worst", ensemble.worst)]
-    settled = sorted((one for one in ensemble.rated if math.isfinite(one.time)), key=lambda one: one.time)
+    choices = [] if ensemble.worst is None else [("worst", ensemble.worst)]
+    settled = sorted((start for start in ensemble.rated if math.isfinite(start.time)), key=lambda start: start.time)
     if settled:
-        found.append(("typical", settled[len(settled) // 2]))
-    given = [one for one in ensemble.given if one.member.speed is None]
-    kinds = dict.fromkeys(one.member.name for one in given)
-    found += [("", max((one for one in given if one.member.name == kind), key=_slow)) for kind in kinds]
+        choices.append(("typical", settled[len(settled) // 2]))
+    given = [start for start in ensemble.given if start.member.speed is None]
+    kinds = dict.fromkeys(start.member.name for start in given)
+    choices += [("", max((start for start in given if start.member.name == kind), key=_slow)) for kind in kinds]
     first: dict[int, tuple[str, Outcome]] = {}
-    for why, one in found:
-        first.setdefault(id(one), (why, one))
+    for why, outcome in choices:
+        first.setdefault(id(outcome), (why, outcome))
     return tuple(first.values())[:MOST]
 
 
-def _slow(one: Outcome) -> tuple[bool, bool, float]:
-    return one.hanging, not one.balanced, one.time
+def _slow(outcome: Outcome) -> tuple[bool, bool, float]:
+    return outcome.hanging, not outcome.balanced, outcome.time
 
 
 def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[Again]:
-    """Those chosen, as far as the work allowed goes, each by the run that its outcome is from."""
+    """Repeat the chosen start cases, as far as the allowed work permits, each by the run of its outcome."""
     left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
-    for why, one in chosen_starts(ensemble):
-        if one.work > left:
+    for why, outcome in chosen_starts(ensemble):
+        if outcome.work > left:
             continue
-        for tolerance in (TIGHTER * first, first) if one.confirmed else (first,):
+        for tolerance in (TIGHTER * first, first) if outcome.confirmed else (first,):
             try:
-                found, scene, trajectory = run_of_start(design, one.member, accuracy, tolerance)
+                repeat, scene, trajectory = run_of_start(design, outcome.member, accuracy, tolerance)
             except NotTrustworthyError:
                 left -= WORK
                 continue
-            left -= found.work
-            if (found.hanging, found.balanced) == (one.hanging, one.balanced):
-                yield Again(why, one, scene, trajectory)
+            left -= repeat.work
+            if (repeat.hanging, repeat.balanced) == (outcome.hanging, outcome.balanced):
+                yield Again(why, outcome, scene, trajectory)
                 break
 
 
 def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
-    """Of a velocity of the axis, rms [m/s], the level [dB] at the loudest place, as an ensemble tells it."""
+    """Function from an rms velocity of the axis [m/s] to the level [dB] at the loudest place.
+
+    The level is that which an ensemble reports.
+    """
 
     case = replace(design.case, speed=scene.speed)
 

@@ -10,14 +10,17 @@ from abu_calc.sizing.design import Design
 
 @dataclass(frozen=True)
 class StuckBalls:
-    """How many starts were simulated at the drag given, and in how many of them all balls balance and end stuck."""
+    """Number of start cases simulated at the given drag rate, and of those that end balanced and stuck.
+
+    In the latter all balls balance and are held by friction.
+    """
 
     starts: int
     held: int
 
     @property
     def proves(self) -> bool:
-        """Whether friction held the balls in every start."""
+        """True if friction held the balls in every start case."""
         return 0 < self.starts == self.held
 
     @property

@@ -1,6 +1,7 @@
-"""How far the answer of two planes may be off: each number that went in moved by its standard deviation.
+"""Possible error of a two-plane answer: each input number is moved by its standard deviation.
 
-Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2, variance Σ Δ_i²; the errors of all numbers are independent
+Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2, variance Σ Δ_i²; the errors of all numbers are
+independent
 """
 
 import math
@@ -38,7 +39,10 @@ class Deviations:
 
 @dataclass(frozen=True)
 class Change:
-    """What one standard deviation of one number changes: imbalances [kg m] and misfits of the runs [m]; its cause."""
+    """Change of the answer by one standard deviation of one number, and its cause.
+
+    It holds imbalances [kg m] and misfits of the runs [m].
+    """
 
     cause: str
     imbalance: Pair
@@ -47,18 +51,18 @@ class Change:
 
 def changes(case: Balancing, method: Method, sigma: Deviations) -> list[Change]:
     """One for each number that went in."""
-    found, base = [], solved(case, method)
+    variations, base = [], solved(case, method)
     for cause, up, down in _varied(case, method, sigma):
         high, low = solved(up, method), base if down is None else solved(down, method)
-        found.append(_change(cause, high, low, 1.0 if down is None else 2.0))
-    return found
+        variations.append(_change(cause, high, low, 1.0 if down is None else 2.0))
+    return variations
 
 
 def _change(cause: str, high: Solution, low: Solution, steps: float) -> Change:
-    def half(one: Pair, other: Pair) -> Pair:
-        return (one[0] - other[0]) / steps, (one[1] - other[1]) / steps
+    def half(upper: Pair, other: Pair) -> Pair:
+        return (upper[0] - other[0]) / steps, (upper[1] - other[1]) / steps
 
-    misfits = tuple(half(one, other) for one, other in zip(high.misfits, low.misfits, strict=True))
+    misfits = tuple(half(misfit, other) for misfit, other in zip(high.misfits, low.misfits, strict=True))
     return Change(cause, half(high.imbalance, low.imbalance), misfits)
 
 
@@ -76,10 +80,10 @@ def _varied(case: Balancing, method: Method, sigma: Deviations) -> Varied:
 
 def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, RunOnRig]]:
     (A, B), (alpha, beta) = run.amplitudes, run.phases
-    dA, dB = (math.hypot(one * sigma.amplitude, noise) for one, noise in zip(run.amplitudes, run.noise, strict=True))
+    dA, dB = (math.hypot(peak * sigma.amplitude, noise) for peak, noise in zip(run.amplitudes, run.noise, strict=True))
     turn = [
-        math.hypot(sigma.phase, noise / one if one else 0.0)
-        for one, noise in zip(run.amplitudes, run.noise, strict=True)
+        math.hypot(sigma.phase, noise / peak if peak else 0.0)
+        for peak, noise in zip(run.amplitudes, run.noise, strict=True)
     ]
     shift = run.unsure / math.sqrt(3)
 
@@ -94,7 +98,7 @@ def _runs(run: RunOnRig, sigma: Deviations) -> Iterator[tuple[str, RunOnRig, Run
     yield both("speed", lambda s: replace(run, speed=run.speed * (1 + s * sigma.speed)))
     for index, weight in enumerate(run.weights):
         for moved in (_heavier(weight, sigma), _turned(weight, sigma)):
-            high, low = (_with_weight(run, index, one) for one in moved)
+            high, low = (_with_weight(run, index, trial_mass) for trial_mass in moved)
             yield "trial masses", high, low
 
 
@@ -132,7 +136,7 @@ def _rigs(case: Balancing, sigma: Deviations) -> Varied:
 
 
 def placing(imbalance: Pair, sigma: Deviations) -> list[Pair]:
-    """What is left of the imbalances by errors of the correction itself, one standard deviation each."""
+    """Residual imbalances by errors of the correction itself, one standard deviation each."""
     left, right = imbalance
     return [
         (left * sigma.placed_mass, 0j), (left * 1j * sigma.placed_angle, 0j),
@@ -163,16 +167,16 @@ def size(deltas: Iterable[complex]) -> float:
 def motions(matrix: Matrix, deltas: Iterable[Pair]) -> tuple[float, float]:
     """Amplitudes (rms over the errors) of both sensors that imbalances of this size leave [m]."""
     made = [motion_of(matrix, each) for each in deltas]
-    return size(one for one, _ in made), size(other for _, other in made)
+    return size(first for first, _ in made), size(other for _, other in made)
 
 
-def disagreement(found: Solution, by: Sequence[Change]) -> float | None:
+def disagreement(solution: Solution, by: Sequence[Change]) -> float | None:
     """The largest misfit over its standard deviation; None where the runs have nothing to disagree about."""
     sizes = []
-    for index, pair in enumerate(found.misfits):
+    for index, pair in enumerate(solution.misfits):
         for k in (0, 1):
             expected = size(change.misfits[index][k] for change in by)
-            scale = max(abs(made) for made in motion_of(found.influences[index], found.imbalance))
+            scale = max(abs(made) for made in motion_of(solution.influences[index], solution.imbalance))
             if expected > 1e-9 * scale:
                 sizes.append(abs(pair[k]) / expected)
     return max(sizes, default=None)

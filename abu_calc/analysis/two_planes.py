@@ -47,7 +47,7 @@ class Weight:
 
     @property
     def imbalance(self) -> complex:
-        """As a complex number [kg m]."""
+        """Imbalance as a complex number [kg m]."""
         return self.mass * self.radius * cmath.exp(-1j * self.angle)
 
 
@@ -95,7 +95,7 @@ class RunOnRig:
 
 @dataclass(frozen=True)
 class Balancing:
-    """All that an answer is made of."""
+    """Data from which a two-plane answer is computed."""
 
     roll: RollOnRig | None
     runs: tuple[RunOnRig, ...]
@@ -114,8 +114,9 @@ class Solution:
 
 
 def method_of(case: Balancing) -> Method:
-    """By trial masses where they suffice: what was measured before what is only known. Raises InputError where neither
-    they nor data of the rig suffice.
+    """Method of balancing: trial masses if they suffice, since measured values rank before assumed ones.
+
+    Raises InputError if neither they nor data of the rig suffice.
     """
     speeds = [run.speed for run in case.runs]
     trials = np.array([[*run.placed, 1.0] for run in case.runs], dtype=complex)
@@ -156,20 +157,20 @@ def _by_rig(case: Balancing) -> Solution:
     influences = tuple(influence(roll, run.speed) for run in case.runs)
     for each in influences:
         _refuse_singular(each, said_of_resonance(case))
-    found = np.mean(
+    imbalance = np.mean(
         [np.subtract(imbalances(roll, run.speed, run.motion), run.placed) for run in case.runs], axis=0
     )  # fmt: skip
-    return _solution("rig data", (complex(found[0]), complex(found[1])), influences, case.runs)
+    return _solution("rig data", (complex(imbalance[0]), complex(imbalance[1])), influences, case.runs)
 
 
 def _by_trials(case: Balancing) -> Solution:
     trials = np.array([[*run.placed, 1.0] for run in case.runs], dtype=complex)
     motions = np.array([run.motion for run in case.runs])
     scale = np.abs(trials).max(axis=0)
-    found = np.linalg.lstsq(trials / scale, motions, rcond=None)[0] / scale[:, None]
-    matrix = _matrix(found[:2].T)
+    coefficients = np.linalg.lstsq(trials / scale, motions, rcond=None)[0] / scale[:, None]
+    matrix = _matrix(coefficients[:2].T)
     _refuse_singular(matrix)
-    Q = np.linalg.solve(found[:2].T, found[2])
+    Q = np.linalg.solve(coefficients[:2].T, coefficients[2])
     return _solution("trial masses", (complex(Q[0]), complex(Q[1])), (matrix,) * len(case.runs), case.runs)
 
 
@@ -179,10 +180,10 @@ def _matrix(values: "np.ndarray[tuple[int, int], np.dtype[np.complex128]]") -> M
 
 
 def _refuse_singular(matrix: Matrix, why: str = "") -> None:
-    found = condition_number(matrix)
-    if not found <= WORST_CONDITION:
+    condition = condition_number(matrix)
+    if not condition <= WORST_CONDITION:
         raise NotTrustworthyError(
-            f"the sensors hardly tell the two planes apart: the condition number is {found:.3g}, at most "
+            f"the sensors hardly tell the two planes apart: the condition number is {condition:.3g}, at most "
             f"{WORST_CONDITION:g} is accepted.{why}\n  Another speed, planes farther apart, or other trial masses."
         )
 
@@ -192,7 +193,7 @@ def near_resonance(case: Balancing) -> tuple[float, float] | None:
     if case.roll is None:
         return None
     natural = natural_frequencies(case.roll)
-    return min((abs(run.speed / one - 1), one) for run in case.runs for one in natural)
+    return min((abs(run.speed / frequency - 1), frequency) for run in case.runs for frequency in natural)
 
 
 def said_of_resonance(case: Balancing) -> str:

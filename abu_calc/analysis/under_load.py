@@ -26,15 +26,15 @@ Places = Literal["balanced", "restless", "short", "gathered", "turning"]
 imbalance; or come to no rest."""
 
 HALVINGS = 60
-"""Of an interval, down to rounding."""
+"""Halvings of an interval, down to rounding."""
 
 
 @dataclass(frozen=True)
 class Balls:
-    """Where balls rest: what they would have to add up to, what they do [kg m], each angle [rad], slow stiffness.
+    """Resting places of the balls: resultant needed and reached [kg m], each angle [rad], slow stiffness.
 
-    `stiffness` [1/s²] of their slow motion, as if they were light; `worst`: that of a cross, which more than two
-    may form.
+    `stiffness` [1/s²] of their slow motion, as if they were light; `worst`: that of a cross, which more
+    than two may form.
     """
 
     places: Places
@@ -93,7 +93,7 @@ def contact_of(case: Case, added_mass: float, speed: float | None = None, *, rig
 
 
 def contact_presses(case: Case) -> bool:
-    """Whether the contact presses in the plane: that of a face does not."""
+    """True if the contact presses in the plane; that of a face does not."""
     return case.contact is not None and case.contact.kind != "face"
 
 
@@ -109,7 +109,7 @@ def bare(design: Design, runout: complex, *, speed: float | None = None, rigid: 
 
 
 def fixed(design: Design, runout: complex) -> Steady:
-    """With the autobalancer, its balls fixed where they balance at idle."""
+    """Steady motion with the autobalancer, its balls fixed where they balance at idle."""
     return Steady(contact_of(design.case, design.autobalancer.mass), runout, complex(design.imbalance.value), 0j)
 
 
@@ -121,7 +121,10 @@ def fitted(
     rigid: bool = False,
     judged: bool = True,
 ) -> Steady:
-    """With the autobalancer, its balls free, of ideal race and without dry friction; `judged`: see `with_balls`."""
+    """Steady motion with the autobalancer, its balls free, with an ideal race and no dry friction.
+
+    `judged`: see `with_balls`.
+    """
     contact = contact_of(design.case, design.autobalancer.mass, speed, rigid=rigid)
     return with_balls(design, contact, runout, complex(design.imbalance.value), judged=judged)
 
@@ -133,34 +136,37 @@ def with_balls(
 
     Unless `judged`, balls that balance are taken to stay there.
     """
-    one, ratio = design.autobalancer, design.autobalancer.requirement.plane_ratio
+    autobalancer, ratio = design.autobalancer, design.autobalancer.requirement.plane_ratio
     needed = (contact.balancing_imbalance(runout) - imbalance) * ratio
-    whirl, moment = contact.whirl_per_imbalance, one.ball_mass * one.pitch_radius
-    balances, enough = whirl.real < 0, abs(needed) <= one.capacity
+    whirl, moment = contact.whirl_per_imbalance, autobalancer.ball_mass * autobalancer.pitch_radius
+    balances, enough = whirl.real < 0, abs(needed) <= autobalancer.capacity
     places: Places = "balanced" if balances and enough else "short" if balances else "gathered"
-    resultant = needed if balances and enough else _side_by_side(whirl, needed, one.capacity)
+    resultant = needed if balances and enough else _side_by_side(whirl, needed, autobalancer.capacity)
     angles: tuple[float, ...] = ()
     if resultant is None:
         places = "turning"
     else:
-        spread = even_fan(one.ball_count, abs(resultant) / moment, contact_half_angle(design))
+        spread = even_fan(autobalancer.ball_count, abs(resultant) / moment, contact_half_angle(design))
         angles = tuple(cmath.phase(resultant) + angle for angle in spread)
     doubled = abs(sum(cmath.exp(2j * angle) for angle in angles))
 
     def stiffness(line: float) -> tuple[complex, complex]:
-        return loaded_stiffness(whirl, one.ball_mass, contact.speed, one.ball_count, line)
+        return loaded_stiffness(whirl, autobalancer.ball_mass, contact.speed, autobalancer.ball_count, line)
 
-    if judged and places == "balanced" and leaving(design.case, contact, one, doubled):
+    if judged and places == "balanced" and leaving(design.case, contact, autobalancer, doubled):
         places = "restless"
-    worst = stiffness(doubled if one.ball_count == 2 else 0.0)
+    worst = stiffness(doubled if autobalancer.ball_count == 2 else 0.0)
     balls = Balls(places, needed, resultant, angles, stiffness(doubled), worst)
     total = None if resultant is None else imbalance + resultant / ratio
     return Steady(contact, runout, imbalance, total, balls)
 
 
-def leaving(case: Case, contact: SteadyContact, one: Candidate, doubled: float) -> int:
-    """How many small disturbances of balls that balance grow; `doubled`: |Σe^{2iΘ}| of their arrangement."""
-    mass = case.body.effective_mass(one.mass)
+def leaving(case: Case, contact: SteadyContact, candidate: Candidate, doubled: float) -> int:
+    """Number of growing small disturbances of balls that balance.
+
+    `doubled`: |Σe^{2iΘ}| of their arrangement.
+    """
+    mass = case.body.effective_mass(candidate.mass)
 
     def whirl(speed: complex) -> complex:
         dx, dy = (case.suspension.reaction(axis, speed) - mass * speed**2 for axis in (0, 1))
@@ -168,7 +174,7 @@ def leaving(case: Case, contact: SteadyContact, one: Candidate, doubled: float) 
 
     def value(s: complex) -> complex:
         return characteristic(
-            whirl, one.ball_mass, contact.speed, one.ball_count, doubled, case.inertia_factor, case.drag, s
+            whirl, candidate.ball_mass, contact.speed, candidate.ball_count, doubled, case.inertia_factor, case.drag, s
         )
 
     return growing_roots(value, contact.speed)

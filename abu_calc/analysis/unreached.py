@@ -13,13 +13,16 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.errors import ChaoticError, NotTrustworthyError
 
 MOVED: Final = 1e-9
-"""By which one ball of each race is moved at the start [rad], into its widest gap, so that none comes to overlap."""
+"""Angle [rad] by which one ball of each race is moved at the start.
+
+The ball moves into its widest gap, so that no balls overlap.
+"""
 
 SENSITIVE: Final = 1e5
 """Growth of an error beyond which a motion is called chaotic: what decides a run is less than anyone can measure."""
 
 FELT: Final = 0.1
-"""Of the accuracy asked for."""
+"""Share of the requested accuracy that the grown error must exceed for a motion to be called chaotic."""
 
 COMPARED: Final = {"amplitude": "amplitude", "settling": "settling time", "angles": "ball angles"}
 
@@ -61,13 +64,13 @@ def unreached(
 
 
 def _growth(scene: Scene, response: Response, choice: Choice, tolerance: float, most: int) -> float:
-    """By how much an error at the start has grown in amplitude and angles; 0 where that run cannot be finished."""
+    """Growth of an error at the start, in amplitude and angles; 0 if that run cannot be finished."""
     moved = replace(scene, races=tuple(replace(race, start_angles=_moved(race.start_angles)) for race in scene.races))
     try:
         course, times = Course(moved), sampling(moved)
         trajectory = choice.integrate(assemble(moved), tolerance, times.read_by(course), choice.evaluations(most))
-        found = evaluate(moved, trajectory, course)
-        apart = [QUANTITIES[key](scene, found, response) for key in ("amplitude", "angles")]
+        moved_response = evaluate(moved, trajectory, course)
+        apart = [QUANTITIES[key](scene, moved_response, response) for key in ("amplitude", "angles")]
     except NotTrustworthyError:
         return 0.0
     return max(apart) / MOVED

@@ -25,11 +25,11 @@ SMALLEST = 1e-9
 STEPS = 60
 """Per decade of depth."""
 LARGEST_POWER = 600.0
-"""Of e, short of infinity."""
+"""Largest exponent of e that stays short of infinity."""
 SETTLED = 0.01
-"""Of the first variable force: what is left of it when a wheel has worn to where nothing drives it on."""
+"""Share of the first variable force that is left when a wheel has worn to where nothing drives it on."""
 NOTHING = 1e-9
-"""Of the press: a variable force of rounding errors."""
+"""Share of the normal force below which a variable force consists of rounding errors."""
 MOST = 50.0
 """The largest exponent of wear against force that is looked for."""
 
@@ -46,11 +46,11 @@ class Stage:
 
 @dataclass(frozen=True)
 class Wear:
-    """How a wheel wears from now on: rate of its runout now, dε/ds, and what comes first.
+    """Wear of a wheel from now on: rate of its runout now, dε/ds, and the first event.
 
-    `centres`: whether the runout shrinks. `event`: "halved", "limit" (of the level), "parted" (wheel and
-    work), "settled", "worn out", or None where
-    balls do not balance and the course is not known; `stages` up to there.
+    `centres`: True if the runout shrinks. `event`: "halved", "limit" (of the level), "parted" (wheel and
+    workpiece lose contact), "settled", "worn out", or None if the balls do not balance and the course is
+    not known; `stages` up to there.
     """
 
     pressure: complex
@@ -61,7 +61,7 @@ class Wear:
 
     @property
     def depth(self) -> float | None:
-        """At the event [m]."""
+        """Depth of wear at the event [m]."""
         return self.stages[-1].depth if self.stages else None
 
 
@@ -90,9 +90,10 @@ def _grown(exponent: complex) -> complex:
 
 
 def worn(steady: Steady, press: float, wheel_mass: float, usable: float, permitted: float = math.inf) -> Wear:
-    """From a steady motion on, as long as wheel and work stay together; `usable` depth [m].
+    """Wear from a steady motion on, as long as wheel and workpiece stay together; `usable` depth [m].
 
-    `permitted`: how far the axis may move [m]; a machine that does more from the beginning is not asked for it.
+    `permitted`: largest spindle displacement [m]; a machine that exceeds it from the beginning is not held
+    to it.
     """
     pressure, runout = steady.pressure or 0j, steady.runout
     towards = (pressure * runout.conjugate()).real
@@ -110,7 +111,10 @@ def worn(steady: Steady, press: float, wheel_mass: float, usable: float, permitt
 
 
 def _law(steady: Steady, press: float, wheel_mass: float) -> Law | None:
-    """With balls that balance H goes with E alone; without, with the wheel's imbalance too. None otherwise."""
+    """Law of wear: H depends on E, without balls on the wheel's imbalance too.
+
+    With balls it holds if they balance. None otherwise.
+    """
     contact, runout = steady.contact, steady.runout
     if steady.imbalance is None or contact.pressing == 0:
         return None
@@ -137,7 +141,7 @@ def _moved(steady: Steady, stage: Stage) -> float:
 
 
 def _first_event(law: Law, steady: Steady, permitted: float, press: float, usable: float) -> tuple[str, float]:
-    """What comes first, and at which depth [m]."""
+    """Name of the first event, and the depth at which it comes [m]."""
     runout = abs(steady.runout)
     if abs(law.start.pressure) > press:
         return "parted", 0.0

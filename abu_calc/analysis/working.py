@@ -1,4 +1,7 @@
-"""What the simulation of a machine at its work shows: phasors of axis and contact force, and how they press."""
+"""Results of a simulation of a machine at its workpiece.
+
+They are phasors of axis and contact force, and the normal force.
+"""
 
 import math
 from dataclasses import replace
@@ -18,7 +21,7 @@ from abu_calc.frozen import dataclass
 from abu_calc.progress import Progress, silent
 
 TURNS = 20
-"""Of the end of a run, over which forces are looked at."""
+"""Turns at the end of a run over which forces are examined."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +79,7 @@ def working(scene: Scene, accuracy: float, progress: Progress = silent, work: in
 
 @dataclass(frozen=True)
 class Seen:
-    """What a run says besides its states: rms velocity [m/s], ball angles at the end [rad], and how it went."""
+    """Results of a run besides its states: rms velocity [m/s], ball angles at the end [rad], quality."""
 
     velocity: float
     ball_angles: tuple[float, ...]
@@ -86,16 +89,16 @@ class Seen:
 
 
 def seen(run: Simulation) -> Working:
-    """What the last turns of a simulated scene of grinding show."""
+    """Results of the last turns of a simulated grinding scene."""
     window, response = amplitude_window(run.scene), run.response
     times = window.times[-1 - min(window.whole, TURNS * SAMPLES_PER_REVOLUTION) :]
     settled = response.settling_time is not None
-    told = Seen(response.velocity_rms, response.ball_angles, settled, run.error_estimate, run.warnings)
-    return read(run.scene, times, run.trajectory.at(times), told)
+    summary = Seen(response.velocity_rms, response.ball_angles, settled, run.error_estimate, run.warnings)
+    return read(run.scene, times, run.trajectory.at(times), summary)
 
 
-def read(scene: Scene, times: Array, states: Array, told: Seen) -> Working:
-    """From the states at equal steps over whole turns, both ends given."""
+def read(scene: Scene, times: Array, states: Array, summary: Seen) -> Working:
+    """Results from the states at equal steps over whole turns, both ends given."""
     place, count = axis_place(scene, states), 2 * len(scene.support.names)
     whole = place[:, :-1]
     away = np.abs(whole - whole.mean(axis=1, keepdims=True)).max(axis=1)
@@ -109,14 +112,14 @@ def read(scene: Scene, times: Array, states: Array, told: Seen) -> Working:
         imbalance=complex(total_imbalance(scene, balls)[:-1].mean()),
         force=force[:-1],
         profile=_profile(scene, times, force) if len(force) else (),
-        velocity=told.velocity,
+        velocity=summary.velocity,
         duration=scene.duration,
-        ball_angles=told.ball_angles,
+        ball_angles=summary.ball_angles,
         path=place[:, -1 - SAMPLES_PER_REVOLUTION :] - whole.mean(axis=1, keepdims=True),
-        settled=told.settled,
+        settled=summary.settled,
         parts=bool(len(force)) and float(force.min()) <= 0,
-        error=told.error,
-        warnings=told.warnings,
+        error=summary.error,
+        warnings=summary.warnings,
     )
 
 

@@ -30,7 +30,7 @@ def accuracy(
     ] = 20.0,
     duration_s: Duration = None,
 ) -> Outcome:
-    """What accuracy costs: every way to compute a scene, its error and its time."""
+    """Compare every way to compute a scene: its error and its time."""
     from abu_calc.report.accuracy import accuracy_blocks, accuracy_screen
     from abu_calc.spec.read_scene import read_any
     from abu_calc.studies.accuracy import accuracy as study

@@ -23,7 +23,7 @@ abu-calc sizes ball autobalancers of hand grinders. Three commands to try:
   abu check-fit --designation 6203    says which fits its seats need
 
 All commands: abu --help. Completion by the Tab key: abu --install-completion."""
-"""What `abu` alone says."""
+"""Text that `abu` prints without arguments."""
 
 COMPLETION: Final = "_ABU_COMPLETE"
 """Set by shells that ask how a line may go on."""
@@ -37,7 +37,7 @@ MEANINGS: Final = {
     2: "the input or the options are wrong",
     3: "no trustworthy number could be computed",
 }
-"""What each exit status tells."""
+"""Meaning of each exit status."""
 
 COMMANDS = (
     "size",
@@ -59,7 +59,7 @@ COMMANDS = (
     "schema",
     "explain",
 )
-"""In the order of the help; each has its module."""
+"""Commands in the order of the help; each has its module."""
 
 NUMERIC: Final = frozenset(COMMANDS) - {"check-fit", "validate", "init", "presets", "schema", "explain"}
 """Commands that load libraries of numbers."""
@@ -116,7 +116,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _warn(message: Warning | str, *_: object, **__: object) -> None:
-    """What goes wrong and is done without: a line, not a line of code."""
+    """Print a warning as one line, without the line of code that raised it."""
     print(f"warning: {escaped(str(message))}", file=sys.stderr)
 
 

@@ -13,13 +13,13 @@ def asked(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, An
     words = [
         "abu",
         name,
-        *(word for key, one in parameters.items() if key != "how" for word in _words(one, given[key])),
+        *(word for key, parameter in parameters.items() if key != "how" for word in _words(parameter, given[key])),
     ]
     return subprocess.list2cmdline(words) if os.name == "nt" else shlex.join(words)
 
 
 def _words(parameter: Parameter, value: Any) -> Iterator[str]:
-    """Those of one parameter; none where its default is in force."""
+    """Command-line words of one parameter; none if its default is in force."""
     if value is None or value == parameter.default:
         return
     option = _option(parameter)
@@ -33,11 +33,11 @@ def _words(parameter: Parameter, value: Any) -> Iterator[str]:
 
 
 def _option(parameter: Parameter) -> str | None:
-    """How its option is called; None for an argument."""
+    """Name of a parameter's option; None for an argument."""
     for extra in get_args(parameter.annotation)[1:]:
         # What is declared first stands where typer puts a default, as long as it has not looked at it.
         declared = (getattr(extra, "default", None), *(getattr(extra, "param_decls", None) or ()))
-        found = [each for each in declared if isinstance(each, str) and each.startswith("--")]
-        if found:
-            return found[0]
+        flags = [each for each in declared if isinstance(each, str) and each.startswith("--")]
+        if flags:
+            return flags[0]
     return None

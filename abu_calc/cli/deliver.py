@@ -1,4 +1,4 @@
-"""From a command's outcome, or its error, to what people and programs get to see."""
+"""Delivery of a command's outcome, or its error, to people and programs."""
 
 import os
 import sys
@@ -14,7 +14,7 @@ BUG = 3
 
 
 class Delivery(NamedTuple):
-    """How the outcome is wanted: the options that all commands share."""
+    """Requested delivery of an outcome: the options that all commands share."""
 
     json: bool = False
     output: Path | None = None
@@ -51,7 +51,7 @@ def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
 
 
 def _print(outcome: Outcome, how: Delivery) -> None:
-    """On standard output; where that is for programs, people read the warnings on standard error."""
+    """Print an outcome on standard output; if that is for programs, warnings go to standard error."""
     if how.json:
         print(to_json(document(outcome)))
         for warning in () if how.quiet else outcome.warnings:

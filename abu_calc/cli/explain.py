@@ -43,12 +43,12 @@ def _listed() -> Outcome:
     from abu_calc.check_codes import CHECK_CODES
     from abu_calc.report.steps import STEPS
 
-    steps = tuple((name, each.title, ", ".join(one.name for one in each.formulas)) for name, each in STEPS.items())
+    steps = tuple((name, each.title, ", ".join(entry.name for entry in each.formulas)) for name, each in STEPS.items())
     blocks = (
         Heading("Steps of `abu size`"),
         Grid(("step", "what", "formulas"), steps),
         Heading("Checks"),
-        Grid(("code", "check", "step"), tuple((one.code, one.name, one.step) for one in CHECK_CODES.values())),
+        Grid(("code", "check", "step"), tuple((check.code, check.name, check.step) for check in CHECK_CODES.values())),
         Paragraph(
             "abu explain STEP or CODE shows them, abu explain EFFECT one of `abu effects`; abu size MACHINE --explain "
             "puts the numbers in."
@@ -56,7 +56,7 @@ def _listed() -> Outcome:
     )
     result = {
         "steps": {name: each.title for name, each in STEPS.items()},
-        "checks": {code: one.name for code, one in CHECK_CODES.items()},
+        "checks": {code: check.name for code, check in CHECK_CODES.items()},
     }
     return Outcome("explain", result, blocks)
 
@@ -66,7 +66,7 @@ def _step(name: str) -> Outcome:
     from abu_calc.report.steps import STEPS
 
     step = STEPS[name]
-    texts = {one.name: "\n".join(one.for_users) for one in step.formulas}
+    texts = {formula.name: "\n".join(formula.for_users) for formula in step.formulas}
     return Outcome("explain", {"step": name, "formulas": texts}, tuple(step_blocks(step)))
 
 
@@ -81,17 +81,17 @@ def _code(code: str) -> Outcome:
     from abu_calc.formula import formula_of
     from abu_calc.report.explain import code_blocks
 
-    one = CHECK_CODES[code]
+    check = CHECK_CODES[code]
     result = {
-        "check": one.code,
-        "name": one.name,
-        "asks": one.asks,
-        "fails": one.fails,
-        "remedy": one.remedy,
-        "step": one.step or None,
-        "formulas": {each.name: "\n".join(each.for_users) for each in map(formula_of, one.formulas)},
+        "check": check.code,
+        "name": check.name,
+        "asks": check.asks,
+        "fails": check.fails,
+        "remedy": check.remedy,
+        "step": check.step or None,
+        "formulas": {each.name: "\n".join(each.for_users) for each in map(formula_of, check.formulas)},
     }
-    return Outcome("explain", result, tuple(code_blocks(one)))
+    return Outcome("explain", result, tuple(code_blocks(check)))
 
 
 def register(app: typer.Typer) -> None:

@@ -28,7 +28,7 @@ def figure_option(command: str) -> inspect.Parameter | None:
 
 def asked_figures(given: Iterable[str]) -> tuple[tuple[str, Path], ...]:
     """Names and files."""
-    return tuple(_pair(one) for one in given)
+    return tuple(_pair(argument) for argument in given)
 
 
 def _pair(text: str) -> tuple[str, Path]:
@@ -47,10 +47,10 @@ def check_figures(command: str, figures: Iterable[tuple[str, Path]], output: Pat
 
     taken = set() if output is None else {os.path.realpath(output)}
     for name, path in figures:
-        one = known(command, name)
+        figure = known(command, name)
         check_target(path, force=force, suffixes=SUFFIXES, option=OPTION)
         if os.path.realpath(path) in taken:
             raise OutputError("two outputs name the same file", place=Place(str(path)), remedy="Give another name.")
         taken.add(os.path.realpath(path))
-        if not (one.drawn and path.suffix.lower() == ".svg"):
+        if not (figure.drawn and path.suffix.lower() == ".svg"):
             check_matplotlib(f"{path.suffix.lower()} files of {name}")

@@ -26,7 +26,7 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
     try:
         with progress(how) as tell:
             named = _figures(outcome, how)
-            files = chain(outcome.further, own, (Target(path, _drawn(one, path)) for one, path in named))
+            files = chain(outcome.further, own, (Target(path, _drawn(figure, path)) for figure, path in named))
             targets = (Target(path, _told(text, f"writing {path}", tell)) for path, text in files)
             write(targets, force=how.force)
     except (InputError, OutputError) as error:
@@ -37,7 +37,7 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
 
 
 def _figures(outcome: Outcome, how: Delivery) -> "list[tuple[Figure, Path]]":
-    """Those asked for; raises InputError for one that this result does not have."""
+    """Requested figures; raises InputError for one that this result does not have."""
     if not how.figures:
         return []
     from abu_calc.report.figures.of_result import named
@@ -46,10 +46,10 @@ def _figures(outcome: Outcome, how: Delivery) -> "list[tuple[Figure, Path]]":
     return [(named(outcome.command, there, name), path) for name, path in how.figures]
 
 
-def _drawn(one: "Figure", path: Path) -> Iterator[str | bytes]:
+def _drawn(figure: "Figure", path: Path) -> Iterator[str | bytes]:
     from abu_calc.report.plotting.draw import figure_file
 
-    yield figure_file(one, path.suffix.lower())
+    yield figure_file(figure, path.suffix.lower())
 
 
 def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:

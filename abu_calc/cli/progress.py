@@ -25,7 +25,7 @@ EACH: Final = 0.2
 
 KNOWN_SHARE: Final = 0.02
 KNOWN_S: Final = 0.5
-"""How much of a stage has to be done, in how long, until its rest is told."""
+"""Share and seconds of a stage that must be done before its remaining time is shown."""
 
 SIGNS: Final = "-\\|/"
 
@@ -56,7 +56,7 @@ class _Line(threading.Thread):
         self._shown = 0
 
     def tell(self, text: str) -> None:
-        """What is being done from now on."""
+        """Set the text of the current task."""
         self._stage = self._stage.then(text)
 
     def run(self) -> None:
@@ -86,7 +86,7 @@ class _Line(threading.Thread):
         return shortened(escaped(stage.text), max(room - len(numbers), 1)) + numbers
 
     def _write(self, text: str) -> None:
-        """In place of what stood there; blanks wipe it, which every terminal knows."""
+        """Overwrite the previous text; blanks wipe it, which every terminal supports."""
         encoding = self._terminal.encoding or "utf-8"
         shown = text.encode(encoding, "replace").decode(encoding)
         self._terminal.write("\r" + shown.ljust(self._shown) + ("" if text else "\r"))

@@ -5,7 +5,7 @@ from typing import Annotated, Final
 import typer
 
 SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
-"""Of a machine; written out here so that `--help` loads no numerics."""
+"""Scenes of a machine; written out here so that `--help` loads no numerics."""
 
 File = Annotated[
     str, typer.Argument(metavar="MACHINE|SCENE", help="A machine file, the name of a preset, or a scene file.")

@@ -20,8 +20,8 @@ def schema(
     """Print the JSON Schema of a kind of files (draft 4, as editors take it), or of results (2020-12)."""
     if kind not in KINDS:
         raise InputError("no schema of this kind", found=kind, allowed=", ".join(KINDS))
-    found = _schema(kind)
-    return Outcome("schema", found, (), plain=to_json(found) + "\n")
+    json_schema = _schema(kind)
+    return Outcome("schema", json_schema, (), plain=to_json(json_schema) + "\n")
 
 
 def _schema(kind: str) -> dict[str, Any]:
@@ -31,8 +31,8 @@ def _schema(kind: str) -> dict[str, Any]:
         return result_schema()
     from abu_calc.spec.kinds import BY_NAME
 
-    found: dict[str, Any] = BY_NAME[kind].call("schema")
-    return found
+    json_schema: dict[str, Any] = BY_NAME[kind].call("schema")
+    return json_schema
 
 
 def register(app: typer.Typer) -> None:

@@ -77,11 +77,11 @@ def simulate(
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )
-    found = Outcome.of(
+    outcome = Outcome.of(
         result, lambda: simulate_blocks(result), lambda: simulate_screen(result), extras=lambda: _extras(result)
     )
     moved = (Target(trajectory, TrajectoryCsv(result.motion)),) if trajectory and result.motion else ()
-    return replace(found, further=moved)
+    return replace(outcome, further=moved)
 
 
 def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) -> None:

@@ -1,4 +1,4 @@
-"""Where the command `abu` begins: before anything large is imported."""
+"""Entry point of the command `abu`, before anything large is imported."""
 
 import gc
 import os

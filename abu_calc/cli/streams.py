@@ -19,7 +19,7 @@ PLAIN: Final = str.maketrans(
 )  # fmt: skip
 
 BUSY_S: Final = 0.01
-"""Between two tries to write to who takes nothing at the moment."""
+"""Seconds between two attempts to write to a reader that accepts nothing at the moment."""
 
 
 class Outlet(io.RawIOBase):
@@ -52,16 +52,16 @@ class Outlet(io.RawIOBase):
         return memoryview(data).nbytes
 
     def writable(self) -> bool:
-        """It is."""
+        """True, since the outlet can always be written to."""
         return True
 
     def fileno(self) -> int:
-        """That of the stream."""
+        """File number of the stream."""
         number: int = self._raw.fileno()
         return number
 
     def isatty(self) -> bool:
-        """Whether the stream is a terminal."""
+        """True if the stream is a terminal."""
         return bool(self._raw.isatty())
 
 
@@ -104,7 +104,7 @@ def _safe(stream: Any) -> tuple[io.TextIOWrapper, Outlet]:
 
 
 def _spelled(error: UnicodeError) -> tuple[str, int]:
-    """What a console without a sign gets instead of it, "?" where there is nothing better."""
+    """Replacement of a sign that the console lacks, "?" if there is nothing better."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     text = error.object[error.start : error.end].translate(PLAIN)

@@ -114,7 +114,7 @@ def sweep(
 
 
 def _command() -> str:
-    """What was typed."""
+    """Command line as it was typed."""
     return shlex.join(["abu", *sys.argv[1:]])
 
 
@@ -150,7 +150,7 @@ def _going_on(store: Path, kept: str) -> str:
 
 @contextmanager
 def _executor(cluster: str | None, patience: float) -> Iterator[Executor | None]:
-    """That of a Dask cluster, if one is asked for."""
+    """Executor of a Dask cluster, if one is requested."""
     if cluster is None:
         yield None
         return

@@ -30,7 +30,7 @@ def validate(
             faults.append(error)
             continue
         defaults = dict(loaded.defaults_used)
-        replaced = {one.key: one.value for one in loaded.overrides}
+        replaced = {override.key: override.value for override in loaded.overrides}
         results.append({"file": file, "sha256": loaded.sha256, "overrides": as_plain(replaced), "defaults": defaults,
                         "warnings": list(loaded.warnings)})  # fmt: skip
         warnings += [f"{file}: {warning}" for warning in loaded.warnings]

@@ -105,21 +105,22 @@ def _named(files: list[str] | None) -> list[str]:
 
     if not files:
         return list(names())
-    found: list[str] = []
+    paths: list[str] = []
     for file in files:
         if Path(file).is_dir():
             inside = sorted(str(path) for path in Path(file).glob("*.toml") if _may_expect(path))
             if not inside:
                 raise InputError("no file with [expected] in this folder", place=Place(file))
-            found += inside
+            paths += inside
         else:
-            found.append(file)
-    return found
+            paths.append(file)
+    return paths
 
 
 def _may_expect(path: Path) -> bool:
-    """Whether a file in a folder is of a kind that can expect something and does; one that cannot be read is not passed
-    over.
+    """True if a file in a folder is of a kind that can give expected values, and gives them.
+
+    A file that cannot be read is not skipped.
     """
     from abu_calc.spec.document import open_document
     from abu_calc.spec.kinds import kind_of

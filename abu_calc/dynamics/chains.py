@@ -26,7 +26,7 @@ class Chains:
     joined: Array
 
     def sums(self, x: Array) -> Array:
-        """Of each ball, the sum over its chain.
+        """Sum over the chain of each ball.
 
         >>> Chains(((0, 1, 2, 3),), np.array((1.0, 0.0, 0.0, 1.0))).sums(np.array((1.0, 2.0, 4.0, 8.0))).tolist()
         [11.0, 11.0, 4.0, 11.0]
@@ -34,21 +34,21 @@ class Chains:
         return x + self._gathered(x, self._gaps) + self._gathered(x, self._turned)
 
     def behind(self, x: Array) -> Array:
-        """Of each ball, the sum over itself and all of its chain behind it."""
+        """Sum over each ball and all of its chain behind it."""
         return x + self._gathered(x, self._gaps)
 
     def ahead(self, x: Array) -> Array:
-        """Of each ball, the sum over itself and all of its chain ahead of it."""
+        """Sum over each ball and all of its chain ahead of it."""
         return x + self._gathered(x, self._turned)
 
     @cached_property
     def _gaps(self) -> list[tuple[tuple[int, ...], list[Any]]]:
         """Each ring with its gaps."""
-        found, first = [], 0
+        ring_gaps, first = [], 0
         for ring in self.rings:
-            found.append((ring, list(self.joined[first : first + len(ring)])))
+            ring_gaps.append((ring, list(self.joined[first : first + len(ring)])))
             first += len(ring)
-        return found
+        return ring_gaps
 
     @property
     def _turned(self) -> list[tuple[tuple[int, ...], list[Any]]]:
@@ -57,11 +57,11 @@ class Chains:
 
     def leads(self, balls: int) -> Array:
         """1 for the last ball of each chain, 0 for those that have a joined gap behind them."""
-        found: list[Any] = [1.0] * balls
+        flags: list[Any] = [1.0] * balls
         for ring, gaps in self._gaps:
             for place, ball in enumerate(ring):
-                found[ball] = 1.0 - gaps[place - 1]
-        return np.array(found)
+                flags[ball] = 1.0 - gaps[place - 1]
+        return np.array(flags)
 
     def together(self, balls: int) -> Array:
         """n × n: 1 for balls of one chain; for numbers alone."""
@@ -69,13 +69,13 @@ class Chains:
         return np.array([self.sums(row) for row in unity])
 
     def _gathered(self, x: Array, rings: list[tuple[tuple[int, ...], list[Any]]]) -> Array:
-        """Of each ball, what its chain before it in its ring sums up to: nothing where that gap is open."""
-        found: list[Any] = [0.0] * len(x)
+        """Sum over the chain before each ball in its ring; zero if that gap is open."""
+        sums: list[Any] = [0.0] * len(x)
         for ring, gaps in rings:
             for before, ball, gap in zip(ring, ring[1:], gaps, strict=False):
-                found[ball] = gap * (x[before] + found[before])
-            wrapped, share = x[ring[-1]] + found[ring[-1]], gaps[-1]
+                sums[ball] = gap * (x[before] + sums[before])
+            wrapped, share = x[ring[-1]] + sums[ring[-1]], gaps[-1]
             for ball, gap in zip(ring[:-1], gaps, strict=False):
-                found[ball] = found[ball] + share * wrapped
+                sums[ball] = sums[ball] + share * wrapped
                 share = share * gap
-        return np.array(found)
+        return np.array(sums)

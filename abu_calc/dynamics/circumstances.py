@@ -93,7 +93,10 @@ class Circumstances(ABC):
 
     @cached_property
     def small_motion(self) -> SmallMotion:
-        """Of the support at the scene's speed, with the balls' mass at the centres of their races."""
+        """Small motion of the support at the scene's speed.
+
+        The balls' mass is at the centres of their races.
+        """
         return self.support.small_motion(self.speed).carrying(self.balls)
 
     # What the effects say of themselves, all together.
@@ -101,12 +104,12 @@ class Circumstances(ABC):
     @property
     @abstractmethod
     def rotor(self) -> Rotor:
-        """How the rotor turns."""
+        """Way in which the rotor turns."""
 
     @property
     @abstractmethod
     def start_speed(self) -> float:
-        """Of the rotor at t = 0 [rad/s]."""
+        """Speed of the rotor at t = 0 [rad/s]."""
 
     @property
     @abstractmethod
@@ -121,7 +124,7 @@ class Circumstances(ABC):
     @property
     @abstractmethod
     def balls_meet(self) -> bool:
-        """Whether balls have a size and cannot pass each other."""
+        """True if balls have a size and cannot pass each other."""
 
     @property
     @abstractmethod

@@ -27,7 +27,7 @@ class Column:
         return self
 
     def sin(self) -> "Column":
-        """As NumPy asks for it."""
+        """Sine, under the name by which NumPy calls it."""
         return Column(np.sin(self.values))
 
     def cos(self) -> "Column":
@@ -70,11 +70,11 @@ def at_samples(function: Callable[..., Any], *numbers: Array, at_once: bool = Tr
     count = numbers[0].shape[-1]
     if not at_once:
         single = [function(*(each[..., k] for each in numbers)) for k in range(count)]
-        return np.stack([np.asarray(one) for one in single], axis=-1)
+        return np.stack([np.asarray(sample) for sample in single], axis=-1)
     made = function(*map(_column, numbers))
-    rows = [one.values if isinstance(one, Column) else one for one in np.atleast_1d(np.asarray(made, dtype=object))]
-    found = np.array([np.broadcast_to(row, count) for row in rows])
-    return found[0] if np.ndim(made) == 0 else found
+    rows = [part.values if isinstance(part, Column) else part for part in np.atleast_1d(np.asarray(made, dtype=object))]
+    matrix = np.array([np.broadcast_to(row, count) for row in rows])
+    return matrix[0] if np.ndim(made) == 0 else matrix
 
 
 def _column(numbers: Array) -> Any:

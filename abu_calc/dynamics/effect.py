@@ -1,6 +1,7 @@
-"""What an effect is: one thing that acts in a scene beside its support, its races and the imbalance.
+"""Interface of an effect: one thing that acts in a scene.
 
-Effects are in `effects/`, one file each; how they go together is written in `effects/__init__.py`.
+Effects act besides the support, the races and the imbalance. They are in `effects/`, one file each;
+`effects/__init__.py` tells how they go together.
 """
 
 from functools import cached_property
@@ -27,7 +28,10 @@ ACROSS_RATE = "across'"
 
 @dataclass(frozen=True)
 class Weight:
-    """What leaving an effect out would change, counted as accuracy counts errors; None without a cheap estimate."""
+    """Estimated influence of an effect: the change if it is left out.
+
+    It is measured as accuracy measures errors; None without a cheap estimate.
+    """
 
     value: float | None
     why: str
@@ -35,10 +39,11 @@ class Weight:
 
 @dataclass(frozen=True)
 class Rule:
-    """By which rule compiled code decides an effect's next mode when a watched number of it falls, and its numbers.
+    """Rule by which compiled code decides an effect's next mode, and its numbers.
 
-    dry friction: the mode is a `Rolling`. ball contact: a `Neighbours`, its pairs rebounding by `restitution`.
-    one-sided contact: 1.0 or 0.0, the other when its one watched number falls.
+    It applies when a watched number of the effect falls. dry friction: the mode is a `Rolling`. ball
+    contact: a `Neighbours`, its pairs rebounding by `restitution`. one-sided contact: 1.0 or 0.0, the other
+    when its one watched number falls.
     """
 
     name: Literal["dry friction", "ball contact", "one-sided contact"]
@@ -50,11 +55,11 @@ class Laws(Protocol):
 
     @property
     def scene(self) -> Circumstances:
-        """What they are the equations of."""
+        """Scene of the equations."""
 
     @property
     def parameters(self) -> Parameters:
-        """Their numbers."""
+        """Numbers that the equations read."""
 
     @property
     def first_modes(self) -> Modes:
@@ -62,7 +67,7 @@ class Laws(Protocol):
 
     @property
     def scales(self) -> tuple[float, ...]:
-        """What counts as a whole unit of each state."""
+        """Size that counts as a whole unit of each state."""
 
     def accelerations(self, xp: Any, t: Any, y: Any, acting: Acting) -> tuple[Motion, Loads, Solved]:
         """Kinematics, loads and all accelerations at one time."""
@@ -100,7 +105,7 @@ class SwitchPoint:
     def own(self) -> Any:
         """The states of the effect that decides; None where it has none."""
         p, effect = self.parameters, self.parameters.effects[self.index]
-        before = sum(len(one.ball_states) for one in p.effects[: self.index])
+        before = sum(len(earlier.ball_states) for earlier in p.effects[: self.index])
         place, count = 2 * (p.size + p.balls) + before * p.balls, len(effect.ball_states) * p.balls
         return self.y[place : place + count] if count else None
 
@@ -122,38 +127,44 @@ class Effect:
     kind: ClassVar[Kind]
     about: ClassVar[str]
     detail: ClassVar[str] = ""
-    """What `abu explain NAME` tells beside, if anything."""
-    """What it is, in a line, where people choose effects."""
+    """Further text of `abu explain NAME`, if any."""
+    """Description of the effect in one line, shown where people choose effects."""
     table: ClassVar[str] = ""
     """The table of a scene file that it comes with; empty: a table of its own, `scene.effects.NAME`."""
     ball_states: ClassVar[tuple[str, ...]] = ()
     """Names of the states it adds for each ball."""
     switches: ClassVar[bool] = False
-    """Whether it has modes that the state may end."""
+    """True if the effect has modes that the state may end."""
     traceable: ClassVar[bool] = True
-    """Whether it can be traced: no function but sin and cos, no decision by values that are not its own numbers."""
+    """True if the effect can be traced.
+
+    It then uses no function but sin and cos, and no decision by values that are not its own numbers.
+    """
     averaged: ClassVar[bool] = False
-    """Whether the averaged slow motion accounts for it: by `offset`, by `falling`, or since it averages out."""
+    """True if the averaged slow motion includes the effect.
+
+    The motion accounts for it by `offset`, by `falling`, or since it averages out.
+    """
     whole_run: ClassVar[bool] = False
-    """Whether its remarks look at samples of the whole run at once, of a long one at some of them."""
+    """True if its remarks need samples of the whole run at once; a long run gives some of them."""
     balls_meet: ClassVar[bool] = False
-    """Whether it gives balls a size, so that they cannot pass each other."""
+    """True if the effect gives balls a size, so that they cannot pass each other."""
 
     # Properties others ask an effect for, so that nobody needs to ask which effect it is.
 
     @property
     def rotor(self) -> Rotor:
-        """How it has the rotor turn; the most that any effect asks for counts."""
+        """Way of turning that the effect requires of the rotor; the most that any effect requires counts."""
         return STEADY
 
     @property
     def rotor_inertia(self) -> float:
-        """What it adds to the inertia of a driven rotor [kg m²]."""
+        """Inertia that the effect adds to a driven rotor [kg m²]."""
         return 0.0
 
     @property
     def from_rest(self) -> bool:
-        """Whether it has the rotor start from rest."""
+        """True if the effect makes the rotor start from rest."""
         return False
 
     @property
@@ -163,7 +174,7 @@ class Effect:
 
     @property
     def least_duration(self) -> float:
-        """Of a scene that it is part of [s]."""
+        """Least duration of a scene with the effect [s]."""
         return 0.0
 
     @property
@@ -173,7 +184,7 @@ class Effect:
 
     @property
     def offset(self) -> complex:
-        """How far it moves the races' centres off the axis, x + iy in the rotor [m]."""
+        """Offset of the races' centres from the axis by the effect, x + iy in the rotor [m]."""
         return 0j
 
     @property
@@ -186,7 +197,7 @@ class Effect:
         return None
 
     def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Where the support has to start, and how fast."""
+        """Position and velocity with which the support has to start."""
         return scene.start_position, scene.start_velocity
 
     # Motion.
@@ -202,21 +213,21 @@ class Effect:
         raise NotImplementedError
 
     def start(self, scene: Circumstances) -> tuple[float, ...]:
-        """Its own states at t = 0."""
+        """States of the effect at t = 0."""
         return ()
 
     def scales(self, scene: Circumstances) -> tuple[float, ...]:
-        """What counts as a whole unit of its own states."""
+        """Size that counts as a whole unit of each of the effect's own states."""
         return ()
 
     # Modes.
 
     def switching(self, scene: Circumstances) -> bool:
-        """Whether it has modes that the state may end, in this scene."""
+        """True if the effect has modes that the state may end, in this scene."""
         return self.switches
 
     def first_mode(self, scene: Circumstances) -> Any:
-        """How it acts at first, before the modes of all effects are settled; None where there is one way only."""
+        """Mode at first, before the modes of all effects are settled; None if there is only one way to act."""
         return None
 
     def breaks(self, scene: Circumstances) -> tuple[float, ...]:
@@ -224,7 +235,7 @@ class Effect:
         return ()
 
     def mode_at(self, scene: Circumstances, t: float, mode: Any) -> Any:
-        """Its mode from t on, at t = 0 or at one of its breaks."""
+        """Mode of the effect from t on, at t = 0 or at one of its breaks."""
         return mode
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
@@ -239,7 +250,7 @@ class Effect:
         return []
 
     def rule(self, mode: Any) -> Rule | None:
-        """How compiled code finds its next mode from one like this; None where only `settle` knows."""
+        """Rule by which compiled code finds the mode after one like this; None if only `settle` can find it."""
         return None
 
     def criteria(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
@@ -257,12 +268,12 @@ class Effect:
         return 0.0
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """What a user should know of a run: that it left the range in which the effect holds, for instance.
+        """Remarks on a run that a user should know: that it left the range of the effect, for instance.
 
-        A long run is shown block by block, until there is something to say, unless `whole_run`.
+        A long run is shown block by block, until there is a remark, unless `whole_run`.
         """
         return ()
 
     def weight(self, scene: Circumstances) -> Weight:
-        """What leaving it out would change."""
+        """Estimated influence: the change if the effect is left out."""
         return Weight(None, "")

@@ -9,17 +9,18 @@ from abu_calc.dynamics.chains import Chains
 from abu_calc.errors import InputError
 
 Array = NDArray[Any]
-"""Of numbers, complex numbers or symbols."""
+"""Array of numbers, complex numbers or symbols."""
 
 
 @dataclass(slots=True)
 class Motion:
-    """Where everything is and how fast, at one time.
+    """Places and speeds of everything at one time.
 
-    Angles γ = θ + turn of the balls are inertial; e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). `support`: (q, q');
-    `turn`, `speed`: of the rotor, inertial; `own_speed`: against what carries it; `acceleration` as far as it is given;
-    `swing`: γ' of each ball; `static_moments`: m R; `offset`: where the races' centres stand off the axis [m], x and y;
-    `rolled`: speed of the balls' rolling across the race [m/s], where they have that freedom; None without.
+    Angles γ = θ + turn of the balls are inertial; e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). `support`:
+    (q, q'); `turn`, `speed`: of the rotor, inertial; `own_speed`: against what carries it; `acceleration`
+    as far as it is given; `swing`: γ' of each ball; `static_moments`: m R; `offset`: where the races'
+    centres stand off the axis [m], x and y; `rolled`: speed of the balls' rolling across the race [m/s] if
+    they have that freedom; None without.
     """
 
     xp: Any
@@ -42,7 +43,11 @@ class Motion:
 
 @dataclass(slots=True)
 class Axial:
-    """How balls move along the spindle: `lever` (d × n), `carried` acceleration (n), `slope`: way per way round (n)."""
+    """Motion of balls along the spindle.
+
+    `lever` (d × n), `carried` acceleration (n), `slope`: displacement along the spindle per displacement
+    round (n).
+    """
 
     lever: Any
     carried: Any
@@ -59,12 +64,13 @@ class Leaning:
 
 @dataclass(slots=True)
 class Levers:
-    """What balls feel of the frame, whose accelerations are A (d).
+    """Levers from the frame, whose accelerations are A (d), to the balls.
 
-    `along`, `outward` (d × n): acceleration of a ball's place in the race along e_t and e_r per unit A. `mass` (d × d):
-    what the frame weighs with balls at rest in their races, None where it is to be summed up. `carried_along`,
-    `carried_outward` (n): what that place has without any A, beside going round; None for nothing. `axial`, `leaning`:
-    where balls move along the spindle, and where they do so since their race tilts.
+    `along`, `outward` (d × n): acceleration of a ball's place in the race along e_t and e_r per unit A.
+    `mass` (d × d): inertia of the frame with balls at rest in their races, None if it is to be summed up.
+    `carried_along`, `carried_outward` (n): acceleration of that place without any A, besides going round;
+    None for nothing. `axial`, `leaning`: set if balls move along the spindle, and if they do so because
+    their race tilts.
     """
 
     along: Array
@@ -75,7 +81,7 @@ class Levers:
     axial: Axial | None = None
     leaning: Leaning | None = None
     sunk: Any = None
-    """By how much R_p² is less, seen along the spindle, since the race leans [m²]; with `axial`."""
+    """Decrease of R_p², seen along the spindle, by the lean of the race [m²]; with `axial`."""
     sinking: Any = None
     """γ' times its rate."""
 
@@ -122,15 +128,16 @@ class Bound:
 
 @dataclass(slots=True)
 class Loads:
-    """What effects add; None: nothing, and then it costs nothing.
+    """Loads that effects add; None: nothing, at no cost.
 
-    Slots that ADD, by `add`: `pull`, `press` (n), forces on the balls per ball mass along e_t and e_r; `frame` (d),
-    forces on the frame.
+    Slots that ADD, by `add`: `pull`, `press` (n), forces on the balls per ball mass along e_t and e_r;
+    `frame` (d), forces on the frame.
 
-    Set by ONE effect, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n), 1, or 0
-    for a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal force, negative like it
-    on the inner side of a race; `mates`, which balls move together; `leads` (n), 1 for the last of each of these;
-    `across`, one more direction of motion; `bound`, a constraint of the frame.
+    Set by ONE effect, by `own`: `grip` (n), dry friction along −e_t per normal force, signed; `free` (n),
+    1, or 0 for a ball that sticks; `hold` (n), largest friction that holds balls in place, per normal
+    force, negative like it on the inner side of a race; `mates`, which balls move together; `leads` (n), 1
+    for the last of each of these; `across`, one more direction of motion; `bound`, a constraint of the
+    frame.
     """
 
     pull: Any = None

@@ -8,7 +8,7 @@ from abu_calc.dynamics.rotor import Rotor
 from abu_calc.frozen import dataclass
 
 Modes = tuple[Any, ...]
-"""How each effect acts for the time being (sticking, touching …); None where there is one way only."""
+"""Present mode of each effect (sticking, touching …); None if it has only one way to act."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Geometry(ABC):
-    """How a support carries the races: its own numbers, as far as an evaluation of the equations needs them."""
+    """Geometry by which a support carries the races: its own numbers that the equations evaluate."""
 
     @abstractmethod
     def levers(self, m: Motion, p: "Parameters") -> Levers:
@@ -46,7 +46,7 @@ class Geometry(ABC):
         """Force of the imbalance on the frame, and what it weighs there."""
 
     def turning(self, support: Array) -> tuple[Any, Any] | None:
-        """By how much the support turns what carries the rotor, and how fast; None where it does not."""
+        """Turn and speed of the rotor's carrier by the support; None if the support does not turn it."""
         return None
 
     # Where work is pressed to a wheel: only of supports that answer by `Support.plane`.
@@ -60,13 +60,13 @@ class Geometry(ABC):
         raise NotImplementedError
 
     def rates(self, m: Motion, p: "Parameters") -> Array:
-        """How fast the frame moves."""
+        """Velocities of the frame."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True)
 class Parameters:
-    """What the equations read. Per ball n, race by race: arrays of that length."""
+    """Numbers that the equations read. Per ball n, race by race: arrays of that length."""
 
     size: int
     """N, the support's coordinates."""
@@ -98,11 +98,11 @@ class Parameters:
     imbalance: Any
     imbalance_angle: Any
     effects: tuple[Any, ...]
-    """Those of the scene, whose own numbers are read too."""
+    """Effects of the scene, whose own numbers are read too."""
 
     @property
     def traceable(self) -> bool:
-        """Whether the equations are plain arithmetic, which other things than numbers can go through."""
+        """True if the equations are plain arithmetic that also accepts other things than numbers."""
         return all(effect.traceable for effect in self.effects)
 
 

@@ -1,4 +1,7 @@
-"""How a rotor turns: at constant speed, with a given acceleration, or by a torque. Each way answers for itself."""
+"""Ways in which a rotor turns: at constant speed, with a given acceleration, or by a torque.
+
+Each way answers for itself.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
@@ -13,18 +16,21 @@ class Rotor(ABC):
     """One way of turning. Turn and speed are counted from what carries the rotor, an arm for instance."""
 
     states: ClassVar[tuple[str, ...]] = ("turn", "turn'")
-    """What it adds to the states."""
+    """Names of the states that the rotor adds."""
     rows: ClassVar[int] = 0
-    """What it adds to the frame: its own acceleration is an unknown beside the support's, or none."""
+    """Number of rows that the rotor adds to the frame.
+
+    The rotor's own acceleration is one more unknown besides the support's, or none.
+    """
     given: ClassVar[bool] = False
-    """Whether its acceleration is given, and may be other than zero."""
+    """True if the acceleration of the rotor is given, and may be other than zero."""
 
     @abstractmethod
     def turning(self, t: Any, y: Any, speed: Any) -> tuple[Any, Any]:
         """Turn and speed [rad, rad/s] of a state y, or of many, in a scene of that speed."""
 
     def start(self, speed: float) -> tuple[float, ...]:
-        """Its states at t = 0."""
+        """States of the rotor at t = 0."""
         return (0.0, speed)
 
     def rates(self, y: Any, acceleration: Any) -> list[Array]:
@@ -32,7 +38,7 @@ class Rotor(ABC):
         return [np.array((y[-1], acceleration))]
 
     def acceleration(self, m: Motion, A: Array) -> Any:
-        """Its acceleration [rad/s²], by that of the frame."""
+        """Acceleration of the rotor [rad/s²], from that of the frame."""
         return m.acceleration
 
     def carry(self, m: Motion, levers: Levers, leaning: Any = None) -> Levers:
@@ -55,7 +61,7 @@ class Rotor(ABC):
 
 @final
 class Steady(Rotor):
-    """At constant speed: the turn is speed times time."""
+    """Rotation at constant speed: the turn is speed times time."""
 
     states = ()
 
@@ -74,13 +80,13 @@ class Steady(Rotor):
     def unbalanced(
         self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
     ) -> tuple[Array, Any]:
-        """As it is."""
+        """Force and weight, unchanged."""
         return force, weight
 
 
 @final
 class Guided(Rotor):
-    """With a given acceleration: turn and speed are states."""
+    """Rotation with a given acceleration: turn and speed are states."""
 
     given = True
 
@@ -104,7 +110,10 @@ class Guided(Rotor):
 
 @final
 class Driven(Rotor):
-    """By torques: turn and speed are states, and the acceleration is one of the frame's, the last."""
+    """Rotation by torques: turn and speed are states.
+
+    The acceleration is one of the frame's, the last.
+    """
 
     rows = 1
 
@@ -128,7 +137,7 @@ class Driven(Rotor):
     def unbalanced(
         self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
     ) -> tuple[Array, Any]:
-        """With one row more."""
+        """Force and weight with one more row."""
         beside = coupling()
         rows = np.zeros((len(force), len(force))) if weight is None else weight
         bordered = [[*row, more] for row, more in zip(rows, beside, strict=True)]

@@ -31,7 +31,7 @@ class Scene(Circumstances):
 
     @property
     def start_speed(self) -> float:
-        """That of the scene, unless something has it start from rest."""
+        """Speed of the scene, unless an effect makes the rotor start from rest."""
         return 0.0 if any(effect.from_rest for effect in self.effects) else self.speed
 
     @property
@@ -46,25 +46,25 @@ class Scene(Circumstances):
 
     @property
     def ball_states(self) -> tuple[str, ...]:
-        """Of all effects."""
+        """Ball states of all effects."""
         return tuple(name for effect in self.effects for name in effect.ball_states)
 
     @property
     def state_count(self) -> int:
-        """Of its equations."""
+        """Number of states of the scene's equations."""
         balls = (2 + len(self.ball_states)) * len(self.ball_masses)
         return 2 * len(self.support.names) + balls + len(self.rotor.states)
 
     @property
     def balls_meet(self) -> bool:
-        """Whether any effect says so."""
+        """True if any effect gives balls a size."""
         return any(effect.balls_meet for effect in self.effects)
 
     @property
     def holding(self) -> Holding | None:
-        """Of the first effect that holds balls."""
-        found = (effect.holding(self) for effect in self.effects)
-        return next((one for one in found if one is not None), None)
+        """Holding by the first effect that holds balls."""
+        holdings = (effect.holding(self) for effect in self.effects)
+        return next((holding for holding in holdings if holding is not None), None)
 
     def effect(self, name: str) -> Effect | None:
         """The effect of this name, if the scene has it."""

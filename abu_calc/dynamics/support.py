@@ -1,6 +1,6 @@
-"""What carries a rotor: the face that every kind of support answers by. The kinds are in `supports/`, one file each.
+"""Interface of a support, which carries a rotor. The kinds are in `supports/`, one file each.
 
-Nobody else asks which kind it is: what a kind needs stands behind one of these names.
+No other code asks for the kind: whatever a kind needs is behind one of these names.
 """
 
 from abc import ABC, abstractmethod
@@ -112,19 +112,25 @@ def undamped_resonance(speed: float) -> InputError:
 
 
 class Support(ABC):
-    """What a rotor hangs on. Kinds are frozen dataclasses; their fields are their numbers in SI, without balls."""
+    """Support of a rotor.
+
+    Kinds are frozen dataclasses; their fields are their numbers in SI, without balls.
+    """
 
     names: tuple[str, ...]
-    """Of the coordinates q."""
+    """Names of the coordinates q."""
     couples: ClassVar[bool] = False
-    """Whether it knows couples and places along the spindle: whether it tilts."""
+    """True if the support tilts: it then takes couples and places along the spindle into account."""
     turns: ClassVar[bool] = False
-    """Whether its motion turns the rotor and the races too. Then what the imbalance weighs in it varies, and half a
-    turn of the rotor later it is not the same upside down."""
+    """True if the support's motion turns the rotor and the races too.
+
+    The inertia of the imbalance in it then varies, and the state half a turn of the rotor later is not the
+    same upside down.
+    """
 
     @property
     def straight(self) -> bool:
-        """Whether it neither tilts nor turns what it holds."""
+        """True if the support neither tilts nor turns what it holds."""
         return not (self.couples or self.turns)
 
     bearings: tuple[float, ...] = ()
@@ -138,7 +144,7 @@ class Support(ABC):
 
     @abstractmethod
     def geometry(self, unbalance: Unbalance) -> Geometry:
-        """How it carries the races, and what an imbalance does to it."""
+        """Geometry by which the support carries the races, and the action of an imbalance on it."""
 
     @property
     @abstractmethod
@@ -147,7 +153,7 @@ class Support(ABC):
 
     @abstractmethod
     def shares(self, races: Sequence[Race]) -> list[float]:
-        """By how much a unit of each coordinate moves the races [m]."""
+        """Displacement of the races by a unit of each coordinate [m]."""
 
     # How it moves about rest.
 
@@ -201,15 +207,15 @@ class Support(ABC):
         raise InputError("no work can be pressed to a wheel on this support")
 
     def tilt(self, q: Array) -> tuple[float, float] | None:
-        """How far the spindle leans toward x and y [rad]; None where it cannot."""
+        """Lean of the spindle toward x and y [rad]; None if it cannot lean."""
         return None
 
     def turned(self, q: Array) -> Any:
-        """By how much it turns the rotor and the races [rad]; None where it does not."""
+        """Angle by which the support turns the rotor and the races [rad]; None if it does not."""
         return None
 
     def lost(self, t: Array, q: Array) -> NotTrustworthyError | None:
-        """What to raise for a motion that left what the support stands for; None where it did not."""
+        """Error to raise for a motion that left the range of the support; None if it did not."""
         return None
 
     def refuse_couples(self, couple: float, places: Sequence[float]) -> None:
@@ -222,8 +228,8 @@ class Support(ABC):
     @property
     @abstractmethod
     def description(self) -> str:
-        """In a few words, the first of them with a capital letter."""
+        """Description of the support in a few words, the first of them with a capital letter."""
 
     @abstractmethod
     def model(self) -> dict[str, Any]:
-        """Its numbers in SI, by their names with units."""
+        """Numbers of the support in SI, by their names with units."""

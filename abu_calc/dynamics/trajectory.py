@@ -1,4 +1,4 @@
-"""What an integrator hands on, and which samples it is asked for."""
+"""Trajectory that an integrator returns, and the samples that are requested from it."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -53,10 +53,10 @@ def merged(*numbers: NDArray[Any]) -> NDArray[Any]:
     >>> merged(np.array((3, 1)), np.array((2, 3))).tolist()
     [1, 2, 3]
     """
-    found = np.sort(np.concatenate(numbers))
-    first = np.ones(len(found), dtype=bool)
-    first[1:] = found[1:] != found[:-1]
-    return found[first]
+    ordered = np.sort(np.concatenate(numbers))
+    first = np.ones(len(ordered), dtype=bool)
+    first[1:] = ordered[1:] != ordered[:-1]
+    return ordered[first]
 
 
 Reader = Callable[[Samples], None]
@@ -87,17 +87,17 @@ class Sampling:
 
     @classmethod
     def of(cls, times: "Times") -> "Sampling":
-        """At times that are all held, if they are no sampling yet."""
+        """Sampling at times that are all held, if they are no sampling yet."""
         return times if isinstance(times, Sampling) else cls(np.asarray(times, dtype=float))
 
     def read_by(self, *readers: Reader) -> "Sampling":
         """The same times for others to read."""
         return replace(self, readers=readers)
 
-    def telling(self, told: Share | None) -> "Sampling":
+    def telling(self, report: Share | None) -> "Sampling":
         """The same times, with somebody who watches."""
-        return replace(self, told=told)
+        return replace(self, told=report)
 
 
 Times = Sequence[float] | Array | Sampling
-"""What an integrator is asked for."""
+"""Times that are requested from an integrator."""

@@ -1,4 +1,7 @@
-"""Which field to write on the drawing: by the makers' catalogue, the grip, the stress and the clearance left."""
+"""Choice of the tolerance class for the drawing.
+
+It depends on the makers' catalogue, the interference, the stress and the clearance left.
+"""
 
 from collections.abc import Callable, Iterable
 from functools import cache, lru_cache
@@ -43,22 +46,22 @@ def advised(joint: Joint, start: Start, usual: MakerFits | None) -> Joint | None
     classes = row.classes if row else (_SLIDING[joint.seat],)
     named = joint.measured is None and joint.tolerance_class in classes
     base = joint.with_class(joint.tolerance_class if named else classes[0])
-    above = [one for one in _like(base) if one.mean > base.mean]
-    below = [one for one in reversed(_like(base)) if one.mean < base.mean]
+    above = [candidate for candidate in _like(base) if candidate.mean > base.mean]
+    below = [candidate for candidate in reversed(_like(base)) if candidate.mean < base.mean]
     return _first((base, *above, *below), start)
 
 
 def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, ...]:
     """The joint with every tabulated class whose grip and stress do not fail: the best, then the nearest of its grade,
     then those of others."""
-    passing = [one for one in _by_mean(joint) if _will_do(one, start)]
+    passing = [candidate for candidate in _by_mean(joint) if _will_do(candidate, start)]
     if best is None:
         return tuple(passing)
     grade = _grade(best.tolerance_class)
 
-    def order(one: Joint) -> tuple[bool, bool, float]:
-        name = one.tolerance_class
-        return name != best.tolerance_class, _grade(name) != grade, round(abs(one.mean - best.mean), 12)
+    def order(candidate: Joint) -> tuple[bool, bool, float]:
+        name = candidate.tolerance_class
+        return name != best.tolerance_class, _grade(name) != grade, round(abs(candidate.mean - best.mean), 12)
 
     return tuple(sorted(passing, key=order))
 
@@ -66,37 +69,37 @@ def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, .
 def neighbours(best: Joint, start: Start, jams: Callable[[Joint], str | None]) -> tuple[Rejected, ...]:
     """The next looser and the next tighter field of the grade that will not do; `jams` says so of the clearance."""
     ladder = _like(best)
-    looser = [one for one in reversed(ladder) if one.mean < best.mean]
-    tighter = [one for one in ladder if one.mean > best.mean]
-    found = []
+    looser = [joint for joint in reversed(ladder) if joint.mean < best.mean]
+    tighter = [joint for joint in ladder if joint.mean > best.mean]
+    rejections = []
     for way in (looser, tighter):
-        why = ((one, _why_not(one, start) or jams(one)) for one in way)
+        why = ((joint, _why_not(joint, start) or jams(joint)) for joint in way)
         # The first alone is asked for: what the others leave of the clearance is not integrated.
-        first = next((Rejected(one.tolerance_class, reason) for one, reason in why if reason), None)
-        found += [first] if first else []
-    return tuple(found)
+        first = next((Rejected(joint.tolerance_class, reason) for joint, reason in why if reason), None)
+        rejections += [first] if first else []
+    return tuple(rejections)
 
 
 def looser_that_hold(best: Joint, start: Start) -> tuple[Joint, ...]:
     """Looser fields of the grade that hold by the mean, the tightest first."""
-    return tuple(one for one in reversed(_like(best)) if one.mean < best.mean and _will_do(one, start))
+    return tuple(joint for joint in reversed(_like(best)) if joint.mean < best.mean and _will_do(joint, start))
 
 
 def _by_smallest(joint: Joint, start: Start) -> Joint | None:
     """The loosest whose smallest interference does, of the given or usual grade first."""
     grades = (_grade(joint.tolerance_class), _USUAL_GRADE[joint.seat])
-    passing = [one for one in _by_mean(joint) if one.grip == "pass" and _will_do(one, start)]
+    passing = [candidate for candidate in _by_mean(joint) if candidate.grip == "pass" and _will_do(candidate, start)]
 
-    def order(one: Joint) -> tuple[int, float, float]:
-        grade = _grade(one.tolerance_class)
+    def order(candidate: Joint) -> tuple[int, float, float]:
+        grade = _grade(candidate.tolerance_class)
         by_grade = grades.index(grade) if grade in grades else len(grades)
-        return by_grade, one.interference.smallest, one.interference.largest
+        return by_grade, candidate.interference.smallest, candidate.interference.largest
 
     return min(passing, key=order, default=None)
 
 
 def _first(joints: Iterable[Joint], start: Start) -> Joint | None:
-    return next((one for one in joints if _will_do(one, start)), None)
+    return next((joint for joint in joints if _will_do(joint, start)), None)
 
 
 def _will_do(joint: Joint, start: Start) -> bool:
@@ -127,16 +130,16 @@ def _by_mean(joint: Joint) -> tuple[Joint, ...]:
 def _classes(joint: Joint) -> tuple[Joint, ...]:
     """The same joints for all who ask of one seat, so that what they work out is worked out once."""
     joints = (joint.with_class(name) for name in tolerance_classes(joint.seat))
-    return tuple(sorted(joints, key=lambda one: (one.mean, one.interference.smallest)))
+    return tuple(sorted(joints, key=lambda candidate: (candidate.mean, candidate.interference.smallest)))
 
 
 def _like(joint: Joint) -> tuple[Joint, ...]:
     """Classes of the grade, from loose to tight; beyond the tightest those of the next coarser grades."""
     grade = int(_grade(joint.tolerance_class))
     every = _by_mean(joint)
-    own = [one for one in every if int(_grade(one.tolerance_class)) == grade]
-    top = max(one.mean for one in own)
-    return (*own, *(one for one in every if int(_grade(one.tolerance_class)) > grade and one.mean > top))
+    own = [fit for fit in every if int(_grade(fit.tolerance_class)) == grade]
+    top = max(fit.mean for fit in own)
+    return (*own, *(fit for fit in every if int(_grade(fit.tolerance_class)) > grade and fit.mean > top))
 
 
 @cache

@@ -38,17 +38,17 @@ class Ring:
 
     @property
     def seat_length(self) -> float | None:
-        """Between the chamfers [m]; None where they are not known."""
+        """Length of the seat between the chamfers [m]; None if they are not known."""
         return None if self.chamfer is None else self.width - 2 * self.chamfer
 
 
 @dataclass(frozen=True)
 class Part:
-    """What a ring sits on or in.
+    """Shaft or housing that a ring sits on or in.
 
-    `fit` tolerance class (None: to be advised), `measured` limits [m] in its place, roughness Rz [m] (None: not given),
-    `other` the part's second diameter [m]: bore of a shaft (None: solid), outside of a housing (None: endless),
-    `strength` [Pa] (None: that of its material), `split` of a housing in halves.
+    `fit` tolerance class (None: to be advised), `measured` limits [m] in its place, roughness Rz [m] (None:
+    not given), `other` the part's second diameter [m]: bore of a shaft (None: solid), outside of a housing
+    (None: endless), `strength` [Pa] (None: that of its material), `split` of a housing in halves.
     """
 
     fit: str | None
@@ -66,11 +66,11 @@ class Part:
 
 @dataclass(frozen=True)
 class Service:
-    """What the seats must stand [SI]; None: not given, and then not counted.
+    """Service conditions that the seats must stand [SI]; None: not given, and then not counted.
 
-    `ring_over_shaft` and `inner_over_outer` are by how much the inner ring is warmer [K], `housing_over_ring` by how
-    much the housing is warmer than the outer ring, `over_mounting` the rings than at mounting (20 °C), each of either
-    sign; `seat_friction` the coefficient of friction between ring and seat.
+    Temperature differences [K] of either sign: `ring_over_shaft` and `inner_over_outer` of the inner ring
+    over shaft and outer ring; `housing_over_ring` of the housing over the outer ring; `over_mounting` of
+    the rings over mounting (20 °C). `seat_friction`: coefficient of friction between ring and seat.
     """
 
     radial_load: float | None = None

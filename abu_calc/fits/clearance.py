@@ -19,7 +19,7 @@ _PANELS: Final = 24
 _HALVINGS: Final = 22
 
 _Law = tuple[tuple[float, float], ...]
-"""What both seats take from the clearance [m], with the share of bearings."""
+"""Losses of clearance by both seats [m], each with its share of bearings."""
 
 
 class ClearanceLeft(NamedTuple):
@@ -38,7 +38,7 @@ class ClearanceLeft(NamedTuple):
 
 
 class Mounting:
-    """What two seats do to the clearance of their bearing, whatever its group."""
+    """Effect of two seats on the clearance of their bearing, whatever its group."""
 
     def __init__(self, bearing: Bearing, shaft: Joint, housing: Joint) -> None:
         bore, outer = bearing.inner.diameter, bearing.outer.diameter
@@ -56,7 +56,7 @@ class Mounting:
         return sum([share * 0.5 * math.erfc(-(level + taken) / scale) for taken, share in self.law])
 
     def keeps(self, group: str) -> bool:
-        """Whether all but 0.135 % of the bearings of a group keep clearance."""
+        """True if all but 0.135 % of the bearings of a group keep clearance."""
         return self.share_below(group) <= _TAIL
 
     @property
@@ -68,7 +68,7 @@ class Mounting:
         """Clearance [m] that a share of the bearings of a group has not."""
         low, high = _extremes(self, group)
         spread = high - low
-        return _where(lambda one: self.share_below(group, one), share, low - spread, high + spread)
+        return _where(lambda clearance: self.share_below(group, clearance), share, low - spread, high + spread)
 
 
 @formula(
@@ -114,7 +114,10 @@ def _change(joint: Joint, interference: float) -> float:
 
 
 def _growth(joint: Joint) -> _Law:
-    """What one seat takes: nothing of its loose pairs, of the others by Simpson's rule over the normal law."""
+    """Loss of clearance by one seat.
+
+    Loose pairs lose nothing. The others are summed by Simpson's rule over the normal law.
+    """
     male, female = joint.male_and_female
     sigma = math.hypot(male.tolerance, female.tolerance) / 6
     mean = male.middle - female.middle - joint.mounted_losses
@@ -133,8 +136,8 @@ def _growth(joint: Joint) -> _Law:
     )
 
 
-def _together(one: _Law, other: _Law) -> _Law:
-    return tuple([(a + b, p * q) for a, p in one for b, q in other if p * q > 1e-10])
+def _together(law: _Law, other: _Law) -> _Law:
+    return tuple([(a + b, p * q) for a, p in law for b, q in other if p * q > 1e-10])
 
 
 def _where(rising: Callable[[float], float], level: float, low: float, high: float) -> float:

@@ -1,4 +1,4 @@
-"""Whether a ring creeps on its seat: by the kind of load on it, and when the machine starts."""
+"""Creep of a ring on its seat: by the kind of load on it, and when the machine starts."""
 
 import math
 from typing import Final, Literal, NamedTuple
@@ -64,7 +64,10 @@ def creep(joint: Joint, friction: float, starting_torque: float | None) -> Creep
 
 
 def holds_at_start(joint: Joint, friction: float, starting_torque: float | None) -> bool | None:
-    """Whether the friction at the least interference outweighs the starting torque; None: not asked, or not known."""
+    """True if the slip torque at the least interference exceeds the starting torque.
+
+    None: not requested, or not known.
+    """
     if starting_torque is None or not joint.must_grip:
         return None
     torques = _torques(joint, friction)
@@ -72,7 +75,7 @@ def holds_at_start(joint: Joint, friction: float, starting_torque: float | None)
 
 
 def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
-    """At the least and at the least probable interference."""
+    """Slip torques at the least and at the least probable interference."""
     if joint.length is None:
         return None
     length = joint.length

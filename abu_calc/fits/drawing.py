@@ -1,4 +1,4 @@
-"""What the drawing of a seat must ask for: field, form, roughness, shoulder, hardness."""
+"""Requirements for the drawing of a seat: tolerance class, form, roughness, shoulder, hardness."""
 
 from typing import NamedTuple
 

@@ -24,13 +24,13 @@ def _seated(index: int, table: "BearingTable") -> BearingSeats:
         raise error.at(Place(key=f"bearing[{index}].{key}" if key else f"bearing[{index}]")) from None
 
 
-def _key_of(table: "BearingTable", found: str) -> str | None:
+def _key_of(table: "BearingTable", shown_value: str) -> str | None:
     """The key whose value a message shows, in the unit of the key or in SI: formulas know quantities, not keys."""
     fields = type(table).model_fields
     given = {key: getattr(table, key) for key in fields if key != "name"}
     shown = {key: _as_shown(key, value) for key, value in given.items() if value is not None}
-    number = found.split(" ")[0]
-    return next((key for key, texts in shown.items() if found in texts or number in texts), None)
+    number = shown_value.split(" ")[0]
+    return next((key for key, texts in shown.items() if shown_value in texts or number in texts), None)
 
 
 def _as_shown(key: str, value: object) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from abu_calc.standards.maker_fits import MakerFits
 CENTRIFUGAL: Final = "centrifugal growth"
 WARMTH: Final = "temperature"
 MEASURED: Final = "measured"
-"""In place of a tolerance class, where the limits are as measured."""
+"""Name in place of a tolerance class if the limits are as measured."""
 _FOR_HALVES: Final = frozenset("FGHJ")
 
 
@@ -28,7 +28,7 @@ class Bound(NamedTuple):
 
 
 class Loss(NamedTuple):
-    """What service takes from the interference [m], by which formula."""
+    """Loss of interference in service [m], and its formula."""
 
     name: str
     value: float
@@ -112,12 +112,15 @@ class Joint:
 
     @property
     def must_grip(self) -> bool:
-        """Whether the load turns round the ring, or may do so, and would make a loose ring creep."""
+        """True if the load turns round the ring, or may do so, and would make a loose ring creep."""
         return self.ring.load != "stationary"
 
     @property
     def criteria(self) -> tuple[Bound, ...]:
-        """What a ring under a rotating load needs by each rule, losses aside; none without load or seat length."""
+        """Interference that a ring under a rotating load needs by each rule, without losses.
+
+        Empty without load or seat length.
+        """
         if self.radial_load is None or self.length is None:
             return ()
         return (
@@ -172,9 +175,10 @@ class Joint:
 
     @cached_property
     def grip(self) -> Grade:
-        """Whether the ring holds: pass by the loosest pair, warn by the mean, else fail; not-done without a load.
+        """Grade of the interference: pass by the loosest pair, warn by the mean, else fail.
 
-        Under an indeterminate load the maker's own class warns though its mean falls short: the maker has it so.
+        It is not-done without a load. Under an indeterminate load the maker's own class warns although its mean
+        falls short: the maker specifies it so.
         """
         if not self.must_grip:
             return "pass"
@@ -194,20 +198,20 @@ class Joint:
 
     @property
     def stress(self) -> Grade:
-        """Whether the tightest pair is borne: fail by stress, warn above the catalogues' d/1000."""
+        """Grade of the tightest pair: fail by stress, warn above the catalogues' d/1000."""
         if self.tightest > self.stress_limit.value:
             return "fail"
         return "pass" if self.tightest <= self.permitted.value else "warn"
 
     @property
     def pinched(self) -> bool:
-        """Whether the halves of a split housing pinch the ring: a fit tighter than J."""
+        """True if the halves of a split housing pinch the ring: a fit tighter than J."""
         name = MEASURED if self.measured else self.tolerance_class
         return self.split and self.interference.largest > 0 and name[0] not in _FOR_HALVES
 
     @property
     def holds(self) -> bool:
-        """Whether neither grip nor stress fails, and no split housing pinches the ring."""
+        """True if neither interference nor stress fails, and no split housing pinches the ring."""
         return self.grip != "fail" and self.stress != "fail" and not self.pinched
 
     @property
@@ -217,5 +221,5 @@ class Joint:
 
     @property
     def mounted_losses(self) -> float:
-        """What smoothing and warmth take from the interference [m], or give to it, before the shaft turns."""
+        """Interference [m] that smoothing and thermal effects take, or give, before the shaft turns."""
         return sum(loss.value for loss in self.losses if loss.name != CENTRIFUGAL)

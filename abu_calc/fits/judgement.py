@@ -26,7 +26,7 @@ _ARTICLE: Final = {"rotating": "a rotating", "indeterminate": "an indeterminate"
 
 
 def seat_checks(bearing: Bearing, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
-    """Whether the ring grips where it must, whether the tightest pair is borne, what warmth does."""
+    """Check the interference where it is needed, the stress of the tightest pair and the thermal effect."""
     first = _grip if joint.must_grip else _loose
     return (
         first(bearing, joint, recommended),
@@ -38,7 +38,10 @@ def seat_checks(bearing: Bearing, joint: Joint, recommended: str | None) -> tupl
 def start_checks(
     bearing: str, joint: Joint, creep: Creep, torque: float | None, recommended: str | None
 ) -> tuple[Check, ...]:
-    """Whether the least interference carries the starting torque; no check without one, or where none is needed."""
+    """Check that the least interference carries the starting torque.
+
+    Empty without a starting torque, or if no interference is needed.
+    """
     if torque is None or not joint.must_grip:
         return ()
     code = _CODES[joint.seat][2]
@@ -54,7 +57,7 @@ def start_checks(
 
 
 def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check, ...]:
-    """Whether bearings keep clearance after mounting: a warning where some do not, a failure where most do not."""
+    """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not."""
     if left is None:
         return ()
     passed, safe = left.below_zero < _MOST, left.probable.smallest >= 0
@@ -78,9 +81,9 @@ def _grip(bearing: Bearing, joint: Joint, recommended: str | None) -> Check:
         )  # fmt: skip
     needs = f"what the ring needs under {_ARTICLE[joint.ring.load]} load by {required.by}{_losses(joint)}"
     mean = f"the mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
-    told = "" if joint.grip == "pass" else f"; {mean}, {of_all(short)} fall short"
+    remark = "" if joint.grip == "pass" else f"; {mean}, {of_all(short)} fall short"
     return coded(
-        code, joint.grip, f"least interference of {joint.told} against {needs}{told}{_makers(bearing, joint)}",
+        code, joint.grip, f"least interference of {joint.told} against {needs}{remark}{_makers(bearing, joint)}",
         smallest, _um(required.value), "µm", _tighter(joint, recommended),
         "least", of=bearing.name,
     )  # fmt: skip
@@ -111,12 +114,12 @@ def _makers(bearing: Bearing, joint: Joint) -> str:
 def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     grade, limit = joint.stress, joint.stress_limit if joint.stress == "fail" else joint.permitted
     warm = " when warm" if joint.tightest > joint.interference.largest else ""
-    told = "; halves of a split housing pinch a ring tighter than J7" if joint.pinched else ""
+    remark = "; halves of a split housing pinch a ring tighter than J7" if joint.pinched else ""
     stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(
         _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
         f"largest interference of {joint.told}{warm} against what is permitted by {limit.by}; hoop stress of the "
-        f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{told}", _um(joint.tightest), _um(limit.value), "µm",
+        f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
         _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
     )  # fmt: skip
 
@@ -129,9 +132,9 @@ def _warmth(bearing: Bearing, joint: Joint) -> tuple[Check, ...]:
     if abs(more) < _LIKE_STEEL or known is not None or service.over_mounting is not None:
         return ()
     change = _um(more * joint.diameter * 10)
-    told = "gains" if shaft else "loses"
+    verb = "gains" if shaft else "loses"
     return (coded(
-        _CODES[joint.seat][3], "warn", f"the seat in {part.material} {told} {change:.3g} µm of interference for every "
+        _CODES[joint.seat][3], "warn", f"the seat in {part.material} {verb} {change:.3g} µm of interference for every "
         "10 K that it warms with its ring, and no temperature is given", change, None, "µm", "Give temperature_rise_K.",
         of=bearing.name,
     ),)  # fmt: skip
@@ -148,7 +151,7 @@ def _tighter(joint: Joint, recommended: str | None) -> str | None:
 
 
 def _remedy(joint: Joint, recommended: str | None) -> str:
-    """What was tried: the field advised, and how it does."""
+    """Action: the advised tolerance class, as tried, and its result."""
     if recommended is None and joint.split:
         return "A split housing cannot hold a ring whose load turns round it: a one-piece housing."
     if recommended is None:

@@ -1,4 +1,4 @@
-"""What a reader must know beside the numbers of a seat: the ledger of losses, where advice comes from, sorting."""
+"""Notes beside the numbers of a seat: the list of losses, the source of advice, sorting."""
 
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -58,7 +58,7 @@ def seat_notes(
 def _needs(joint: Joint) -> tuple[str, ...]:
     if not joint.must_grip or not joint.criteria:
         return ()
-    needs = ", ".join(f"{from_si(one.value, 'um'):.2f} µm by {one.by}" for one in joint.criteria)
+    needs = ", ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
     return (f"A ring under a rotating load needs, losses aside: {needs}; the larger counts.",)
 
 
@@ -78,29 +78,29 @@ def _load(bearing: Bearing, joint: Joint, intensity: float | None) -> tuple[str,
 
 def _advised(bearing: Bearing, joint: Joint, own: "SeatAdvice", given: bool) -> tuple[str, ...]:
     best = own.best.tolerance_class if own.best else None
-    told = (
+    notes = (
         [] if given or best is None else [f"No fit of the {joint.seat} is given: {best}, the one to write, is judged."]
     )
     if joint.maker is not None and bearing.load_ratio is not None:
         remark = f"; {joint.maker.note}" if joint.maker.note else ""
         named = (*joint.maker.classes[1:], *joint.maker.special)
         others = f", also {', '.join(named)}" if named else ""
-        told.append(
+        notes.append(
             f"{SOURCE}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, P/C = {bearing.load_ratio:.2g}, "
             f"load {joint.ring.load}, seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
-            told.append(f"{best} is written in place of {joint.maker.classes[0]}, whose grip or stress does not do.")
+            notes.append(f"{best} is written in place of {joint.maker.classes[0]}, whose grip or stress does not do.")
     elif (usual := makers_classes(bearing, joint.seat)) is not None and best in usual.classes:
         kind = bearing.kind or "ball"
         what = "the load" if joint.radial_load is None else "C"
         if not joint.must_grip or joint.required is None:
-            told.append(
+            notes.append(
                 f"{what.capitalize()} is not known: {best} is {SOURCE}'s for a {kind} bearing under normal load."
             )
     if joint.fit_name == MEASURED:
-        told.append(f"The limits of the {joint.seat} are as measured, the ring's are those of a new bearing.")
-    return tuple(told)
+        notes.append(f"The limits of the {joint.seat} are as measured, the ring's are those of a new bearing.")
+    return tuple(notes)
 
 
 def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:

@@ -33,20 +33,20 @@ def from_table(table: "BearingTable") -> Bearing:
     sizes that contradict the designation or each other, an unknown designation, a clearance group of a bearing that
     has none or whose type is not told, a suffix that contradicts a key.
     """
-    found = _by_designation(table) if table.designation is not None else _by_sizes(table)
-    size = found.size
+    identity = _by_designation(table) if table.designation is not None else _by_sizes(table)
+    size = identity.size
     like = size if size.designation else of_size(size.bore, size.outer, size.inner_width)
     inner_chamfer, outer_chamfer = _chamfers(table, like)
-    group = _agreed("internal_clearance", table.internal_clearance, found.group, table)
-    _check_group(group, found, table)
-    accuracy = _agreed("bearing_class", table.bearing_class, found.accuracy, table) or "0"
+    group = _agreed("internal_clearance", table.internal_clearance, identity.group, table)
+    _check_group(group, identity, table)
+    accuracy = _agreed("bearing_class", table.bearing_class, identity.accuracy, table) or "0"
     ratings, rated = _ratings(table, size)
     lent = like if not size.designation and table.chamfer_mm is None else None
     asked = table.asked_interference_um
     return Bearing(
         name=table.name,
         type=size.type,
-        kind=found.kind,
+        kind=identity.kind,
         ratings=ratings,
         inner=Ring(size.bore, size.inner_width, inner_chamfer, table.inner_ring_load),
         outer=Ring(size.outer, size.outer_width, outer_chamfer, table.outer_ring_load),
@@ -91,8 +91,8 @@ def _service(table: "BearingTable") -> Service:
 
 
 def _by_designation(table: "BearingTable") -> _Found:
-    found = read_designation(table.designation or "")
-    size = found.size
+    designation = read_designation(table.designation or "")
+    size = designation.size
     for key, value in (("bore_mm", size.bore), ("outer_mm", size.outer), ("width_mm", size.inner_width)):
         given = getattr(table, key)
         if given is not None and abs(given - from_si(value, "mm")) > 1e-6:
@@ -103,7 +103,7 @@ def _by_designation(table: "BearingTable") -> _Found:
                 remedy="Give the designation, or the sizes alone.",
             )
     _agreed("bearing_type", table.bearing_type, size.kind, table)
-    return _Found(size, size.kind, found.group, found.accuracy)
+    return _Found(size, size.kind, designation.group, designation.accuracy)
 
 
 def _by_sizes(table: "BearingTable") -> _Found:
@@ -120,7 +120,10 @@ def _by_sizes(table: "BearingTable") -> _Found:
 
 
 def _chamfers(table: "BearingTable", like: Dimensions | None) -> tuple[float | None, float | None]:
-    """Of the inner and the outer ring; not known where neither the table nor a tabulated bearing has them."""
+    """Chamfers of the inner and the outer ring.
+
+    They are not known if neither the table nor a tabulated bearing gives them.
+    """
     if table.chamfer_mm is not None or like is None:
         given = _si(table.chamfer_mm, "mm")
         return given, given
@@ -148,7 +151,7 @@ def _ratings(table: "BearingTable", size: Dimensions) -> tuple[Ratings | None, t
 
 
 def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable") -> str | None:
-    """What the key gives or the designation names; refused where they differ."""
+    """Value that the key gives or the designation names; refused if they differ."""
     if given is not None and named is not None and given != named:
         raise InputError(
             f"{key} contradicts the designation {table.designation}",
@@ -160,12 +163,12 @@ def _agreed(key: str, given: str | None, named: str | None, table: "BearingTable
     return given if given is not None else named
 
 
-def _check_group(group: str | None, found: _Found, table: "BearingTable") -> None:
-    if group is None or (found.kind == "ball" and group in GROUPS):
+def _check_group(group: str | None, identity: _Found, table: "BearingTable") -> None:
+    if group is None or (identity.kind == "ball" and group in GROUPS):
         return
-    if found.kind == "ball":
+    if identity.kind == "ball":
         raise unknown("clearance group", group, GROUPS)
-    if found.kind is None:
+    if identity.kind is None:
         raise InputError(
             "a group of radial clearance says nothing without the type of the bearing",
             place=Place(key="bearing_type"),
@@ -173,8 +176,8 @@ def _check_group(group: str | None, found: _Found, table: "BearingTable") -> Non
             allowed="ball, angular-contact, cylindrical, tapered, spherical",
             remedy='Give bearing_type = "ball" where it is a deep groove ball bearing, or its designation.',
         )
-    what = found.size.designation or f"a {found.kind} bearing"
-    settled = found.kind in ("tapered", "angular-contact")
+    what = identity.size.designation or f"a {identity.kind} bearing"
+    settled = identity.kind in ("tapered", "angular-contact")
     why = "the clearance of such a bearing is set when it is mounted" if settled else "its table is not held here"
     raise InputError(
         f"the groups of radial clearance are those of deep groove ball bearings, {what} is none",

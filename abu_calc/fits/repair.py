@@ -1,4 +1,4 @@
-"""What is left of a worn seat, and what a repair of it must restore."""
+"""Interference left in a worn seat, and the dimensions that a repair must restore."""
 
 from typing import NamedTuple
 

@@ -93,7 +93,7 @@ class SeatFit(NamedTuple):
 
     @property
     def required_interference(self) -> float | None:
-        """What a ring under a rotating load needs, losses included."""
+        """Interference that a ring needs under a rotating load, losses included."""
         return self.joint.required.value if self.joint.required else None
 
     @property
@@ -166,19 +166,19 @@ def judge(bearing: Bearing) -> BearingSeats:
     A band asked for is meant for the rings that must grip, else for both.
     """
     given = shaft_joint(bearing), housing_joint(bearing)
-    told = advice(bearing, *given)
+    recommendation = advice(bearing, *given)
     open_seats = [part.fit is None and part.measured is None for part in (bearing.shaft, bearing.housing)]
     joints = [
         own.best if unsaid and own.best else joint
-        for joint, own, unsaid in zip(given, (told.shaft, told.housing), open_seats, strict=True)
+        for joint, own, unsaid in zip(given, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     ]
     asked_of = [joint for joint in joints if joint.must_grip] or joints
     asked = None if bearing.asked_interference is None else Interval(*bearing.asked_interference)
     shaft, housing = (
         _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
-        for joint, own, unsaid in zip(joints, (told.shaft, told.housing), open_seats, strict=True)
+        for joint, own, unsaid in zip(joints, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
     )
-    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints), told.group)
+    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints), recommendation.group)
 
 
 def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
@@ -191,7 +191,7 @@ def _clearance(bearing: Bearing, shaft: Joint, housing: Joint) -> "ClearanceLeft
 
 def _seat_fit(bearing: Bearing, joint: Joint, own: SeatAdvice, given: bool, asked: Interval | None) -> SeatFit:
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
-    found = creep(joint, *start)
+    creep_result = creep(joint, *start)
     recommended = own.best.tolerance_class if own.best else None
     intensity = None
     if joint.radial_load is not None and joint.length is not None:
@@ -207,11 +207,11 @@ def _seat_fit(bearing: Bearing, joint: Joint, own: SeatAdvice, given: bool, aske
         ledger=ledger(joint),
         advice=own,
         admissible=tuple(
-            Admissible(one.tolerance_class, one.interference, one.clearance_probability)
-            for one in admissible(joint, start, own.best)
+            Admissible(candidate.tolerance_class, candidate.interference, candidate.clearance_probability)
+            for candidate in admissible(joint, start, own.best)
         ),
         load_intensity=intensity,
-        creep=found,
+        creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
         asked=asked,
         selection=selection,
@@ -219,7 +219,7 @@ def _seat_fit(bearing: Bearing, joint: Joint, own: SeatAdvice, given: bool, aske
         repair=_repair(bearing, joint, wanted),
         notes=seat_notes(bearing, joint, own, given, intensity, asked, selection),
         checks=seat_checks(bearing, joint, recommended)
-        + start_checks(bearing.name, joint, found, bearing.service.starting_torque, recommended),
+        + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended),
     )
 
 
@@ -228,12 +228,15 @@ def _sorting(joint: Joint, asked: Interval | None) -> "tuple[Selection | None, t
         return None, ()
     from abu_calc.fits.selective import selective_groups, sorting_groups
 
-    found = selective_groups(*joint.male_and_female, asked)
-    return found, sorting_groups(*joint.male_and_female, found.groups) if found else ()
+    selection = selective_groups(*joint.male_and_female, asked)
+    return selection, sorting_groups(*joint.male_and_female, selection.groups) if selection else ()
 
 
 def _repair(bearing: Bearing, joint: Joint, advised: str) -> "Repair | None":
-    """To the class of the drawing where one is given beside the measured limits, else to the one advised."""
+    """Repair to the drawing's tolerance class; to the advised one if the drawing gives none.
+
+    None if no limits are measured.
+    """
     if joint.measured is None:
         return None
     from abu_calc.fits.repair import seat_repair

@@ -74,12 +74,12 @@ def sorting_groups(male: Limits, female: Limits, count: int) -> tuple[Group, ...
     """
     if not 1 < count <= MOST_GROUPS:
         return ()
-    found = []
+    groups = []
     for i in range(count):
         inside, around = _slice(male, i, count), _slice(female, i, count)
         pair = Interval(inside.lower - around.upper, inside.upper - around.lower)
-        found.append(Group(i + 1, inside, around, pair, _share(i, count)))
-    return tuple(found)
+        groups.append(Group(i + 1, inside, around, pair, _share(i, count)))
+    return tuple(groups)
 
 
 def _slice(field: Limits, index: int, count: int) -> Limits:

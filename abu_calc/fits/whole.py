@@ -25,7 +25,10 @@ class SeatAdvice(NamedTuple):
 
 
 class Advice(NamedTuple):
-    """Of both seats; the clearance group to order with them (None: not a deep groove ball bearing, or no group)."""
+    """Advice on both seats, and the clearance group to order with them.
+
+    The group is None if the bearing is not a deep groove ball bearing, or if there is no group.
+    """
 
     shaft: SeatAdvice
     housing: SeatAdvice
@@ -44,10 +47,10 @@ def advice(bearing: Bearing, shaft: Joint, housing: Joint) -> Advice:
     outer = advised(housing, start, makers_classes(bearing, "housing"))
     group = None
     if _has_groups(bearing) and inner is not None and outer is not None:
-        for one in (inner, *looser_that_hold(inner, start)):
-            group = _group(bearing, one, outer)
+        for candidate in (inner, *looser_that_hold(inner, start)):
+            group = _group(bearing, candidate, outer)
             if group is not None:
-                inner = one
+                inner = candidate
                 break
     return Advice(
         _with_neighbours(bearing, inner, outer, start, group),
@@ -59,10 +62,10 @@ def advice(bearing: Bearing, shaft: Joint, housing: Joint) -> Advice:
 def _with_neighbours(
     bearing: Bearing, best: Joint | None, other: Joint | None, start: Start, group: str | None
 ) -> SeatAdvice:
-    def jams(one: Joint) -> str | None:
+    def jams(joint: Joint) -> str | None:
         if group is None or other is None:
             return None
-        pair = (one, other) if one.seat == "shaft" else (other, one)
+        pair = (joint, other) if joint.seat == "shaft" else (other, joint)
         share = Mounting(bearing, *pair).share_below(group)
         return f"jams, {of_all(share, 'bearings')} of {group} keep no clearance" if share > SHARE_TO_ORDER else None
 

@@ -42,11 +42,11 @@ def forced_harmonics(kappa: float, speed: float, natural: float, decay: float) -
     roots = [complex(first - (i * w) ** 2, 2 * decay * i * w) for i in (1, 2, 3)]
     if not all(roots):
         return (complex(math.inf),) * 3
-    one = w**2 * complex(-2 * decay * w, first - w**2) / abs(roots[0]) ** 2
-    two = 2 * w**2 * roots[1] * one / abs(roots[1]) ** 2
+    fundamental = w**2 * complex(-2 * decay * w, first - w**2) / abs(roots[0]) ** 2
+    two = 2 * w**2 * roots[1] * fundamental / abs(roots[1]) ** 2
     again = 2 * w**2 * roots[0] * two / abs(roots[0]) ** 2
     three = 6 * w**2 * roots[2] * two / abs(roots[2]) ** 2
-    return k * one + k**3 * again, k**2 * two, k**3 * three
+    return k * fundamental + k**3 * again, k**2 * two, k**3 * three
 
 
 @formula(

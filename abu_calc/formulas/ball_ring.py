@@ -28,7 +28,7 @@ def half_angle(ball_radius: float, pitch_radius: float) -> float:
 
 
 def most_balls(beta: float) -> int:
-    """As many as fit round the race: ⌊π/β⌋."""
+    """Largest number of balls that fit round the race: ⌊π/β⌋."""
     return math.floor(math.pi / beta + 1e-12)
 
 

@@ -67,7 +67,9 @@ class SteadyContact:
 
     @property
     def balls_increase_imbalance(self) -> bool:
-        """Whether the contact is in the stiffness band where balanced positions are unstable (friction left out).
+        """True if the contact is in the stiffness band where balanced positions are unstable.
+
+        Friction is left out.
 
         1/D_x + 1/(D_y + c_n) > 0 with real parts: M Ω² − c_y < c_n < 2 M Ω² − c_x − c_y. Source: derived.
         """

@@ -1,4 +1,4 @@
-"""How far from its place dry rolling friction can hold the axis."""
+"""Largest distance from its place at which dry rolling friction can hold the axis."""
 
 import math
 from itertools import pairwise

@@ -142,8 +142,8 @@ def largest_factor(slope: complex, offset: complex, limit: float) -> float | Non
     if slope == 0 or abs(offset) > limit:
         return None
     along = (slope.conjugate() / abs(slope) * offset).real
-    found = (math.sqrt(along**2 + max(limit**2 - abs(offset) ** 2, 0.0)) - along) / abs(slope)
-    return found if math.isfinite(found) else None
+    factor = (math.sqrt(along**2 + max(limit**2 - abs(offset) ** 2, 0.0)) - along) / abs(slope)
+    return factor if math.isfinite(factor) else None
 
 
 @formula(

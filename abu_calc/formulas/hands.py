@@ -8,16 +8,22 @@ from typing import Final
 from abu_calc.standards.hands import Hand
 
 NODES: Final = ("machine", "palm", "fingers")
-"""What moves: the handle, which is the machine; palm and arm, m₁; the fingers, m₂. The skin m₃, m₄ is on the handle."""
+"""Moving nodes: the handle, which is the machine; palm and arm, m₁; the fingers, m₂.
+
+The skin m₃, m₄ is on the handle.
+"""
 
 ELEMENTS: Final = ((0.0, 1.0, 0.0), (0.0, -1.0, 1.0), (1.0, -1.0, 0.0), (1.0, 0.0, -1.0))
-"""How far each element is stretched by the nodes: 1 palm to ground, 2 palm to fingers, 3 and 4 these to the handle."""
+"""Stretch of each element per displacement of the nodes.
+
+The elements are: 1 palm to ground, 2 palm to fingers, 3 and 4 these to the handle.
+"""
 
 Matrix = tuple[tuple[float, float, float], ...]
 
 
 def hand_masses(hand: Hand) -> tuple[float, float, float]:
-    """Of both hands at the nodes, the machine's own left out [kg]."""
+    """Masses of both hands at the nodes, the machine's own left out [kg]."""
     palm, fingers, *skin = hand.masses
     return 2 * sum(skin), 2 * palm, 2 * fingers
 

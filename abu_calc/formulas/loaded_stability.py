@@ -1,7 +1,7 @@
-"""Whether balls of finite mass stand still under load: growing roots of their characteristic equation, counted.
+"""Stability of balls of finite mass under load: growing roots of the characteristic equation, counted.
 
-The balls' slow motion is no longer slow where a natural frequency of the machine on its contact is near the speed: the
-whirl then follows with its own dynamics, G at Ω − is instead of Ω.
+The balls' slow motion is no longer slow if a natural frequency of the machine on its contact is near the
+speed. The whirl then follows with its own dynamics, G at Ω − is instead of Ω.
 """
 
 import cmath
@@ -15,7 +15,7 @@ from abu_calc.formula import formula
 TURN: Final = 0.7
 """Largest step of the phase [rad] between neighbours on the imaginary axis."""
 FAR: Final = 30.0
-"""In speeds: where the equation is as good as its highest power."""
+"""Bound in multiples of the speed, from which the equation is as good as its highest power."""
 MOST: Final = 100_000
 """Points that are looked at."""
 
@@ -50,11 +50,12 @@ def characteristic(
 
 
 def growing_roots(value: Callable[[complex], complex], speed: float) -> int:
-    """How many roots of an equation of fourth order, real for real s, grow by more than a millionth of the speed.
+    """Number of roots of an equation that grow by more than a millionth of the speed.
 
-    By the principle of the argument, on a grid of a two-hundredth of the speed up to four speeds: two roots that turn
-    the phase right round within one step of it may be missed. Nothing of it may be infinite there. Raises
-    NotTrustworthyError where a root lies so near that edge that they cannot be counted.
+    The equation is of fourth order, real for real s. The count follows the principle of the argument, on a grid
+    of a two-hundredth of the speed up to four speeds. Two roots that turn the phase right round within one step
+    of the grid may be missed. No term of the equation may be infinite there. Raises NotTrustworthyError if a
+    root lies so near that edge that the roots cannot be counted.
     """
     far, small = FAR * speed, 1e-6 * speed
     grid = [0.0, *(small * (far / small) ** (k / 160) for k in range(161))]
@@ -65,8 +66,8 @@ def growing_roots(value: Callable[[complex], complex], speed: float) -> int:
     stack = points[::-1]
     at, before = stack.pop()
     while stack:
-        after, found = stack[-1]
-        step = cmath.phase(found / before) if before else math.inf
+        after, next_value = stack[-1]
+        step = cmath.phase(next_value / before) if before else math.inf
         if abs(step) <= TURN:
             turned, (at, before) = turned + step, stack.pop()
             continue

@@ -1,4 +1,7 @@
-"""What a simulation integrates and how it is judged: formulas of rooms that are heavy to import, as data alone."""
+"""Equations of motion and criteria of a simulation, as data.
+
+These are formulas of modules that are heavy to import.
+"""
 
 from typing import Final
 
@@ -6,13 +9,16 @@ from abu_calc.formula import Formula, register
 from abu_calc.validity import Range
 
 ACCURACY: Final = Range("accuracy", 1e-8, 0.5, key="accuracy")
-"""What may be asked of a simulation, relative."""
+"""Accuracy that may be asked of a simulation, relative."""
 
 SETTLED: Final = 0.1
 """Share of the rotor's own imbalance below which what balls leave of it counts as settled, and as balanced."""
 
 HARDLY: Final = 0.01
-"""Of what all balls in one place would cause: imbalance below counts as this much."""
+"""Least imbalance that counts, as a share of the imbalance of all balls in one place.
+
+A smaller imbalance counts as this much.
+"""
 
 EQUATIONS = register(Formula(
     "formulas.motion:equations",

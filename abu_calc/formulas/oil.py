@@ -1,4 +1,4 @@
-"""How the drag of oil changes with its temperature."""
+"""Change of the oil's viscous drag rate with its temperature."""
 
 import math
 from typing import Final

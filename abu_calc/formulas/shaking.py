@@ -1,4 +1,4 @@
-"""What shakes dry rolling friction out of a race: balls that are moved faster than they creep."""
+"""Shaking that frees balls from dry rolling friction in a race: it moves them faster than they creep."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What holds the machine: springs given by natural frequencies, or two hands, as seen from the wheel plane."""
+"""Suspension of the machine, seen from the wheel plane: two hands, or springs by natural frequencies."""
 
 from typing import Protocol
 
@@ -55,7 +55,7 @@ class Hands:
 
 
 FASTEST = 6283.0
-"""Where the search for the natural frequency on hands begins [rad/s]."""
+"""Speed at which the search for the natural frequency on hands begins [rad/s]."""
 
 
 def dynamic_stiffness(suspension: Suspension, axis: int, speed: float, mass: float) -> complex:

@@ -40,7 +40,7 @@ class RollOnRig:
 
     @property
     def length(self) -> float:
-        """From support to support [m]."""
+        """Length from support to support [m]."""
         return self.a + self.b + self.c + self.d
 
     @property
@@ -176,7 +176,7 @@ def reading_factor(quantity: str, speed: float) -> complex:
 
 
 ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
-"""How many times a quantity is differentiated."""
+"""Number of times that each quantity is differentiated."""
 
 
 @formula(
@@ -190,7 +190,9 @@ ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
 )
 def printed_answer(roll: RollOnRig, speed: float, readings: Pair, radii: tuple[float, float]) -> tuple[Signed, Signed]:
     """The angle is not a number where the quotient has no denominator."""
-    left, right = (_printed(one, radius) for one, radius in zip(imbalances(roll, speed, readings), radii, strict=True))
+    left, right = (
+        _printed(imbalance, radius) for imbalance, radius in zip(imbalances(roll, speed, readings), radii, strict=True)
+    )
     return left, right
 
 

@@ -1,4 +1,4 @@
-"""How far dry rolling friction can hold the axis at most, over all arrangements of the balls."""
+"""Largest distance at which dry rolling friction can hold the axis, over all ball arrangements."""
 
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,7 @@ SWEEPS = 12
 MOST_CORNERS = 12
 """Beginnings of an arc. With one for each ball the work would grow with the fourth power of their number."""
 SLACK, STILL = 1e-9, 1e-6
-"""On imbalances in m·R_p, and by how much a round may change them at the end."""
+"""Slack on imbalances in m·R_p; `STILL`: change of them by a round at which the search ends."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,10 @@ class WorstFriction:
 
 @dataclass(frozen=True)
 class _Split:
-    """So many balls near the displacement's direction, so many opposite; lengths in bands, imbalances in m·R_p."""
+    """Split of the balls: `near` ones in the displacement's direction, `far` ones in the opposite one.
+
+    Lengths are in bands, imbalances in m·R_p.
+    """
 
     near: int
     far: int
@@ -67,27 +70,30 @@ def worst_friction(count: int, moment: float, band: float, imbalance: float, rec
     """
     import numpy as np
 
-    found = WorstFriction(band, ())
+    worst = WorstFriction(band, ())
     if band == 0:
-        return found
+        return worst
     for far in range(count + 1):
         split = _Split(count - far, far, -band / (receptance * moment), imbalance / moment)
-        if count > 2 and found.angles and not _possible(split, np.array([found.displacement / band]), every=True)[0]:
+        if count > 2 and worst.angles and not _possible(split, np.array([worst.displacement / band]), every=True)[0]:
             continue  # its interval ends before that of another split
         end = _end(split)
-        if end is not None and (end * band > found.displacement or not found.angles):
-            found = WorstFriction(end * band, _arrangement(split, end))
-    return found
+        if end is not None and (end * band > worst.displacement or not worst.angles):
+            worst = WorstFriction(end * band, _arrangement(split, end))
+    return worst
 
 
 def _end(split: _Split) -> float | None:
-    """Where the interval that begins at b ends, of one ball on either side the last one; None: b is not in it."""
+    """End of the interval of displacements that begins at b; None if b is not in it.
+
+    With one ball on either side, the last interval counts.
+    """
     import numpy as np
 
     u, reach = split.imbalance, abs(split.pull)
     narrow = [abs(abs(split.far - split.near) + sign * u) / reach for sign in (-1, 1)]
     most = 1.01 * max((u + split.near + split.far) / reach, 1.0)
-    grid = np.array(sorted({*np.geomspace(1.0, most, GRID).tolist(), *(one for one in narrow if 1 < one < most)}))
+    grid = np.array(sorted({*np.geomspace(1.0, most, GRID).tolist(), *(edge for edge in narrow if 1 < edge < most)}))
     first = 0
     if split.near == split.far == 1:
         first = int(max(np.flatnonzero(_possible(split, grid)), default=0))
@@ -109,7 +115,10 @@ def _before_impossible(split: _Split, grid: "Reals") -> int:
 
 
 def _possible(split: _Split, rho: "Reals", *, every: bool = False) -> "NDArray[np.bool_]":
-    """Whether the imbalance lies between the least and the largest that the balls can carry where they rest."""
+    """Mask of the displacements at which the balls can carry the imbalance.
+
+    The imbalance then lies between the least and the largest that the balls can carry in their resting places.
+    """
     import numpy as np
 
     possible = np.abs(_carried(split, rho, _farthest(split, rho))) >= split.imbalance - SLACK
@@ -193,9 +202,10 @@ def _against(pulled: "Complexes", balls: int, half: "Reals") -> "Reals":
 
 
 def _at_corners(balls: int, half: "Reals") -> "Reals":
-    """So many balls at the upper corner of their arc, the rest at the lower one, for none to all.
+    """Corner arrangements: n balls at the upper corner of their arc, the rest at the lower one.
 
-    Of many balls some of these numbers stand for the others, since from there each ball moves.
+    The number n runs from none to all. If there are many balls, some of these numbers stand for the others,
+    since each ball moves on from there.
     """
     import numpy as np
 

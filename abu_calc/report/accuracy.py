@@ -75,16 +75,16 @@ def _not_computed(points: tuple[MeasuredPoint, ...]) -> list[str]:
 
 
 def _chosen(result: AccuracyResult) -> str:
-    one = result.chosen
-    if one is None or one.error is None or one.wall_s is None:
+    point = result.chosen
+    if point is None or point.error is None or point.wall_s is None:
         return f"Nothing measured reaches an error of {result.accuracy:g}."
-    tolerance = "" if one.tolerance is None else f" at tolerance {one.tolerance:g}"
-    method = one.rung if one.integrator is None else f"{one.rung}, {one.integrator}{tolerance}"
-    return f"For an error of {result.accuracy:g}: {method}; error {number(one.error, 2)}, {_time(one.wall_s)}."
+    tolerance = "" if point.tolerance is None else f" at tolerance {point.tolerance:g}"
+    method = point.rung if point.integrator is None else f"{point.rung}, {point.integrator}{tolerance}"
+    return f"For an error of {result.accuracy:g}: {method}; error {number(point.error, 2)}, {_time(point.wall_s)}."
 
 
 def _short(integrator: str) -> str:
-    """Its name in a column of a table."""
+    """Short name of an integrator for a column of a table."""
     return integrator.replace("scipy-", "").replace("compiled-rk45", "compiled").replace("plain-rk45", "plain")
 
 

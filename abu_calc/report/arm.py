@@ -1,4 +1,4 @@
-"""What reports say of a swing arm: what to change first, bounds, forced motion, and the tongue, drawn."""
+"""Report text of a swing arm: first changes, bounds, forced motion, and the instability region, drawn."""
 
 from typing import Final
 
@@ -11,7 +11,7 @@ from abu_calc.validity import bounded
 BOUNDS: Final = "Swing arm"
 ROWS: Final = 7
 LEAST: Final = 1e-4
-"""Of a motion [µm] that is told."""
+"""Smallest motion [µm] that is stated as a number."""
 MARGIN: Final = 12
 BOTH, FLOQUET, AVERAGED, HERE = "#", "o", ".", "X"
 LEGEND: Final = (
@@ -74,8 +74,8 @@ def arm_facts(arm: SwingArm) -> list[Block]:
 def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
     """The forced motion by perturbation beside that by simulation, the rates, and the tongue."""
     rows = tuple(
-        (f"{one.order}", number(one.resonance_rpm, 5), _or_none(one.perturbation_um), _or_none(one.simulation_um))
-        for one in motion.harmonics
+        (f"{row.order}", number(row.resonance_rpm, 5), _or_none(row.perturbation_um), _or_none(row.simulation_um))
+        for row in motion.harmonics
     )
     header = ("order i", "resonance ω₀/i, rpm", "perturbation, µm", "simulation, µm")
     return [
@@ -88,7 +88,7 @@ def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
 
 
 def printed_otherwise() -> list[Block]:
-    """Where the source is wrong."""
+    """Paragraph on the error of the source."""
     return [Paragraph(NO_TONGUE)]
 
 
@@ -100,13 +100,13 @@ def _or_none(value: float | None) -> str:
 
 def _rates(motion: ArmMotion) -> str:
     """Averaged and simulated."""
-    high, low = (number(one) for one in motion.parametric_rates_per_s)
+    high, low = (number(rate) for rate in motion.parametric_rates_per_s)
     simulated = motion.simulated_rates_per_s
-    told = "no periodic motion was found" if simulated is None else f"simulated {number(simulated[0])}"
+    simulation = "no periodic motion was found" if simulated is None else f"simulated {number(simulated[0])}"
     if simulated is not None and simulated[0] != simulated[1]:
-        told += f" and {number(simulated[1])}"
+        simulation += f" and {number(simulated[1])}"
     return (
-        f"A free motion goes with e^(λt): λ = {number(motion.rate_per_s)} 1/s by averaging, {told} at "
+        f"A free motion goes with e^(λt): λ = {number(motion.rate_per_s)} 1/s by averaging, {simulation} at "
         f"{number(motion.speed_rpm, 6)} rpm; {high} and {low} at 2ω₀."
     )
 
@@ -114,10 +114,10 @@ def _rates(motion: ArmMotion) -> str:
 def tongue_lines(motion: ArmMotion) -> list[str]:
     """The tongue in characters: damping upward, speed to the right, two columns a speed."""
     edges = motion.tongue
-    top = 1.1 * max(max(one.averaged_N_s_per_m, one.floquet_N_s_per_m) for one in edges)
+    top = 1.1 * max(max(point.averaged_N_s_per_m, point.floquet_N_s_per_m) for point in edges)
     cells = [[" "] * (2 * len(edges)) for _ in range(ROWS)]
-    for column, one in enumerate(edges):
-        for damping, mark in ((one.averaged_N_s_per_m, AVERAGED), (one.floquet_N_s_per_m, FLOQUET)):
+    for column, edge in enumerate(edges):
+        for damping, mark in ((edge.averaged_N_s_per_m, AVERAGED), (edge.floquet_N_s_per_m, FLOQUET)):
             row = _row(damping, top)
             if damping > 0 and row is not None:
                 other = cells[row][2 * column]
@@ -128,7 +128,7 @@ def tongue_lines(motion: ArmMotion) -> list[str]:
     labels = {0: f"{number(top, 3)} N·s/m", ROWS - 1: "0"}
     lines = [f"{labels.get(k, ''):>{MARGIN}} |{''.join(row)}".rstrip() for k, row in enumerate(cells)]
     middle, width = edges[len(edges) // 2].speed_rpm, 2 * len(edges) - 1
-    low, high = (f"{one.speed_rpm - middle:+.3g}" for one in (edges[0], edges[-1]))
+    low, high = (f"{end.speed_rpm - middle:+.3g}" for end in (edges[0], edges[-1]))
     scale = f"{low}{number(middle, 6):^{max(0, width - len(low) - len(high))}}{high}"
     return [*lines, f"{'':>{MARGIN}} +{'-' * width}", f"{'rpm':>{MARGIN}}  {scale}"]
 
@@ -140,16 +140,16 @@ def _row(damping: float, top: float) -> int | None:
 
 
 def _column(motion: ArmMotion) -> int | None:
-    """That of the speed, None beside the drawing."""
-    speeds = [one.speed_rpm for one in motion.tongue]
+    """Column of the speed in the drawing; None if the speed is beside the drawing."""
+    speeds = [edge.speed_rpm for edge in motion.tongue]
     if not speeds[0] <= motion.speed_rpm <= speeds[-1]:
         return None
     return 2 * min(range(len(speeds)), key=lambda k: abs(speeds[k] - motion.speed_rpm))
 
 
 def _legend(motion: ArmMotion) -> str:
-    """What the characters mean, and where the arm is where it is not in the drawing."""
-    top = 1.1 * max(one.averaged_N_s_per_m for one in motion.tongue)
+    """Legend of the characters, with the place of the arm if it is off the drawing."""
+    top = 1.1 * max(edge.averaged_N_s_per_m for edge in motion.tongue)
     if _column(motion) is not None and _row(motion.joint_damping_N_s_per_m, top) is not None:
         return LEGEND
     share = motion.speed_rpm / motion.parametric_speed_rpm

@@ -28,7 +28,7 @@ PRINTED: Final = (
 
 
 def balance_screen(result: BalanceResult) -> tuple[Block, ...]:
-    """What to do, drawn, on one screen."""
+    """Correction to make, drawn, on one screen."""
     return one_screen(result, _about(result), [_planes(result), *_drawn(result)])
 
 
@@ -70,35 +70,35 @@ def _title(result: BalanceResult) -> str:
 
 
 def _orders(result: BalanceResult) -> list[str]:
-    """What to do, a sentence a plane."""
-    found = []
+    """Instructions for the correction, one sentence per plane."""
+    sentences = []
     for name, plane in (("left", result.left), ("right", result.right)):
         if not plane.mass_g or not plane.corrections:
-            found.append(f"Leave the {name} plane as it is.")
+            sentences.append(f"Leave the {name} plane as it is.")
             continue
-        parts = " and ".join(f"{DO[one.action]} {_share(one)}" for one in plane.corrections)
-        found.append(f"{name.upper()} plane: {parts}.")
-    return [*found, TRIALS_OFF] if any(run.trials for run in result.runs) else found
+        parts = " and ".join(f"{DO[share.action]} {_share(share)}" for share in plane.corrections)
+        sentences.append(f"{name.upper()} plane: {parts}.")
+    return [*sentences, TRIALS_OFF] if any(run.trials for run in result.runs) else sentences
 
 
-def _share(one: Share) -> str:
-    return _at(one.mass_g, one.angle_deg)
+def _share(share: Share) -> str:
+    return _at(share.mass_g, share.angle_deg)
 
 
 def _planes(result: BalanceResult) -> Grid:
     both = (result.left, result.right)
     rows = [
-        ("heavy spot, take off", *(_at(one.mass_g, one.remove_at_deg) for one in both)),
-        ("or put on", *(_at(one.mass_g, one.add_at_deg) for one in both)),
-        ("one standard deviation", *(_uncertain(one) for one in both)),
-        ("imbalance", *(f"{number(one.imbalance_g_mm)} g·mm" for one in both)),
-        ("expected after it", *(_rest(one) for one in both)),
+        ("heavy spot, take off", *(_at(plane.mass_g, plane.remove_at_deg) for plane in both)),
+        ("or put on", *(_at(plane.mass_g, plane.add_at_deg) for plane in both)),
+        ("one standard deviation", *(_uncertain(plane) for plane in both)),
+        ("imbalance", *(f"{number(plane.imbalance_g_mm)} g·mm" for plane in both)),
+        ("expected after it", *(_rest(plane) for plane in both)),
     ]
-    for one in result.residual_check.verification:
-        at = f"{one.quantity} now, {one.speed_rpm:.0f} rpm"
-        rows.append((at, *(f"{number(value, 3)} {one.unit}" for value in (one.left_before, one.right_before))))
-        most = (one.left_at_most, one.right_at_most)
-        rows.append(("  after it, at most", *(f"{number(value, 2)} {one.unit}" for value in most)))
+    for run in result.residual_check.verification:
+        at = f"{run.quantity} now, {run.speed_rpm:.0f} rpm"
+        rows.append((at, *(f"{number(value, 3)} {run.unit}" for value in (run.left_before, run.right_before))))
+        most = (run.left_at_most, run.right_at_most)
+        rows.append(("  after it, at most", *(f"{number(value, 2)} {run.unit}" for value in most)))
     return Grid(("", "left", "right"), tuple(rows))
 
 
@@ -108,8 +108,8 @@ def _at(mass: float, angle: float) -> str:
 
 def _uncertain(plane: PlaneCorrection) -> str:
     angle = plane.angle_uncertainty_deg
-    told = "angle not known" if angle >= 180 else f"± {number(angle, 2)}°"
-    return f"± {number(plane.mass_uncertainty_g, 2)} g, {told}"
+    angle_text = "angle not known" if angle >= 180 else f"± {number(angle, 2)}°"
+    return f"± {number(plane.mass_uncertainty_g, 2)} g, {angle_text}"
 
 
 def _rest(plane: PlaneCorrection) -> str:
@@ -124,11 +124,11 @@ def _drawn(result: BalanceResult) -> list[Block]:
 
 def _verification(runs: Sequence[Verification]) -> Grid:
     rows = tuple(
-        (f"{one.speed_rpm:.0f}", f"{one.quantity}, {one.unit}", side, *map(number, (before, expected, most), (4, 2, 2)))
-        for one in runs
+        (f"{run.speed_rpm:.0f}", f"{run.quantity}, {run.unit}", side, *map(number, (before, expected, most), (4, 2, 2)))
+        for run in runs
         for side, before, expected, most in (
-            ("left", one.left_before, one.left_expected, one.left_at_most),
-            ("right", one.right_before, one.right_expected, one.right_at_most),
+            ("left", run.left_before, run.left_expected, run.left_at_most),
+            ("right", run.right_before, run.right_expected, run.right_at_most),
         )
     )
     return Grid(("rpm", "quantity", "", "now", "expected", "at most"), rows, frozenset({0, 3, 4, 5}))
@@ -144,40 +144,40 @@ def _misfit(result: BalanceResult) -> str:
 
 def _readings(runs: Sequence[RunReadings]) -> Grid:
     rows = tuple(
-        (str(index), f"{one.speed_rpm:.1f}", f"{one.quantity}, {one.unit}", _reading(one.left), _reading(one.right))
-        for index, one in enumerate(runs, 1)
+        (str(index), f"{run.speed_rpm:.1f}", f"{run.quantity}, {run.unit}", _reading(run.left), _reading(run.right))
+        for index, run in enumerate(runs, 1)
     )
     return Grid(("run", "rpm", "quantity", "left", "right"), rows, frozenset({0, 1}))
 
 
-def _reading(one: SensorReading) -> str:
-    return f"{number(one.amplitude, 5)} at {one.phase_deg:.2f}°"
+def _reading(reading: SensorReading) -> str:
+    return f"{number(reading.amplitude, 5)} at {reading.phase_deg:.2f}°"
 
 
 def _records(runs: Sequence[RunReadings]) -> list[Block]:
     return [
         Paragraph(
-            f"Run {index} is recorded in {one.file}, SHA-256 {(one.sha256 or '')[:16]}…: {one.revolutions} "
-            f"revolutions, by the {one.mark_edge}{'' if one.mark_edge == 'middle' else ' edge'} of the mark's pulses."
+            f"Run {index} is recorded in {run.file}, SHA-256 {(run.sha256 or '')[:16]}…: {run.revolutions} "
+            f"revolutions, by the {run.mark_edge}{'' if run.mark_edge == 'middle' else ' edge'} of the mark's pulses."
         )
-        for index, one in enumerate(runs, 1)
-        if one.file is not None
+        for index, run in enumerate(runs, 1)
+        if run.file is not None
     ]
 
 
 def _rig(result: BalanceResult) -> list[Block]:
     natural = result.natural_frequencies_hz
-    told = (
+    paragraphs = (
         []
         if natural is None
-        else [Paragraph("Natural frequencies: " + ", ".join(f"{one:.2f} Hz" for one in natural) + ".")]
+        else [Paragraph("Natural frequencies: " + ", ".join(f"{frequency:.2f} Hz" for frequency in natural) + ".")]
     )
     rows = tuple(
-        (f"{name} sensor", *(_polar(complex(*one)) for one in row))
+        (f"{name} sensor", *(_polar(complex(*coefficient)) for coefficient in row))
         for name, row in zip(("left", "right"), result.influence_coefficients, strict=True)
     )
     title = "Influence of the planes on the sensors, µm of displacement per g·mm"
-    return [Heading("Rig"), *told, Heading(title), Grid(("", "left plane", "right plane"), rows)]
+    return [Heading("Rig"), *paragraphs, Heading(title), Grid(("", "left plane", "right plane"), rows)]
 
 
 def _polar(value: complex) -> str:
@@ -186,20 +186,20 @@ def _polar(value: complex) -> str:
 
 def _causes(result: BalanceResult) -> Grid:
     rows = tuple(
-        (one.cause, f"{number(one.left_percent, 2)} %", f"{number(one.right_percent, 2)} %")
-        for one in result.uncertainty_by_cause
+        (cause.cause, f"{number(cause.left_percent, 2)} %", f"{number(cause.right_percent, 2)} %")
+        for cause in result.uncertainty_by_cause
     )
     return Grid(("of the imbalance", "left", "right"), rows, frozenset({1, 2}))
 
 
 def _printed(result: BalanceResult) -> list[Block]:
     both = (result.left, result.right)
-    if any(one.printed_mass_g is None for one in both):
+    if any(plane.printed_mass_g is None for plane in both):
         return []
     cells = [
-        f"{number(one.printed_mass_g or 0.0)} g at "
-        + ("x/0" if one.printed_angle_deg is None else f"{one.printed_angle_deg:.1f}°")
-        for one in both
+        f"{number(plane.printed_mass_g or 0.0)} g at "
+        + ("x/0" if plane.printed_angle_deg is None else f"{plane.printed_angle_deg:.1f}°")
+        for plane in both
     ]
-    rows = (("as printed", *cells), ("derived anew", *(_at(one.mass_g, one.angle_deg) for one in both)))
+    rows = (("as printed", *cells), ("derived anew", *(_at(plane.mass_g, plane.angle_deg) for plane in both)))
     return [Heading("The printed formula"), Grid(("", "left", "right"), rows), Paragraph(PRINTED)]

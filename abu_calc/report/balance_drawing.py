@@ -24,7 +24,7 @@ def drawing(left: PlaneCorrection, right: PlaneCorrection, turns_from_left: str)
         _plane("LEFT plane, from the left end", left, sense),
         _plane("RIGHT plane, from the right end", right, -sense),
     ]
-    return [f"  {one:<{WIDTH}}  {other}".rstrip() for one, other in zip(*pictures, strict=True)]
+    return [f"  {line:<{WIDTH}}  {other}".rstrip() for line, other in zip(*pictures, strict=True)]
 
 
 def _plane(title: str, plane: PlaneCorrection, sense: int) -> list[str]:

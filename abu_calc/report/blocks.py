@@ -1,4 +1,4 @@
-"""What a report is made of: a few kinds of blocks, the same for every command and every format of text."""
+"""Building blocks of a report: a few kinds, the same for every command and every format of text."""
 
 from typing import NamedTuple
 
@@ -47,7 +47,7 @@ class Grid(NamedTuple):
             return [self]
         groups: list[list[int]] = [[]]
         for k in range(self.kept, len(widths)):
-            if groups[-1] and sum(widths[one] for one in (*first, *groups[-1], k)) > width:
+            if groups[-1] and sum(widths[column] for column in (*first, *groups[-1], k)) > width:
                 groups.append([])
             groups[-1].append(k)
         return [self._only((*first, *group)) for group in groups]

@@ -23,7 +23,7 @@ FIRST: Final = (
     "ensemble.settling_time_s.worst", "swing_arm.contact_stiffness_limit_exact_N_per_m",
     "swing_arm.damping_limit_bunched_N_s_per_m",
 )  # fmt: skip
-"""Of the designs on one screen, in this order; of seats their fits."""
+"""Numbers of the designs on one screen, in this order; seats show their fits."""
 OF_SEATS: Final = ("fit", "interference_um", "recommended_fit")
 NOTHING: Final = "Nothing differs."
 
@@ -63,11 +63,11 @@ def _shared_out(result: CompareResult, room: int) -> list[Block]:
     tables = tables_of(result, [*(row for row in rows if row.part != "design"), *first])
     if designs and not first:
         tables.append(Table(SECTIONS["design"], ()))
-    letters, cut_to = [one.letter for one in result.files], dict[int, list[Block]]()
-    further = [len(designs) - len(first) if one.heading == SECTIONS["design"] else 0 for one in tables]
-    least = [height(table_blocks(letters, one)) for one in tables]
+    letters, cut_to = [file.letter for file in result.files], dict[int, list[Block]]()
+    further = [len(designs) - len(first) if table.heading == SECTIONS["design"] else 0 for table in tables]
+    least = [height(table_blocks(letters, table)) for table in tables]
     for done, k in enumerate(sorted(range(len(tables)), key=least.__getitem__)):
-        share = (room - sum(1 + height(one) for one in cut_to.values())) // (len(tables) - done)
+        share = (room - sum(1 + height(blocks) for blocks in cut_to.values())) // (len(tables) - done)
         cut_to[k] = _rows_that_fit(letters, tables[k], share - 1, further[k])
     return [block for k in range(len(tables)) for block in cut_to[k]]
 
@@ -88,7 +88,7 @@ def _counted(further: int) -> list[Block]:
 
 def compare_blocks(result: CompareResult, *, full: bool = True) -> tuple[Block, ...]:
     """The whole report: every entry, those marked ≠ that differ; not `full`: those alone that differ."""
-    rows, letters = (*result.differences, *(result.alike if full else ())), [one.letter for one in result.files]
+    rows, letters = (*result.differences, *(result.alike if full else ())), [file.letter for file in result.files]
     tables = tables_of(result, rows, marked=full)
     less = [] if full else [Paragraph("Differences only; with --full every entry stands here." if rows else NOTHING)]
     return (
@@ -98,19 +98,19 @@ def compare_blocks(result: CompareResult, *, full: bool = True) -> tuple[Block, 
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
         *provenance_blocks(result.provenance),
-        *(Paragraph(f"{one.letter}: {one.file}, SHA-256 {one.sha256[:16]}…") for one in result.files),
+        *(Paragraph(f"{file.letter}: {file.file}, SHA-256 {file.sha256[:16]}…") for file in result.files),
     )
 
 
 def _about(result: CompareResult) -> list[Block]:
     """Title, verdict, and which machine each letter is."""
-    return [Heading(result.title), verdict_line(result), *(_machine(one) for one in result.files)]
+    return [Heading(result.title), verdict_line(result), *(_machine(file) for file in result.files)]
 
 
-def _machine(one: ComparedFile) -> Paragraph:
-    replaced = [f"{key} = {exact(value)}" for key, value in one.overrides.items()]
-    text = f"{one.letter}  {WORD[one.status]}  {one.title}, {one.file}"
-    return Paragraph(f"{text}, with {', '.join(replaced)}" if replaced else text, one.status, hang=3)
+def _machine(file: ComparedFile) -> Paragraph:
+    replaced = [f"{key} = {exact(value)}" for key, value in file.overrides.items()]
+    text = f"{file.letter}  {WORD[file.status]}  {file.title}, {file.file}"
+    return Paragraph(f"{text}, with {', '.join(replaced)}" if replaced else text, file.status, hang=3)
 
 
 def _first(rows: Iterable[Difference]) -> list[Difference]:

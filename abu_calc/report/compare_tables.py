@@ -42,7 +42,10 @@ def tables_of(result: CompareResult, rows: Sequence[Difference], *, marked: bool
 
 
 def table_blocks(letters: Sequence[str], table: Table, count: int | None = None) -> list[Block]:
-    """So many lines of a table; those with long cells stand below it, one machine after another."""
+    """Blocks of the first `count` lines of a table; None: all lines.
+
+    Lines with long cells stand below the table, one machine after another.
+    """
     lines = table.lines[:count]
     short = [line for line in lines if max(map(len, line[1:])) <= LONGEST_CELL]
     blocks: list[Block] = [Heading(table.heading), *_grid(letters, short)]
@@ -74,15 +77,15 @@ def _checks(result: CompareResult, rows: Sequence[Difference], marked: bool) -> 
         status, value, limit = (known[f"{head}.{key}"] for key in ("status", "value", "limit"))
         name = head.removeprefix("checks.").strip('"')
         label = name if " " in name else f"{name} {names[name].rpartition(', ')[0]}"
-        limits = [""] * len(limit.values) if limit.alike else [f" ({one})" for one in _written(limit.values)]
+        limits = [""] * len(limit.values) if limit.alike else [f" ({text})" for text in _written(limit.values)]
         cells = (
-            "–" if grade is None else f"{WORD[grade]} {found}{bound}".replace(" –", "").rstrip()
-            for grade, found, bound in zip(status.values, _written(value.values), limits, strict=True)
+            "–" if grade is None else f"{WORD[grade]} {value_text}{bound}".replace(" –", "").rstrip()
+            for grade, value_text, bound in zip(status.values, _written(value.values), limits, strict=True)
         )  # fmt: skip
         same = status.alike and value.alike and limit.alike
         line = f"{_mark(same, marked)}{label}{f', {value.unit}' if value.unit else ''}", *cells
         lines.append((min(map(_rank, status.values)), line))
-    return [line for _, line in sorted(lines, key=lambda one: one[0])]
+    return [line for _, line in sorted(lines, key=lambda pair: pair[0])]
 
 
 def _rank(grade: Grade | None) -> int:

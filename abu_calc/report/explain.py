@@ -32,8 +32,8 @@ def step_blocks(step: Step, numbers: tuple[str, ...] = ()) -> list[Block]:
 def formula_blocks(formulas: tuple[Formula, ...]) -> list[Block]:
     """Each formula under its name."""
     blocks: list[Block] = []
-    for one in formulas:
-        blocks += [Heading(f"  {one.name}"), *(Paragraph(part, indent=4) for part in one.for_users)]
+    for formula in formulas:
+        blocks += [Heading(f"  {formula.name}"), *(Paragraph(part, indent=4) for part in formula.for_users)]
     return blocks
 
 

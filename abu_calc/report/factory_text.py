@@ -21,8 +21,8 @@ def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
     """The one screen."""
     rows = result.rows
     heading = "", "octave", "without", "taken", "with", "pred.", "lowered", "pred."
-    cells = tuple((f"{k} {one.short}{_state(one)}", *_cells(one)) for k, one in enumerate(rows, 1))
-    words = (Paragraph(f"{k} {one.word}{_elsewhere(one)}", hang=2) for k, one in enumerate(rows, 1))
+    cells = tuple((f"{k} {row.short}{_state(row)}", *_cells(row)) for k, row in enumerate(rows, 1))
+    words = (Paragraph(f"{k} {row.word}{_elsewhere(row)}", hang=2) for k, row in enumerate(rows, 1))
     return (
         Heading(result.title),
         Paragraph(_verdict(rows)),
@@ -40,32 +40,32 @@ def factory_blocks(result: FactoryResult) -> tuple[Block, ...]:
     return (*factory_screen(result), Paragraph(f"Source: {result.source}."), *provenance_blocks(result.provenance))
 
 
-def _state(one: FactoryLevel) -> str:
-    return "" if one.state == "not said" else f" {one.state}"
+def _state(level: FactoryLevel) -> str:
+    return "" if level.state == "not said" else f" {level.state}"
 
 
-def _elsewhere(one: FactoryLevel) -> str:
-    """Where the model is louder than in this octave."""
-    if one.louder_octave_hz is None:
+def _elsewhere(level: FactoryLevel) -> str:
+    """Sentence on the octave in which the model is louder than in this one; empty if there is none."""
+    if level.louder_octave_hz is None:
         return ""
     return (
-        f" Pressed before the balls have settled the model is loudest at {one.louder_octave_hz:g} Hz, "
-        f"{_one(one.louder_octave_db)} dB."
+        f" Pressed before the balls have settled the model is loudest at {level.louder_octave_hz:g} Hz, "
+        f"{_one(level.louder_octave_db)} dB."
     )
 
 
-def _cells(one: FactoryLevel) -> tuple[str, ...]:
-    predicted = _one(one.with_predicted_db)
-    if one.with_predicted_worst_db is not None:
-        predicted += f"…{_one(one.with_predicted_worst_db)}"
+def _cells(level: FactoryLevel) -> tuple[str, ...]:
+    predicted = _one(level.with_predicted_db)
+    if level.with_predicted_worst_db is not None:
+        predicted += f"…{_one(level.with_predicted_worst_db)}"
     return (
-        f"{one.octave_hz:g}",
-        one.named or _span(one.without_measured_db),
-        _one(one.without_predicted_db),
-        _span(one.with_measured_db),
+        f"{level.octave_hz:g}",
+        level.named or _span(level.without_measured_db),
+        _one(level.without_predicted_db),
+        _span(level.with_measured_db),
         predicted,
-        _span(one.lowered_measured_db),
-        _one(one.lowered_predicted_db),
+        _span(level.lowered_measured_db),
+        _one(level.lowered_predicted_db),
     )
 
 
@@ -78,8 +78,8 @@ def _one(level: float | None) -> str:
 
 
 def _verdict(rows: Sequence[FactoryLevel]) -> str:
-    """How many predictions lie within what was measured, and how far the others are off."""
-    known = [one.outside_db for one in rows if one.outside_db is not None]
+    """Number of predictions within the measured range, and the largest error of the others."""
+    known = [row.outside_db for row in rows if row.outside_db is not None]
     within = sum(1 for off in known if off == 0)
     return (
         f"Of {len(rows)} measurements the model speaks of {len(known)}: {within} within what was measured, the "

@@ -14,7 +14,7 @@ from abu_calc.studies.quantity import flattened
 from abu_calc.units import unit_of
 
 FORMULAS: Final = ("=", "+", "-", "@")
-"""With what texts begin that spreadsheets take for formulas."""
+"""First characters of texts that spreadsheets take for formulas."""
 
 
 def as_toml(outcome: Outcome) -> str:

@@ -1,4 +1,4 @@
-"""What to write on the drawing, what to order, how to repair and to sort: bearing seats in words."""
+"""Advice on bearing seats in words: drawing entries, orders, repair and sorting."""
 
 from collections.abc import Sequence
 
@@ -18,10 +18,10 @@ def advice_lines(pair: Seats) -> list[Paragraph]:
     shaft, housing = pair
     if shaft.recommended_fit is None and housing.recommended_fit is None:
         return [Paragraph("No tabulated field both grips and is borne.")]
-    told = [f"{seat.seat} {seat.recommended_fit}" for seat in pair if seat.recommended_fit]
+    fits = [f"{seat.seat} {seat.recommended_fit}" for seat in pair if seat.recommended_fit]
     none = [f" No tabulated field of the {seat.seat} will do." for seat in pair if not seat.recommended_fit]
-    lines = [Paragraph(f"Write {', '.join([*told, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
-    wrong = [f"{one.fit}: {one.why}" for seat in pair for one in seat.rejected_fits]
+    lines = [Paragraph(f"Write {', '.join([*fits, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
+    wrong = [f"{rejected.fit}: {rejected.why}" for seat in pair for rejected in seat.rejected_fits]
     return [*lines, Paragraph(f"Not {'; not '.join(wrong)}.")] if wrong else lines
 
 
@@ -35,7 +35,7 @@ def bearing_table(pairs: Sequence[Seats]) -> Grid:
 
 
 def repair_lines(pair: Seats) -> list[Block]:
-    """What measured seats have left, and what a repair must restore."""
+    """Lines on the interference left in measured seats, and on the limits that a repair must restore."""
     return [
         Paragraph(f"{seat.seat.capitalize()} as measured: {_repair(seat, seat.repair)}") for seat in pair if seat.repair
     ]
@@ -49,9 +49,9 @@ def sorting_blocks(pair: Seats) -> list[Block]:
             continue
         ring = "bore" if seat.seat == "shaft" else "outer ring"
         rows = tuple(
-            (str(one.number), _span(one.part_limits_um), _span(one.ring_limits_um), _span(one.interference_um),
-             f"{one.pairs_of_100:.3g}")
-            for one in seat.sorting_groups
+            (str(group.number), _span(group.part_limits_um), _span(group.ring_limits_um), _span(group.interference_um),
+             f"{group.pairs_of_100:.3g}")
+            for group in seat.sorting_groups
         )  # fmt: skip
         header = ("group", f"{seat.seat}, µm", f"{ring}, µm", "tight by, µm", "pairs of 100")
         blocks += [
@@ -61,18 +61,18 @@ def sorting_blocks(pair: Seats) -> list[Block]:
     return blocks
 
 
-def _repair(seat: SeatResult, found: Repair) -> str:
-    (low, high), (least, most) = found.grip_left_um, found.restore_limits_um
+def _repair(seat: SeatResult, fix: Repair) -> str:
+    (low, high), (least, most) = fix.grip_left_um, fix.restore_limits_um
     needed = "" if seat.needed_um is None else f", {seat.needed_um:.3g} needed"
     if least <= seat.part_limits_um[0] and seat.part_limits_um[1] <= most:
-        return f"grip left {low:.3g} … {high:.3g} µm{needed}; within {found.restore_fit}, no repair is needed."
-    bond = f" a bond must fill {found.bonding_gap_um:.3g} µm;" if found.bonding_gap_um > 0 else ""
+        return f"grip left {low:.3g} … {high:.3g} µm{needed}; within {fix.restore_fit}, no repair is needed."
+    bond = f" a bond must fill {fix.bonding_gap_um:.3g} µm;" if fix.bonding_gap_um > 0 else ""
     next_size = ""
-    if found.next_bearing is not None:
+    if fix.next_bearing is not None:
         how, other = ("turn down", "housing") if seat.seat == "shaft" else ("bore out", "shaft")
-        next_size = f" or {how} to {found.next_seat_mm:g} mm for {found.next_bearing}, with its own size in the {other}"
+        next_size = f" or {how} to {fix.next_seat_mm:g} mm for {fix.next_bearing}, with its own size in the {other}"
     return (
-        f"grip left {low:.3g} … {high:.3g} µm{needed}. To bring it back to {found.restore_fit}, finish a sleeve or "
+        f"grip left {low:.3g} … {high:.3g} µm{needed}. To bring it back to {fix.restore_fit}, finish a sleeve or "
         f"sprayed metal to {least:+g} … {most:+g} µm;{bond}{next_size or ' the next size is not tabulated'}."
     )
 

@@ -95,9 +95,9 @@ def _losses(pair: Seats) -> list[Block]:
 
 def _fits(pair: Seats) -> list[Block]:
     rows = tuple(
-        (seat.seat, one.fit, _span(one.interference_um), of_all(one.clearance_probability).removesuffix(" pairs"))
+        (seat.seat, fit.fit, _span(fit.interference_um), of_all(fit.clearance_probability).removesuffix(" pairs"))
         for seat in pair
-        for one in seat.admissible_fits[:MOST_FITS]
+        for fit in seat.admissible_fits[:MOST_FITS]
     )
     grid = Grid(("seat", "field", "interference, µm", "loose"), rows)
     return [Heading("Fields that pass, the best first"), grid] if rows else []

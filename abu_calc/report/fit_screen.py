@@ -16,7 +16,7 @@ SIGN = (
     "at most what is permitted."
 )
 MOST_LINES: Final = 24
-"""Of the table of several bearings; the rest is left to the whole report."""
+"""Most lines of the table of several bearings; the whole report has the rest."""
 
 
 def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:

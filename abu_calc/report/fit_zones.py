@@ -18,7 +18,7 @@ def zone_lines(shaft: SeatResult, housing: SeatResult) -> list[str]:
     seats = [(each.ring_limits_um, each.part_limits_um, each.fit) for each in (shaft, housing)]
     deviations = [0.0, *(limit for ring, part, _ in seats for limit in (*ring, *part))]
     low, high = min(deviations), max(deviations)
-    step = next((one for one in STEPS if (high - low) / one <= ROWS_WANTED), STEPS[-1])
+    step = next((division for division in STEPS if (high - low) / division <= ROWS_WANTED), STEPS[-1])
     top, bottom = math.ceil(high / step), math.floor(low / step)
     lines = [f"{'um':>5} |{'shaft':^{WIDTH}}{'housing':^{WIDTH}}".rstrip()]
     for row in range(top - 1, bottom - 1, -1):
@@ -33,7 +33,7 @@ def zone_lines(shaft: SeatResult, housing: SeatResult) -> list[str]:
 
 
 def legend() -> str:
-    """What the characters mean."""
+    """Legend of the characters."""
     return (
         f"{RING * 3} zone of the ring, {PART * 3} zone of the shaft or housing, --- zero line (nominal size); "
         "deviations in µm, upper limit above, lower below. A shaft is tight where it stands above its ring, a housing "
@@ -49,7 +49,7 @@ def _cell(row: int, step: int, ring: Pair, part: Pair, fit: str) -> str:
 def _zone(row: int, step: int, limits: Pair, mark: str, name: str) -> str:
     lower, upper = limits
     rows = [
-        one for one in range(math.floor(lower / step), math.ceil(upper / step)) if lower < (one + 0.5) * step < upper
+        tick for tick in range(math.floor(lower / step), math.ceil(upper / step)) if lower < (tick + 0.5) * step < upper
     ]
     rows = rows or [math.floor((lower + upper) / 2 / step)]
     bar = mark * 5

@@ -10,7 +10,7 @@ from abu_calc.studies.seat_records import SeatResult
 from abu_calc.units import unit_of
 
 Seats: TypeAlias = tuple[SeatResult, SeatResult]
-"""Of one bearing: shaft, housing."""
+"""Seats of one bearing: shaft, housing."""
 
 ROWS: Final = (
     "part_limits_um",

@@ -46,7 +46,7 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
 
 
 def _mark(result: GrindingResult) -> Status:
-    """That of the usual case, unless a start case fails."""
+    """Mark of the usual case, unless a start case fails."""
     lowered = next(check.status for check in result.checks if check.code == "ABU421")
     return "fail" if lowered == "fail" else MARKS[result.helps]
 
@@ -72,7 +72,7 @@ def numbers_that_matter(result: GrindingResult) -> Grid:
 
 
 def balls_blocks(result: GrindingResult) -> list[Block]:
-    """Where they rest, and where the source puts them."""
+    """Resting places of the balls, and the places that the source gives."""
     places = {
         "balanced": "The balls balance",
         "restless": "The balls do not stay where they would balance",
@@ -127,33 +127,31 @@ def contact_blocks(result: GrindingResult) -> list[Block]:
 
 
 def friction_blocks(result: GrindingResult) -> list[Block]:
-    """What friction holds, and what shakes it out."""
-    found = result.friction
-    if found.threshold_um == 0:
+    """Displacement that dry friction holds, and the motion that shakes the friction out."""
+    band = result.friction
+    if band.threshold_um == 0:
         return [Heading("Dry friction of the balls"), Paragraph("None.")]
-    held = f"It holds the axis off by {number(found.typical_um, 3)} µm, typically"
-    held += "." if found.worst_um is None else f", {number(found.worst_um, 3)} µm at the worst."
+    held = f"It holds the axis off by {number(band.typical_um, 3)} µm, typically"
+    held += "." if band.worst_um is None else f", {number(band.worst_um, 3)} µm at the worst."
     plane = result.contact_stiffness_regions_N_per_m is not None
-    told = "Axial runout of a wheel that is pressed in the plane does not shake the balls"
+    shaking = "Axial runout of a wheel that is pressed in the plane does not shake the balls"
     if not plane:
-        told = f"Axial runout of the wheel, {number(found.axial_um, 3)} µm, {_shakes(found.axial_shakes)}"
-    if plane and found.whirl_um is not None:
-        told += f"; the whirl by its runout there, {number(found.whirl_um, 3)} µm, {_shakes(found.whirl_shakes)}"
-        told += f", slowly, in some {number(found.creep_s, 2)} s" if found.creep_s else ""
-    need = f"It takes more than {number(found.threshold_um, 3)} µm."
-    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {told}. {need}{_shaken(found)}")]
+        shaking = f"Axial runout of the wheel, {number(band.axial_um, 3)} µm, {_shakes(band.axial_shakes)}"
+    if plane and band.whirl_um is not None:
+        shaking += f"; the whirl by its runout there, {number(band.whirl_um, 3)} µm, {_shakes(band.whirl_shakes)}"
+        shaking += f", slowly, in some {number(band.creep_s, 2)} s" if band.creep_s else ""
+    need = f"It takes more than {number(band.threshold_um, 3)} µm."
+    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaking}. {need}{_shaken(band)}")]
 
 
-def _shaken(found: FrictionBand) -> str:
-    """What the simulation shows."""
-    if found.simulated_way is None or found.simulated_um is None or found.simulated_s is None:
+def _shaken(band: FrictionBand) -> str:
+    """Sentence on the simulated effect of runout; empty if nothing was simulated."""
+    if band.simulated_way is None or band.simulated_um is None or band.simulated_s is None:
         return ""
-    left = [
-        f"{number(each, 2)} µm" if each is not None else "not known" for each in (found.unshaken_um, found.shaken_um)
-    ]
-    tried = f"an axial runout of {number(found.simulated_um, 2)} µm, as a trial"
-    by, after = "this runout" if found.simulated_given else tried, f"after {found.simulated_s:g} s"
-    worse = found.unshaken_um is not None and found.shaken_um is not None and found.shaken_um > found.unshaken_um
+    left = [f"{number(each, 2)} µm" if each is not None else "not known" for each in (band.unshaken_um, band.shaken_um)]
+    tried = f"an axial runout of {number(band.simulated_um, 2)} µm, as a trial"
+    by, after = "this runout" if band.simulated_given else tried, f"after {band.simulated_s:g} s"
+    worse = band.unshaken_um is not None and band.shaken_um is not None and band.shaken_um > band.unshaken_um
     more = " So much of it throws the balls off their places." if worse else ""
     return f" Simulated from bunched balls: {left[0]} without, {left[1]} with {by}, {after}.{more}"
 
@@ -165,13 +163,13 @@ def _shakes(does: bool) -> str:
 def _simulated(result: GrindingResult) -> list[Block]:
     """The runs, with every effect that counts."""
     blocks: list[Block] = []
-    for one, title in (
+    for simulation, title in (
         (result.simulation, "Simulated with the autobalancer"),
         (result.simulation_at_once, "Pressed before the balls have settled"),
         (result.simulation_without, "Without"),
     ):
-        if one is not None:
-            blocks += [Heading(title), facts(one)]
+        if simulation is not None:
+            blocks += [Heading(title), facts(simulation)]
     if result.agreement is not None:
         blocks += [Heading("Contact alone, simulated against the closed form: relative differences"),
                    facts(result.agreement)]  # fmt: skip
@@ -179,16 +177,16 @@ def _simulated(result: GrindingResult) -> list[Block]:
 
 
 def _hodograph(result: GrindingResult) -> list[Block]:
-    rows = tuple((number(one.runout_angle_deg, 4), *_pair(one.without), *_pair(one.fitted)) for one in result.hodograph)
+    rows = tuple((number(row.runout_angle_deg, 4), *_pair(row.without), *_pair(row.fitted)) for row in result.hodograph)
     header = ("runout at, °", "without: x", "y, µm", "with: x", "y, µm")
     return [Heading("Axis against the angle from imbalance to runout"), Grid(header, rows, RIGHT)]
 
 
 def _response(result: GrindingResult) -> list[Block]:
     rows = tuple(
-        (number(one.speed_rpm, 5), _largest(one.without), _largest(one.fitted), _newton(one.force_without_N),
-         _newton(one.force_with_N), one.balls or "")
-        for one in result.response
+        (number(point.speed_rpm, 5), _largest(point.without), _largest(point.fitted), _newton(point.force_without_N),
+         _newton(point.force_with_N), point.balls or "")
+        for point in result.response
     )  # fmt: skip
     header = ("rpm", "axis without", "with", "force without", "with", "balls")
     return [Heading("Over the speeds"), Grid(header, rows, frozenset({0, 1, 2, 3, 4}))]
@@ -198,9 +196,9 @@ def _profile(result: GrindingResult) -> list[Block]:
     if result.profile is None:
         return []
     rows = tuple(
-        (number(one.wheel_angle_deg, 4), *(_newton(each) for each in (one.without_N, one.with_N,
-                                           one.simulated_without_N, one.simulated_N)))
-        for one in result.profile
+        (number(point.wheel_angle_deg, 4), *(_newton(each) for each in (point.without_N, point.with_N,
+                                           point.simulated_without_N, point.simulated_N)))
+        for point in result.profile
     )  # fmt: skip
     header = ("wheel at, °", "without", "with", "simulated without", "simulated with")
     return [Heading("Force round the wheel, from its imbalance"), Grid(header, rows, RIGHT)]
@@ -218,7 +216,7 @@ def _largest(axis: AxisMotion) -> str:
 
 
 def _db(level: float | None, run: Simulated | None) -> str:
-    """With what it scatters where the run is a mean of chaotic ones."""
+    """Level as text, with its scatter if the run is a mean of chaotic ones."""
     if level is None:
         return "not known"
     return f"{level:.1f} ± {run.scatter_db:.1f} dB" if run and run.scatter_db else f"{level:.1f} dB"
@@ -233,7 +231,7 @@ def _newton(force: float | None, *, parts: bool = False) -> str:
 
 
 def _stiffness(value: float) -> str:
-    """As files have it, 4.9e5."""
+    """Stiffness as files have it, 4.9e5."""
     return f"{value:.3g}".replace("e+0", "e")
 
 

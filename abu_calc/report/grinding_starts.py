@@ -10,9 +10,9 @@ def start_blocks(starts: LoadedStarts | None) -> list[Block]:
     if starts is None:
         return []
     rows = tuple(
-        (WHEN[one.pressed], f"{one.count} of {one.total}", one.state + ("" if one.steady else ", still changing"),
-         _range(one))
-        for one in starts.outcomes
+        (WHEN[group.pressed], f"{group.count} of {group.total}", group.state + ("" if group.steady else ", still changing"),
+         _range(group))
+        for group in starts.outcomes
     )  # fmt: skip
     lost = f"; {starts.without_answer} gave no answer" if starts.without_answer else ""
     return [

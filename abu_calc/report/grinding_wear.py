@@ -1,4 +1,4 @@
-"""How the wheel wears, in the report of `abu grinding`."""
+"""Wear of the wheel, in the report of `abu grinding`."""
 
 from typing import Final
 
@@ -17,7 +17,7 @@ ENDS: Final = {
 
 
 def wear_blocks(result: GrindingResult) -> list[Block]:
-    """With and without autobalancer, at this contact and a rigid one; then what the source claims."""
+    """Wear with and without autobalancer, at this contact and a rigid one; then the claim of the source."""
     both = ((result.wear_without, "without"), (result.wear, "with"))
     rigid = ((result.wear_rigid_without, "rigid, without"), (result.wear_rigid, "rigid, with"))
     bouncing = ((result.wear_bouncing_without, "bouncing, without"), (result.wear_bouncing, "bouncing, with"))
@@ -54,9 +54,9 @@ def _stages(result: GrindingResult) -> list[Block]:
         if wear is None or not wear.stages or not wear.depth_um:
             continue
         rows = tuple(
-            (number(one.depth_um, 3), number(1e3 * one.runout_mm, 4), number(one.runout_angle_deg, 4),
-             number(one.imbalance_g_mm, 4), number(one.variable_force_N, 3))
-            for one in wear.stages
+            (number(stage.depth_um, 3), number(1e3 * stage.runout_mm, 4), number(stage.runout_angle_deg, 4),
+             number(stage.imbalance_g_mm, 4), number(stage.variable_force_N, 3))
+            for stage in wear.stages
         )  # fmt: skip
         header = ("worn, µm", "runout, µm", "at, °", "imbalance, g·mm", "force ±, N")
         blocks += [Heading(f"Course of wear {name}"), Grid(header, rows, frozenset(range(5)))]

@@ -17,7 +17,7 @@ CONVENTIONS = (
     "5349-1:2001, a_hv the vector sum of the axes there are; A(8) = a_hv·√(T/8 h)."
 )
 LEAST_DB = 20.0
-"""Below it a level says nothing: 0.5 µm/s."""
+"""Level below which a level says nothing [dB]: 0.5 µm/s."""
 
 
 def levels_blocks(result: LevelsResult) -> tuple[Block, ...]:
@@ -52,10 +52,10 @@ def _about(result: LevelsResult) -> list[Block]:
 
 def _sentence(result: LevelsResult) -> str:
     where = "" if result.source == "recording" else f" at the {_place(result.loudest_place)}"
-    found = "No level is known" if result.level_db is None else f"{result.level_db:.1f} dB{where}"
+    level = "No level is known" if result.level_db is None else f"{result.level_db:.1f} dB{where}"
     kind = f"recorded {result.quantity}" if result.source == "recording" else "simulated motion"
     last = f"{number(result.duration_s, 3)} s of {kind}, {number(result.sampling_rate_hz, 5)} samples a second"
-    return f"{found}, the louder axis; {last}." if len(result.places[0].axes) > 1 else f"{found}; {last}."
+    return f"{level}, the louder axis; {last}." if len(result.places[0].axes) > 1 else f"{level}; {last}."
 
 
 def _place(name: str) -> str:
@@ -84,22 +84,22 @@ def _tenths(value: float | None) -> str:
 def _totals(result: LevelsResult) -> list[Block]:
     """Per place: level, velocity, weighted acceleration, exposure, load of the hand, as far as they are known."""
     columns: list[tuple[str, Callable[[PlaceLevel], str]]] = [
-        ("before, dB", lambda one: _tenths(one.level_before_db)),
-        ("dB", lambda one: _tenths(one.level_db)),
-        ("mm/s", lambda one: _short(one.velocity_rms_mm_per_s)),
-        ("µm", lambda one: _short(one.displacement_rms_um)),
-        ("m/s²", lambda one: _short(one.acceleration_m_per_s2)),
-        ("a_h", lambda one: _short(one.weighted_axis_m_per_s2)),
-        ("a_hv", lambda one: _short(one.weighted_acceleration_m_per_s2)),
-        ("A(8)", lambda one: _short(one.daily_exposure_m_per_s2)),
+        ("before, dB", lambda place: _tenths(place.level_before_db)),
+        ("dB", lambda place: _tenths(place.level_db)),
+        ("mm/s", lambda place: _short(place.velocity_rms_mm_per_s)),
+        ("µm", lambda place: _short(place.displacement_rms_um)),
+        ("m/s²", lambda place: _short(place.acceleration_m_per_s2)),
+        ("a_h", lambda place: _short(place.weighted_axis_m_per_s2)),
+        ("a_hv", lambda place: _short(place.weighted_acceleration_m_per_s2)),
+        ("A(8)", lambda place: _short(place.daily_exposure_m_per_s2)),
     ]
-    told = [(name, cell) for name, cell in columns if any(cell(one) != "–" for one in result.places)]
-    rows = tuple((one.name, *(cell(one) for _, cell in told)) for one in result.places)
-    blocks: list[Block] = [Grid(("", *(name for name, _ in told)), rows, frozenset(range(1, len(told) + 1)))]
+    filled = [(name, cell) for name, cell in columns if any(cell(place) != "–" for place in result.places)]
+    rows = tuple((place.name, *(cell(place) for _, cell in filled)) for place in result.places)
+    blocks: list[Block] = [Grid(("", *(name for name, _ in filled)), rows, frozenset(range(1, len(filled) + 1)))]
     loads = [
-        f"{one.name} {_short(one.static_load_N)} N ({_short(one.static_load_without_N)} N without autobalancer)"
-        for one in result.places
-        if one.static_load_N is not None
+        f"{place.name} {_short(place.static_load_N)} N ({_short(place.static_load_without_N)} N without autobalancer)"
+        for place in result.places
+        if place.static_load_N is not None
     ]
     if loads:
         blocks.append(Paragraph(f"Held still in the air, the hands carry: {', '.join(loads)}."))

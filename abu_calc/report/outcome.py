@@ -1,4 +1,4 @@
-"""What a command returns, and the one JSON document it becomes."""
+"""Return value of a command, and the one JSON document it becomes."""
 
 import math
 from collections.abc import Callable
@@ -36,9 +36,9 @@ class Outcome:
     short: Callable[[], tuple[Block, ...]] | None = None
     """The one screen that stands in a terminal for blocks that take more."""
     drawings: "Callable[[], tuple[Drawing, ...]] | None" = None
-    """What makes the sheets of a drawing, where the command has one."""
+    """Function that makes the sheets of a drawing; None if the command has none."""
     extras: "MakesExtras | None" = None
-    """What makes the figures and the calculation note of a page, where the command has such."""
+    """Function that makes the figures and the calculation note of a page; None if the command has none."""
     asked: str = ""
     """The command line that gives this, files that it writes left out."""
     plain: str | None = None
@@ -57,7 +57,11 @@ class Outcome:
         drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
         extras: "MakesExtras | None" = None,
     ) -> "Outcome":
-        """That of a study, and what makes its blocks, all of them and one screen, its drawings, its page's extras."""
+        """Outcome of a study.
+
+        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings, `extras` its page's
+        extras.
+        """
         return cls(
             result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
             result.warnings, result.status, short, drawings, extras,

@@ -13,20 +13,20 @@ from abu_calc.studies.result import Provenance, Result
 
 BOUND: Final = {"most": "at most", "least": "at least"}
 WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT DONE"}
-"""What stands before a check: no grade is told by its color alone."""
+"""Word before a check of each grade: no grade is shown by its colour alone."""
 
 
 RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn")
 """Grades that need a word, the worst first."""
 MARGIN: Final = 2
 DIGITS: Final = range(4, 9)
-"""Of a value and its limit."""
+"""Numbers of significant digits for a value and its limit."""
 MOST_ALIKE: Final = 3
 """Checks that are named with the reason they share; the table of checks has all."""
 
 
 def of_scene(scene: str) -> str:
-    """Which scene of a machine; a scene file holds but one."""
+    """Scene of a machine, as words; empty for a scene file, which holds but one."""
     return "" if scene == "scene" else f" of the scene {scene}"
 
 
@@ -61,7 +61,7 @@ def reasons(checks: Iterable[Check]) -> list[Paragraph]:
 def unlike(checks: Iterable[Check]) -> list[list[Check]]:
     """Checks that did not simply pass, the worst first; those of one grade, reason and remedy together."""
     groups: dict[tuple[str, ...], list[Check]] = {}
-    for check in sorted((one for one in checks if one.status != "pass"), key=lambda one: RANK.index(one.status)):
+    for check in sorted((item for item in checks if item.status != "pass"), key=lambda item: RANK.index(item.status)):
         groups.setdefault((check.status, check.message, check.remedy or ""), []).append(check)
     return list(groups.values())
 
@@ -69,7 +69,7 @@ def unlike(checks: Iterable[Check]) -> list[list[Check]]:
 def reason(alike: Sequence[Check]) -> Paragraph:
     """Checks of one grade, one reason and one remedy."""
     first, more = alike[0], len(alike) - MOST_ALIKE
-    names = ", ".join(f"{one.code} {one.name}{_found(one)}" for one in alike[:MOST_ALIKE])
+    names = ", ".join(f"{check.code} {check.name}{_found(check)}" for check in alike[:MOST_ALIKE])
     others = f" and {more} more" if more > 0 else ""
     remedy = f" Remedy: {first.remedy}" if first.remedy else ""
     return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
@@ -77,8 +77,8 @@ def reason(alike: Sequence[Check]) -> Paragraph:
 
 def _found(check: Check) -> str:
     """The value beside its limit."""
-    found = [part for part in (_value(check), limit_of(check)) if part and check.value is not None]
-    return f" ({', '.join(found)})" if found else ""
+    parts = [part for part in (_value(check), limit_of(check)) if part and check.value is not None]
+    return f" ({', '.join(parts)})" if parts else ""
 
 
 def notices(result: Result) -> list[Block]:
@@ -106,7 +106,7 @@ def default_blocks(defaults: Iterable[tuple[str, object]]) -> list[Block]:
 
 
 def provenance_blocks(provenance: Provenance) -> list[Block]:
-    """What is needed to repeat a result: version, date, file and its hash, entries replaced."""
+    """Data needed to repeat a result: version, date, file and its hash, replaced entries."""
     text = f"abu-calc {provenance.version}, {provenance.date}"
     if provenance.file is not None:
         text += f"; {provenance.file}, SHA-256 {(provenance.sha256 or '')[:16]}…"
@@ -148,11 +148,11 @@ def limit_of(check: Check) -> str:
 
 
 def _digits(check: Check) -> int:
-    """So many that a value beyond its limit is not shown as that limit."""
+    """Number of digits with which a value beyond its limit is not shown as that limit."""
     value, limit = check.value, check.limit
     if value is None or limit is None:
         return DIGITS[0]
-    return next((one for one in DIGITS if number(value, one) != number(limit, one)), DIGITS[0])
+    return next((digits for digits in DIGITS if number(value, digits) != number(limit, digits)), DIGITS[0])
 
 
 def limit_in_file(check: Check | None) -> str:

@@ -50,7 +50,7 @@ def result_schema() -> Schema:
 
 
 def _envelope(definitions: dict[str, Schema]) -> Schema:
-    """What every document has; a document of an error has `error` and no result."""
+    """Properties of every document; a document of an error has `error` and no result."""
     text, anything = {"type": "string"}, {"type": "object"}
     check = {name: _type(hint, definitions) for name, hint in get_type_hints(Check).items()}
     return {
@@ -71,7 +71,7 @@ def _object(**properties: Schema) -> Schema:
 
 
 def _of_command(name: str, definitions: dict[str, Schema]) -> Schema:
-    """Where this command speaks, and of no error, this is its result, and the model behind it."""
+    """Schema rule of one command: its documents without an error have this result and this model."""
     command = {"properties": {"abu": {"properties": {"command": {"const": name}}}}}
     kinds = [
         {"properties": {"result": _type(kind.json_type(), definitions), "model": _type(_model(kind), definitions)}}
@@ -121,7 +121,7 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
     if origin is Literal:
         return {"enum": list(arguments)}
     if origin in (Union, types.UnionType):
-        return {"anyOf": [_type(one, definitions) for one in arguments]}
+        return {"anyOf": [_type(argument, definitions) for argument in arguments]}
     if origin is tuple:
         return {"type": "array", "items": _items(arguments, definitions), **_length(arguments)}
     if isinstance(origin, type) and issubclass(origin, Mapping):
@@ -132,10 +132,10 @@ def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
 
 
 def _items(arguments: tuple[Any, ...], definitions: dict[str, Schema]) -> Schema:
-    kinds = [one for one in dict.fromkeys(arguments) if one is not Ellipsis]
-    return _type(kinds[0], definitions) if len(kinds) == 1 else {"anyOf": [_type(one, definitions) for one in kinds]}
+    kinds = [argument for argument in dict.fromkeys(arguments) if argument is not Ellipsis]
+    return _type(kinds[0], definitions) if len(kinds) == 1 else {"anyOf": [_type(kind, definitions) for kind in kinds]}
 
 
 def _length(arguments: tuple[Any, ...]) -> Schema:
-    """Of tuples that are written out, their length."""
+    """Length limits of tuples that are written out; none for others."""
     return {} if Ellipsis in arguments else {"minItems": len(arguments), "maxItems": len(arguments)}

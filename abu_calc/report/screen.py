@@ -15,7 +15,7 @@ from abu_calc.report.text import height
 from abu_calc.studies.result import Result
 
 LINES: Final = 48
-"""At 80 columns."""
+"""Lines of one screen, at 80 columns."""
 LEAST: Final = 8
 """Lines kept for the warnings and for the body, where others ask for all."""
 BLANK: Final[Block] = Paragraph("")
@@ -42,18 +42,21 @@ def one_screen(
     room = LINES - height([*about, *last])
     kept = min(2 + _height(warnings), LEAST) if warnings else 0
     taken = room - kept - min(1 + _height(body), LEAST)
-    told = _fitted([reason(alike) for alike in groups], [[one.code for one in alike] for alike in groups], taken)
-    room -= height(told)
+    reasons = _fitted([reason(alike) for alike in groups], [[check.code for check in alike] for alike in groups], taken)
+    room -= height(reasons)
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
     rest = _fitted(warnings, [], room - height([BLANK, *shown]) - 2)
     below: list[Block] = [Heading("Warnings"), *rest] if rest else []
-    drawn = picture(LINES - height([*about, *told, *parted, BLANK, *below, *last])) if picture else ()
-    return (*about, *told, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
+    drawn = picture(LINES - height([*about, *reasons, *parted, BLANK, *below, *last])) if picture else ()
+    return (*about, *reasons, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
 
 
 def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:
-    """As many as there is room for, the rest as a count; `codes`: of the checks that each tells, none: of warnings."""
+    """Lines that there is room for, and the rest as a count.
+
+    `codes`: codes of the checks that each line reports; empty if the lines are warnings.
+    """
     if _height(lines) <= room:
         return list(lines)
     fit = max(bisect_right(range(min(len(lines), LINES)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
@@ -64,9 +67,12 @@ def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: in
 
 
 def _height(blocks: Sequence[Block]) -> int:
-    """How many lines blocks take; of what is taller than a screen no more is laid out than tells that it is."""
+    """Number of lines that blocks take.
+
+    Blocks taller than a screen are laid out only as far as is needed to show that they are taller.
+    """
     tall = LINES + 1
-    seen = [one._replace(rows=one.rows[:tall]) if isinstance(one, Grid) else one for one in blocks[: 2 * tall]]
+    seen = [part._replace(rows=part.rows[:tall]) if isinstance(part, Grid) else part for part in blocks[: 2 * tall]]
     return height(seen)
 
 
@@ -84,8 +90,8 @@ def cut(blocks: Sequence[Block], room: int) -> list[Block]:
         headless = not part and (headless or isinstance(block, Heading))
         kept += part
     ended: list[Block] = [*kept, Heading("")]
-    empty = [isinstance(one, Heading) and isinstance(below, Heading) for one, below in pairwise(ended)]
-    return [*(one for one, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]
+    empty = [isinstance(above, Heading) and isinstance(below, Heading) for above, below in pairwise(ended)]
+    return [*(piece for piece, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]
 
 
 def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
@@ -113,12 +119,12 @@ def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
         return Paragraph(text, "warn" if count["warn"] else None if unjudged else "pass")
     failed = [f"{count['fail']} of {total} failed"] if count["fail"] else []
     missing = f"{count['not-done']} not done" if failed else f"{count['not-done']} of {total} not done"
-    found = [*failed, *([missing] if count["not-done"] else []), *warned]
-    return Paragraph(f"{WORDS[result.status]}: {', '.join(found or ['there are no checks'])}", result.status)
+    clauses = [*failed, *([missing] if count["not-done"] else []), *warned]
+    return Paragraph(f"{WORDS[result.status]}: {', '.join(clauses or ['there are no checks'])}", result.status)
 
 
 def many(count: int, name: str, plural: str | None = None) -> str:
-    """So many of something.
+    """Count with its noun, singular or plural.
 
     >>> many(1, "check"), many(2, "entry", "entries")
     ('1 check', '2 entries')
@@ -135,7 +141,7 @@ def _passed(checks: Iterable[Check]) -> str:
 
 
 def _next(result: Result, more: Sequence[str]) -> str:
-    """Where to look, and what is needed to come here again."""
+    """Last line of a screen: commands for more, with the defaults and replaced entries behind the result."""
     source, codes = result.provenance, [check.code for check in result.checks if check.status != "pass"]
     codes = codes or [check.code for check in result.checks]
     asked = [f"`abu explain {codes[0]}`, what a check asks"] if codes else []
@@ -159,9 +165,9 @@ def shortened(
 
 def sections(blocks: Iterable[Block]) -> list[list[Block]]:
     """A heading with what stands below it, one after another."""
-    found: list[list[Block]] = []
+    parts: list[list[Block]] = []
     for block in blocks:
-        if isinstance(block, Heading) or not found:
-            found.append([])
-        found[-1].append(block)
-    return found
+        if isinstance(block, Heading) or not parts:
+            parts.append([])
+        parts[-1].append(block)
+    return parts

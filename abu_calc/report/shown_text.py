@@ -11,9 +11,9 @@ def readings_grid(rows: Sequence[tuple[str, Readings]]) -> Grid:
     """Places and states against what instruments show of them."""
     header = ("", "mm/s", "µm", "m/s²", "a_h W_h", "a_hv W_h")
     cells = tuple(
-        (name, *map(_short, (one.velocity_mm_per_s, one.displacement_um, one.acceleration_m_per_s2,
-                             one.weighted_m_per_s2, one.total_m_per_s2)))
-        for name, one in rows
+        (name, *map(_short, (reading.velocity_mm_per_s, reading.displacement_um, reading.acceleration_m_per_s2,
+                             reading.weighted_m_per_s2, reading.total_m_per_s2)))
+        for name, reading in rows
     )  # fmt: skip
     return Grid(header, cells, frozenset(range(1, 6)))
 
@@ -22,24 +22,24 @@ def _short(value: float | None) -> str:
     return "–" if value is None else number(value, 3)
 
 
-def measured_after_line(one: MeasuredAfter) -> str:
+def measured_after_line(comparison: MeasuredAfter) -> str:
     """Measured, predicted, the difference in words."""
-    measured = f"Measured with the autobalancer, idle, {one.place}: {one.measured}"
-    if one.unit != "dB":
-        measured += f", that is {one.measured_level_db:.1f} dB"
-    loaded = "" if one.predicted_loaded_db is None else f"; {one.predicted_loaded_db:.1f} dB under load"
-    if one.predicted_level_db is None or one.difference_db is None:
+    measured = f"Measured with the autobalancer, idle, {comparison.place}: {comparison.measured}"
+    if comparison.unit != "dB":
+        measured += f", that is {comparison.measured_level_db:.1f} dB"
+    loaded = "" if comparison.predicted_loaded_db is None else f"; {comparison.predicted_loaded_db:.1f} dB under load"
+    if comparison.predicted_level_db is None or comparison.difference_db is None:
         return f"{measured}; no idle level is predicted{loaded}."
-    predicted = f"{one.predicted_level_db:.1f} dB"
-    if one.unit != "dB" and one.predicted_value is not None:
-        predicted += f" ({number(one.predicted_value, 3)} {one.unit} on that instrument)"
-    word = "above" if one.difference_db >= 0 else "below"
-    return f"{measured}: {abs(one.difference_db):.1f} dB {word} what is predicted, {predicted}{loaded}."
+    predicted = f"{comparison.predicted_level_db:.1f} dB"
+    if comparison.unit != "dB" and comparison.predicted_value is not None:
+        predicted += f" ({number(comparison.predicted_value, 3)} {comparison.unit} on that instrument)"
+    word = "above" if comparison.difference_db >= 0 else "below"
+    return f"{measured}: {abs(comparison.difference_db):.1f} dB {word} what is predicted, {predicted}{loaded}."
 
 
-def measured_after_blocks(one: MeasuredAfter | None) -> list[Block]:
+def measured_after_blocks(comparison: MeasuredAfter | None) -> list[Block]:
     """A line, where something was measured."""
-    return [] if one is None else [Paragraph(measured_after_line(one))]
+    return [] if comparison is None else [Paragraph(measured_after_line(comparison))]
 
 
 def shown_blocks(rows: Sequence[tuple[str, Readings]]) -> list[Block]:

@@ -48,7 +48,7 @@ FINAL = (
 
 
 MOST_BALLS: Final = 12
-"""Whose places a screen shows."""
+"""Largest number of balls whose places a screen shows."""
 MORE: Final = ("--trajectory FILE.csv, the motion",)
 
 
@@ -93,7 +93,7 @@ def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
 def _numbers(result: SimulateResult) -> Grid:
     """Amplitude, levels, settling, error, each with its limit."""
     limits = {check.code: limit_in_file(check) for check in result.checks}
-    bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {one.name}" for one in result.handles or ()]
+    bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {hand.name}" for hand in result.handles or ()]
     before = value_of(result, "unbalanced_amplitude_mm")
     rows = (
         ("axis amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
@@ -134,24 +134,27 @@ def _sentence(result: SimulateResult) -> str:
 
 
 def _pressed(result: SimulateResult) -> bool:
-    """Whether a wheel is pressed to its work: the amplitude without balls is of the imbalance alone, off the work."""
+    """True if a wheel is pressed to its workpiece.
+
+    The amplitude without balls is then of the imbalance alone, off the workpiece.
+    """
     return any(each.name == "grinding_contact" and each.included for each in result.effects)
 
 
 def _levels(result: SimulateResult) -> list[tuple[str, str, str]]:
     """Each with its place; on the axis and where the machine is held, unless these are the same."""
     bare = [] if result.level_db is None else [(f"level, {result.level_at}", "L", value_of(result, "level_db"))]
-    places = [(f"level, {one.name}", "L", value_of(one, "level_db")) for one in result.handles or ()]
+    places = [(f"level, {handle.name}", "L", value_of(handle, "level_db")) for handle in result.handles or ()]
     return [*(row for row in bare if row not in places), *places]
 
 
 def _judged(result: SimulateResult) -> bool:
-    """Whether the limits of a file are for this scene."""
+    """True if the limits of a file are for this scene."""
     return any(check.code == "ABU401" for check in result.checks)
 
 
 def _informs(result: SimulateResult) -> bool:
-    """Whether levels are given that no limit is for."""
+    """True if levels are given for which there is no limit."""
     return result.handles is not None and not _judged(result)
 
 
@@ -181,7 +184,7 @@ def _audit(audit: Audit | None) -> list[Block]:
 
 
 def _rung(result: SimulateResult) -> str:
-    """Which rung of the ladder was taken, and why not the one below."""
+    """Model level that was used, and the reason for not using the one below."""
     if result.rung == "envelope":
         return "Averaged slow motion, for its error is small enough."
     return f"Equations of motion; the averaged ones will not do: {result.envelope.why}."

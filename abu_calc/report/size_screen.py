@@ -18,7 +18,7 @@ ON_ARM = "`abu stability --scene swing-arm-cutting`, the arm's motion and tongue
 MORE = ("--explain, every formula with its numbers",)
 
 MOST_ROWS = 9
-"""Of the section on one screen."""
+"""Most rows of the section on one screen."""
 
 
 class Spread(NamedTuple):
@@ -53,17 +53,17 @@ def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
 
 def about(result: SizeResult) -> list[Block]:
     """Title, verdict, the design in a line."""
-    one = result.autobalancer
-    housing = f"{one.housing.split(':')[0]} housing Ø{number(one.outer_diameter_mm, 3)} × {number(one.width_mm, 3)} mm"
+    abu = result.autobalancer
+    housing = f"{abu.housing.split(':')[0]} housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm"
     best = "" if result.status == "pass" else "Best that was found: "
-    line = f"{best}{balls(one)} {one.ball_material} {one.corrector}s, race R {one.race_radius_mm:g} mm, {housing}."
+    line = f"{best}{balls(abu)} {abu.ball_material} {abu.corrector}s, race R {abu.race_radius_mm:g} mm, {housing}."
     arm = arm_line(result.swing_arm.advice) if result.swing_arm else []
     return [Heading(result.title), verdict_line(result), *arm, Paragraph(line)]
 
 
-def balls(one: Autobalancer) -> str:
+def balls(autobalancer: Autobalancer) -> str:
     """Count and size, inch sizes to the micrometre."""
-    return f"{one.ball_count} × Ø{round(one.ball_diameter_mm, 3):g} mm"
+    return f"{autobalancer.ball_count} × Ø{round(autobalancer.ball_diameter_mm, 3):g} mm"
 
 
 def numbers_that_matter(result: SizeResult) -> list[Block]:
@@ -71,11 +71,11 @@ def numbers_that_matter(result: SizeResult) -> list[Block]:
     many, measured = result.ensemble, measured_after_blocks(result.measured_after)
     if many is None:
         return [BLANK, _table(result, Spread(result.vibration.level_after_db), Spread(None)), *measured]
-    over_range = (one.level_after_db for one in result.vibration.by_speed or ())
-    told = many.level_db.worst, result.vibration.level_after_db, *over_range
-    level = Spread(many.level_db.typical, max((one for one in told if one is not None), default=None))
-    found = many.settling_time_s
-    settling = Spread(found.typical, math.inf if found.worst is None else found.worst)
+    over_range = (speed_level.level_after_db for speed_level in result.vibration.by_speed or ())
+    levels = many.level_db.worst, result.vibration.level_after_db, *over_range
+    level = Spread(many.level_db.typical, max((value for value in levels if value is not None), default=None))
+    settling_time = many.settling_time_s
+    settling = Spread(settling_time.typical, math.inf if settling_time.worst is None else settling_time.worst)
     return [BLANK, _table(result, level, settling), Paragraph(_starts(result, many)), *measured]
 
 
@@ -85,7 +85,7 @@ def _idle(result: SizeResult) -> str:
 
 
 def _starts(result: SizeResult, many: EnsembleResult) -> str:
-    """How many starts there were, and which was worst."""
+    """Number of start cases, and the worst of them."""
     text = f"Of {many.members} starts, with the drag given, a third and three times of it, {many.balanced} balance"
     worst = many.worst_member
     if worst is None:
@@ -96,7 +96,7 @@ def _starts(result: SizeResult, many: EnsembleResult) -> str:
 
 def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
     """The worst stand beside the typical ones where many runs were made."""
-    one, limits = result.autobalancer, {check.code: check for check in result.checks}
+    autobalancer, limits = result.autobalancer, {check.code: check for check in result.checks}
     rows = (
         (f"idle level, {_place(result.vibration)}", _db(result.vibration.level_before_db),
          _db(level.typical) or "not known", _db(level.worst), limit_in_file(limits.get("ABU401"))),
@@ -104,8 +104,8 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
         *_under_load(result.vibration_loaded),
         ("settling time", "", _seconds(settling.typical) or "none", _seconds(settling.worst),
          limit_in_file(limits.get("ABU702"))),
-        ("mass with balls", "", f"{number(one.mass_g, 3)} g", "",
-         f"{number(100 * one.mass_fraction, 2)} %, {limit_in_file(limits.get('ABU203'))}".removesuffix(", ")),
+        ("mass with balls", "", f"{number(autobalancer.mass_g, 3)} g", "",
+         f"{number(100 * autobalancer.mass_fraction, 2)} %, {limit_in_file(limits.get('ABU203'))}".removesuffix(", ")),
     )  # fmt: skip
     header = ("", "without", "with", "worst", "limit")
     if level.worst is None and settling.worst is None:
@@ -114,7 +114,9 @@ def _table(result: SizeResult, level: Spread, settling: Spread) -> Grid:
 
 
 def _at_idle_speed(result: SizeResult) -> tuple[tuple[str, ...], ...]:
-    """Where a motor idles at another speed than the rated one; the limit and the worst stand a line above."""
+    """Levels at the idle speed of a motor, if that is not the rated speed; the limit and the worst stand a line
+    above.
+    """
     idle = result.vibration.at_idle_speed
     if idle is None:
         return ()
@@ -133,14 +135,14 @@ def _under_load(loaded: Vibration | None) -> tuple[tuple[str, ...], ...]:
         worst, of = hasty, "worst: at once"
     if worst is not None and starts is not None and starts.worst_db is not None and starts.worst_db > worst + TENTH:
         worst, of = starts.worst_db, f"worst of {starts.count} starts"
-    told = (_db(loaded.level_before_db) or "not known", _db(after) or "not known", _db(worst))
-    return (("level under load", *told, of),)
+    levels = (_db(loaded.level_before_db) or "not known", _db(after) or "not known", _db(worst))
+    return (("level under load", *levels, of),)
 
 
 def _place(vibration: Vibration) -> str:
-    """Where the level is: of several places the loudest."""
+    """Place of the level; of several places the loudest."""
     after = vibration.level_after_db
-    known = [one.name for one in vibration.handles if (one.level_before_db if after is None else one.level_after_db)
+    known = [hand.name for hand in vibration.handles if (hand.level_before_db if after is None else hand.level_after_db)
              == (vibration.level_before_db if after is None else after)]  # fmt: skip
     return known[0] if known else "loudest place"
 

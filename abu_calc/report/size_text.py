@@ -34,7 +34,7 @@ WAYS = (
     "`abu simulate --start … --race-centre 0` repeats one."
 )
 ROWS = 15
-"""Of the section's picture."""
+"""Rows of the section's picture."""
 
 
 def size_blocks(result: SizeResult) -> tuple[Block, ...]:
@@ -65,28 +65,28 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
     )
 
 
-def _design(one: Autobalancer) -> list[Block]:
+def _design(design: Autobalancer) -> list[Block]:
     names = (
         *("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm"),
         *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),
         *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s", "slowest_decay_per_s"),
     )
-    rows = ((f"{one.ball_material} {one.corrector}s", "n × 2r", balls(one)), *facts(one, *names).rows)
-    return [Heading("Design"), Facts(rows), Paragraph(f"Housing {one.housing}.")]
+    rows = ((f"{design.ball_material} {design.corrector}s", "n × 2r", balls(design)), *facts(design, *names).rows)
+    return [Heading("Design"), Facts(rows), Paragraph(f"Housing {design.housing}.")]
 
 
 def _section(result: SizeResult) -> list[Block]:
     """The picture, and what the drawing shows."""
-    one = result.section
+    section = result.section
     names = (
         *("bore_diameter_mm", "bore_class", "bore_limits_um", "hub_diameter_mm", "race_diameter_mm"),
         *("race_tolerance_mm", "ring_diameter_mm", "wall_mm", "web_mm", "inner_width_mm"),
     )
-    rows = tuple((part.name, part.material, value_of(part, "mass_g")) for part in one.parts)
+    rows = tuple((part.name, part.material, value_of(part, "mass_g")) for part in section.parts)
     return [
         Heading("Section"),
         *section_picture(result, ROWS),
-        facts(one, *names),
+        facts(section, *names),
         Grid(("part", "material", "mass"), rows, frozenset({2})),
         Paragraph("To scale with dimensions: --output section.dxf or section.svg."),
     ]
@@ -102,7 +102,7 @@ def _ensemble(result: SizeResult) -> list[Block]:
         ("level", many.level_db, "dB"),
         ("residual", many.residual_um, "µm"),
     )
-    rows = tuple((name, _or_never(one.typical), _or_never(one.worst), unit) for name, one, unit in spreads)
+    rows = tuple((name, _or_never(spread.typical), _or_never(spread.worst), unit) for name, spread, unit in spreads)
     return [
         Heading("Many starts"),
         facts(many, "members", "balanced", "hanging"),
@@ -113,13 +113,13 @@ def _ensemble(result: SizeResult) -> list[Block]:
     ]
 
 
-def _ways(found: Sequence[SettlingOfStart]) -> Grid:
+def _ways(settling_times: Sequence[SettlingOfStart]) -> Grid:
     """A row for each kind of start, a column for each drag, ascending."""
-    drags = sorted({one.drag_per_s for one in found})
-    times = {(one.start, one.drag_per_s): one.settling_time_s for one in found}
+    drags = sorted({entry.drag_per_s for entry in settling_times})
+    times = {(entry.start, entry.drag_per_s): entry.settling_time_s for entry in settling_times}
     rows = tuple(
         (start, *(_or_never(times[start, drag]) if (start, drag) in times else "" for drag in drags))
-        for start in dict.fromkeys(one.start for one in found)
+        for start in dict.fromkeys(entry.start for entry in settling_times)
     )
     return Grid(("", *(f"{number(drag, 3)} 1/s" for drag in drags)), rows, frozenset(range(1, len(drags) + 1)))
 
@@ -146,13 +146,13 @@ def _need(result: SizeResult) -> list[Block]:
 
 
 def _stability(frequency: Frequency) -> str:
-    """What the eigenvalues say beside the simple rule."""
+    """Stability by the eigenvalues, stated beside the simple rule."""
     stable, limits = frequency.stable, frequency.stability_boundaries_rpm
     if stable is None or limits is None:
         return "Whether the balanced state is stable at idle is not known."
     word = "stable" if stable else "not stable"
-    changes = ", ".join(f"{number(one.speed_rpm, 4)} rpm ({_above(one)} above)" for one in limits)
-    modes = (f"{number(one.frequency_hz, 3)} Hz (ζ {number(one.damping_ratio, 2)})" for one in frequency.modes)
+    changes = ", ".join(f"{number(boundary.speed_rpm, 4)} rpm ({_above(boundary)} above)" for boundary in limits)
+    modes = (f"{number(mode.frequency_hz, 3)} Hz (ζ {number(mode.damping_ratio, 2)})" for mode in frequency.modes)
     return (
         f"Balanced state at idle, by its eigenvalues, in the worst arrangement: {word} at the rated speed. Changes at "
         f"{changes or 'no speed'}. The machine swings at {', '.join(dict.fromkeys(modes)) or 'no frequency'}."
@@ -195,16 +195,16 @@ def _vibration(result: SizeResult) -> list[Block]:
         blocks += [Paragraph(text) for text in _under_load(loaded)]
         blocks += start_blocks(loaded.starts)
     shown = [
-        (f"{place.name}, {state}{when}", one)
+        (f"{place.name}, {state}{when}", readings)
         for state, vibration in states if vibration
         for place in vibration.handles
-        for when, one in ((", before", place.shown_before), (", after", place.shown_after)) if one
+        for when, readings in ((", before", place.shown_before), (", after", place.shown_after)) if readings
     ]  # fmt: skip
     return [*blocks, *shown_blocks(shown), *measured_after_blocks(result.measured_after)]
 
 
 def _under_load(loaded: Vibration) -> Iterator[str]:
-    """What the levels under load are."""
+    """Explanation of the levels under load."""
     yield "Under load is information, not a check: it rests on the contact's stiffness."
     if loaded.level_at_once_db is not None:
         stays = "; then wheel and work go on bouncing, another state that stays" if loaded.at_once_stays else ""
@@ -258,14 +258,14 @@ def _alternatives(others: Sequence[Autobalancer]) -> list[Block]:
     if not others:
         return []
     names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um", "slowest_decay_per_s")
-    rows = tuple((balls(one), *(_bare(one, name) for name in names), one.why_not or "") for one in others)
+    rows = tuple((balls(other), *(_bare(other, name) for name in names), other.why_not or "") for other in others)
     header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "decay, 1/s", "why not")
     return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4, 5}))]
 
 
-def _bare(one: Autobalancer, name: str) -> str:
+def _bare(autobalancer: Autobalancer, name: str) -> str:
     """A number whose unit stands in the header."""
-    return "–" if getattr(one, name) is None else value_of(one, name).split(" ")[0]
+    return "–" if getattr(autobalancer, name) is None else value_of(autobalancer, name).split(" ")[0]
 
 
 def _swing_arm(result: SizeResult) -> list[Block]:

@@ -56,34 +56,34 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
     )
 
 
-def hanging_word(found: Hanging) -> str:
-    """Whether balls may hang."""
-    drag = f"the drag, {number(found.drag_per_s, 3)} 1/s, is"
+def hanging_word(stall: Hanging) -> str:
+    """Verdict on stalling: balls may stall, or none does."""
+    drag = f"the drag, {number(stall.drag_per_s, 3)} 1/s, is"
     return (
-        f"Balls may hang: {drag} not above every bound." if found.doubt else f"No balls hang: {drag} above every bound."
+        f"Balls may hang: {drag} not above every bound." if stall.doubt else f"No balls hang: {drag} above every bound."
     )
 
 
-def _hanging(found: Hanging | None) -> list[Block]:
-    """What stands beside the balanced state."""
-    if found is None:
+def _hanging(stall: Hanging | None) -> list[Block]:
+    """States beside the balanced one: bounds on the viscous drag rate above which no ball stalls."""
+    if stall is None:
         return [Paragraph(ONE_STATE)]
     rows = tuple(
-        (one.state, "any" if one.drag_per_s is None else number(one.drag_per_s, 3),
-         "none" if one.margin is None else number(one.margin, 3))
-        for one in found.bounds
+        (bound.state, "any" if bound.drag_per_s is None else number(bound.drag_per_s, 3),
+         "none" if bound.margin is None else number(bound.margin, 3))
+        for bound in stall.bounds
     )  # fmt: skip
-    word = hanging_word(found) + (f" {WHAT_TELLS}" if found.doubt else "")
+    word = hanging_word(stall) + (f" {WHAT_TELLS}" if stall.doubt else "")
     header = ("balls hang", "below, 1/s", "the drag over it")
     table: list[Block] = [Grid(header, rows, frozenset({1, 2}))] if rows else []
     return [Heading("Beside the balanced state"), Paragraph(ONE_STATE), Paragraph(word), *table]
 
 
-def _crossings(found: Sequence[Crossing] | None) -> list[Block]:
+def _crossings(crossings: Sequence[Crossing] | None) -> list[Block]:
     """A row for each."""
-    if found is None:
+    if crossings is None:
         return []
-    rows = tuple((number(one.speed_rpm, 6), f"{one.growing_below}", f"{one.growing_above}") for one in found)
+    rows = tuple((number(row.speed_rpm, 6), f"{row.growing_below}", f"{row.growing_above}") for row in crossings)
     header = ("rpm", "growing below", "growing above")
     title = Heading("Crossings of eigenvalues, of the arrangement judged")
     return [title, Grid(header, rows, frozenset({0, 1, 2})) if rows else Paragraph("None.")]
@@ -101,12 +101,12 @@ def _boundaries(result: StabilityResult) -> list[Block]:
     if result.boundaries_rpm is None:
         return [Paragraph("Not asked for: --speeds LOW:HIGH finds them.")]
     searched = "{:g} to {:g}".format(*result.searched_rpm or ())
-    found = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched} rpm.")
+    block = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched} rpm.")
     solved_for = result.state == "balanced" and result.eigenvalues
-    return [found] if solved_for else [found, Paragraph(ON_A_GRID)]
+    return [block] if solved_for else [block, Paragraph(ON_A_GRID)]
 
 
 def _grid(boundaries: Sequence[StabilityBoundary]) -> Grid:
     """A row for each boundary."""
-    rows = tuple((number(one.speed_rpm, 6), "stable" if one.stable_above else "not stable") for one in boundaries)
+    rows = tuple((number(limit.speed_rpm, 6), "stable" if limit.stable_above else "not stable") for limit in boundaries)
     return Grid(("rpm", "above it"), rows, frozenset({0}))

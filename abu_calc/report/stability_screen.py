@@ -12,7 +12,7 @@ FOR_THE_ARM = (BOUNDS, "Beside the balanced state", "Model")
 
 
 def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
-    """What the whole report says, but for the eigenvalues; their largest real part is the growth rate."""
+    """One screen: the whole report without the eigenvalues; their largest real part is the growth rate."""
     asked = result.boundaries_rpm is not None
     more: tuple[str, ...] = () if asked else ("--speeds LOW:HIGH, where stability changes",)
     blocks = stability_blocks(result)

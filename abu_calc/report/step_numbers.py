@@ -17,23 +17,23 @@ def _n(value: float | None) -> str:
 
 def frequency(result: "SizeResult") -> Lines:
     """The finite-mass gap, where the speed lies, and the drag above which no balls hang."""
-    found, one, model = result.frequency, result.autobalancer, result.model
-    natural = ", ".join(map(_n, found.natural_frequencies_hz))
+    frequency, design, model = result.frequency, result.autobalancer, result.model
+    natural = ", ".join(map(_n, frequency.natural_frequencies_hz))
     return (
-        f"(2m/(J·M))^(1/3) = (2 · {_n(one.ball_mass_g)} g / ({_n(model.inertia_factor)} · "
-        f"{_n(result.effective_mass_kg)} kg))^(1/3) = {_n(found.finite_mass_gap)}",
-        f"Ω/2π = {_n(found.speed_hz)} Hz, ω/2π = {natural} Hz: {found.region}",
-        f"no balls hang above h₀ = {_n(found.hanging_drag_per_s)} 1/s; given {_n(model.drag_per_s)} 1/s",
+        f"(2m/(J·M))^(1/3) = (2 · {_n(design.ball_mass_g)} g / ({_n(model.inertia_factor)} · "
+        f"{_n(result.effective_mass_kg)} kg))^(1/3) = {_n(frequency.finite_mass_gap)}",
+        f"Ω/2π = {_n(frequency.speed_hz)} Hz, ω/2π = {natural} Hz: {frequency.region}",
+        f"no balls hang above h₀ = {_n(frequency.hanging_drag_per_s)} 1/s; given {_n(model.drag_per_s)} 1/s",
     )
 
 
 def imbalance(result: "SizeResult") -> Lines:
-    """How large, and from what."""
+    """Imbalance, and its source."""
     return (f"m₀e = {_n(result.imbalance_g_mm)} g·mm ({result.model.imbalance_source})",)
 
 
 def mass(result: "SizeResult") -> Lines:
-    """Of all, and what of it is felt."""
+    """Mass of the whole system, and the effective mass at the wheel."""
     return (f"M = {_n(result.system_mass_kg)} kg, felt at the wheel: {_n(result.effective_mass_kg)} kg",)
 
 
@@ -51,35 +51,35 @@ def capacity(result: "SizeResult") -> Lines:
 
 def budget(result: "SizeResult") -> Lines:
     """The root of squares, and what is permitted."""
-    found = result.accuracy_budget
-    parts = found.race_eccentricity_um, found.rolling_friction_um, found.race_ovality_um, found.plane_offset_um
+    budget = result.accuracy_budget
+    parts = budget.race_eccentricity_um, budget.rolling_friction_um, budget.race_ovality_um, budget.plane_offset_um
     squares = " + ".join(f"{_n(part)}²" for part in parts)
-    return (f"√({squares}) = {_n(found.residual_um)} µm, permitted {_n(found.permitted_um)} µm",)
+    return (f"√({squares}) = {_n(budget.residual_um)} µm, permitted {_n(budget.permitted_um)} µm",)
 
 
 def balls(result: "SizeResult") -> Lines:
-    """What the chosen balls reach."""
-    one, model, pitch = result.autobalancer, result.model, _n(result.autobalancer.pitch_radius_mm)
+    """Capacity that the chosen balls reach."""
+    design, model, pitch = result.autobalancer, result.model, _n(result.autobalancer.pitch_radius_mm)
     return (
-        f"sin β = r/(R−r) = {_n(model.ball_radius_mm)}/{pitch}; {_n(one.ball_mass_g)} g · {pitch} mm · "
-        f"sin({one.ball_count}β)/sin β = {_n(one.capacity_g_mm)} g·mm = {_n(one.capacity_ratio)} × need",
+        f"sin β = r/(R−r) = {_n(model.ball_radius_mm)}/{pitch}; {_n(design.ball_mass_g)} g · {pitch} mm · "
+        f"sin({design.ball_count}β)/sin β = {_n(design.capacity_g_mm)} g·mm = {_n(design.capacity_ratio)} × need",
         f"{model.candidates} diameters and counts were examined",
     )
 
 
 def track(result: "SizeResult") -> Lines:
     """The groove, and what presses on it."""
-    one, model = result.autobalancer, result.model
+    design, model = result.autobalancer, result.model
     return (
-        f"R_g = r + (5/7)(R−r) = {_n(model.ball_radius_mm)} + (5/7)·{_n(one.pitch_radius_mm)} = "
-        f"{_n(one.groove_radius_mm)} mm",
-        f"F = m·R_p·Ω² = {_n(one.ball_force_N)} N, p₀ = {_n(one.contact_pressure_MPa)} MPa, permitted "
+        f"R_g = r + (5/7)(R−r) = {_n(model.ball_radius_mm)} + (5/7)·{_n(design.pitch_radius_mm)} = "
+        f"{_n(design.groove_radius_mm)} mm",
+        f"F = m·R_p·Ω² = {_n(design.ball_force_N)} N, p₀ = {_n(design.contact_pressure_MPa)} MPa, permitted "
         f"{_n(from_si(model.permitted_pressure_Pa, 'MPa'))} MPa",
     )
 
 
 def vibration(result: "SizeResult") -> Lines:
-    """Before and after."""
+    """Level before and after."""
     return (f"{_n(result.vibration.level_before_db)} dB → {_n(result.vibration.level_after_db)} dB",)
 
 

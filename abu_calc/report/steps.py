@@ -22,7 +22,7 @@ class Step:
 
     @property
     def formulas(self) -> tuple[Formula, ...]:
-        """What they say."""
+        """Formulas of this step."""
         return tuple(map(formula_of, self.keys))
 
 

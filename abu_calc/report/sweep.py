@@ -60,7 +60,7 @@ def sweep_blocks(result: SweepResult) -> tuple[Block, ...]:
 def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
     """Verdict, shares, numbers, chart or what decides."""
     first = result.sensitivity_of
-    some = any(one.share < 1 for one in result.basins)
+    some = any(basin.share < 1 for basin in result.basins)
     body = [*_limits(result), *(_basins(result) if some else ()), *_numbers(result)]
     if result.chart:
         body = [*chart_blocks(result.chart, short=True), *body]
@@ -98,8 +98,8 @@ def percent(share: float) -> str:
 
 def _limits(result: SweepResult) -> list[Block]:
     rows = tuple(
-        (LIMITS[name], percent(one.share), "{} to {}".format(*map(percent, one.confidence_interval)))
-        for name, one in result.meets_limits.each.items()
+        (LIMITS[name], percent(share.share), "{} to {}".format(*map(percent, share.confidence_interval)))
+        for name, share in result.meets_limits.each.items()
     )
     if len(rows) < 2:
         return []
@@ -108,8 +108,8 @@ def _limits(result: SweepResult) -> list[Block]:
 
 def _numbers(result: SweepResult) -> list[Block]:
     rows = tuple(
-        (words_of(name), *(_number(value) for value in (one.p05, one.p50, one.p95, one.mean)), unit_of(name))
-        for name, one in result.quantities.items()
+        (words_of(name), *(_number(value) for value in (stats.p05, stats.p50, stats.p95, stats.mean)), unit_of(name))
+        for name, stats in result.quantities.items()
     )
     return [Heading("Percentiles"), Grid(("", "5 %", "50 %", "95 %", "mean", ""), rows, frozenset({1, 2, 3, 4}))]
 
@@ -129,9 +129,9 @@ def _number(value: float | None) -> str:
 
 def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
     """The values that matter as bars, the others counted."""
-    found = result.sensitivity_by_quantity[name]
-    matter = [one for one in found if one.total >= MATTER][:most]
-    left, rest = len(found) - len(matter), result.unexplained.get(name, 0.0)
+    sensitivities = result.sensitivity_by_quantity[name]
+    matter = [sensitivity for sensitivity in sensitivities if sensitivity.total >= MATTER][:most]
+    left, rest = len(sensitivities) - len(matter), result.unexplained.get(name, 0.0)
     tail = [f"{many(left, 'other value')} decide less"] if left else []
     tail += [f"{percent(rest)} of the variance is explained by no value or pair of them"] if rest >= MATTER else []
     head = Heading(title_deciding(name))
@@ -149,60 +149,63 @@ def title_deciding(name: str) -> str:
     return f"{words_of(name).capitalize()}: what decides"
 
 
-def _row(one: Sensitivity) -> tuple[str, ...]:
-    return one.key, bar(one.total), f"{one.first_order:.2f}", f"{one.total:.2f}"
+def _row(sensitivity: Sensitivity) -> tuple[str, ...]:
+    return sensitivity.key, bar(sensitivity.total), f"{sensitivity.first_order:.2f}", f"{sensitivity.total:.2f}"
 
 
 def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
-    """What to tighten by the members that lie there, what may be loosened by those that were computed once more."""
-    tight = [one for one in result.prices if one.advice == "tighten" or not short]
-    loose = [one for one in result.prices if one.loosened_of and (one.advice == LOOSE or not short)]
+    """Tables of the values to tighten and of those that may be loosened.
+
+    The first rests on the samples that lie there, the second on samples that were computed once more.
+    """
+    tight = [price for price in result.prices if price.advice == "tighten" or not short]
+    loose = [price for price in result.prices if price.loosened_of and (price.advice == LOOSE or not short)]
     blocks: list[Block] = []
     if tight:
-        rows = tuple(map(_tight, sorted(tight, key=lambda one: (one.advice != "tighten", -one.gain_db))))
+        rows = tuple(map(_tight, sorted(tight, key=lambda price: (price.advice != "tighten", -price.gain_db))))
         header = ("value", "kept", "level", "else", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
         blocks += [Heading(TIGHTENED), *(() if short else (Paragraph(TIGHTEN),)), grid]
     if loose:
-        rows = tuple(map(_loose, sorted(loose, key=lambda one: (one.advice != LOOSE, one.loosened_db or 0.0))))
+        rows = tuple(map(_loose, sorted(loose, key=lambda price: (price.advice != LOOSE, price.loosened_db or 0.0))))
         header = ("value", "tried with", "level", "more fail", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
         blocks += [Heading(LOOSENED), *(() if short else (_tried(loose[0]),)), grid]
     return blocks
 
 
-def _tight(one: Price) -> tuple[str, ...]:
-    """What the level gains within the better half of a value, and what it loses in the other."""
-    other = "" if one.cost_db is None else change(one.cost_db)
-    word = "tighten" if one.advice == "tighten" else "chance" if one.within_chance else ""
-    return one.key, side_kept(one), change(-one.gain_db), other, word
+def _tight(price: Price) -> tuple[str, ...]:
+    """Table row: level gained within the better half of a value, and level lost in the other half."""
+    other = "" if price.cost_db is None else change(price.cost_db)
+    word = "tighten" if price.advice == "tighten" else "chance" if price.within_chance else ""
+    return price.key, side_kept(price), change(-price.gain_db), other, word
 
 
-def side_kept(one: Price) -> str:
-    """Where a value is to be kept."""
-    return f"{'to' if one.better == 'lower' else 'from'} {number(one.median)} {unit_of(one.key)}".rstrip()
+def side_kept(price: Price) -> str:
+    """Range in which a value is to be kept."""
+    return f"{'to' if price.better == 'lower' else 'from'} {number(price.median)} {unit_of(price.key)}".rstrip()
 
 
-def _tried(one: Price) -> Paragraph:
-    return Paragraph(LOOSEN.format(one.loosened_of))
+def _tried(price: Price) -> Paragraph:
+    return Paragraph(LOOSEN.format(price.loosened_of))
 
 
-def _loose(one: Price) -> tuple[str, ...]:
-    """What twice the scatter did."""
-    word = "loosen" if one.advice == LOOSE else "leave"
-    return one.key, one.loosened_to or "", change(one.loosened_db), str(one.loosened_fail), word
+def _loose(price: Price) -> tuple[str, ...]:
+    """Table row: effect of twice the scatter."""
+    word = "loosen" if price.advice == LOOSE else "leave"
+    return price.key, price.loosened_to or "", change(price.loosened_db), str(price.loosened_fail), word
 
 
 def change(level: float | None) -> str:
-    """By how much a level changes."""
+    """Change of a level, as text."""
     return "none" if level is None else f"{round(level, 1) + 0.0:+.1f} dB"
 
 
 def _basins(result: SweepResult) -> list[Block]:
     """The share of starts that balance, by the kind of start."""
     rows = tuple(
-        (one.start, percent(one.share), "{} to {}".format(*map(percent, one.confidence_interval)), str(one.of))
-        for one in result.basins
+        (basin.start, percent(basin.share), "{} to {}".format(*map(percent, basin.confidence_interval)), str(basin.of))
+        for basin in result.basins
     )
     if len(rows) < 2:
         return []
@@ -211,12 +214,12 @@ def _basins(result: SweepResult) -> list[Block]:
 
 
 def _failed(result: SweepResult) -> list[Block]:
-    rows = tuple((str(one.members), str(one.first), one.reason) for one in result.failed.reasons)
+    rows = tuple((str(failure.members), str(failure.first), failure.reason) for failure in result.failed.reasons)
     if not rows:
         return []
     return [Heading("Members without numbers"), Grid(("members", "first", "reason"), rows, frozenset({0, 1}))]
 
 
 def _varied(result: SweepResult) -> list[Block]:
-    rows: Sequence[tuple[str, str]] = [(one.key, one.how) for one in result.varied]
+    rows: Sequence[tuple[str, str]] = [(factor.key, factor.how) for factor in result.varied]
     return [Heading("What varies"), Grid(("value", "how"), tuple(rows))]

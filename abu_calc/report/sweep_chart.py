@@ -46,16 +46,16 @@ def kind_of(share: float | None) -> int | None:
 
 
 def title_of(chart: Chart) -> str:
-    """Which value over which."""
+    """Title of a chart: one key over the other."""
     return f"{chart.y_key} over {chart.x_key}"
 
 
 def chart_blocks(chart: Chart, *, short: bool = False) -> list[Block]:
     """Each field of the chart; `short`: one of them, where not all cells are alike if there is such a one."""
-    found = fields(chart)
+    panels = fields(chart)
     if short:
-        found = [next((one for one in found if len(_kinds(one[1])) > 1), found[0])]
-    return [Heading(title_of(chart)), *(_picture(chart, *one) for one in found)]
+        panels = [next((panel for panel in panels if len(_kinds(panel[1])) > 1), panels[0])]
+    return [Heading(title_of(chart)), *(_picture(chart, *panel) for panel in panels)]
 
 
 def _kinds(shares: Shares) -> set[int | None]:
@@ -63,9 +63,12 @@ def _kinds(shares: Shares) -> set[int | None]:
 
 
 def fields(chart: Chart) -> list[tuple[str, Shares]]:
-    """What is shared, in words, and the shares: that balance, and that meet all limits where that asks for more."""
-    found: list[tuple[str, Shares]] = [(WORDS[chart.of], chart.shares)]
-    return found if chart.meets is None else [*found, (WORDS["meets_limits"], chart.meets)]
+    """Fields of a chart: a description and the shares.
+
+    The shares are those that balance, and those that meet all limits if that asks for more.
+    """
+    panels: list[tuple[str, Shares]] = [(WORDS[chart.of], chart.shares)]
+    return panels if chart.meets is None else [*panels, (WORDS["meets_limits"], chart.meets)]
 
 
 def _picture(chart: Chart, what: str, shares: Shares) -> Picture:

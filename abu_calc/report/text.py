@@ -29,7 +29,7 @@ WIDEST = 100
 MARGIN = 2
 """Blanks before each column of a table, and before running text."""
 HEADING_HANG = 6
-"""Before further lines of a heading, so that no word of a long name stands where verdicts do."""
+"""Blanks before further lines of a heading, so that no word of a long name stands where verdicts do."""
 FACT_WIDTHS = (35, 17)
 """Label and symbol: the same in every block, so that values stand in one column; they take the rest of the line."""
 
@@ -38,7 +38,7 @@ BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:g·mm|1/s|mm|Hz|rpm|dB|µm|MPa|kg|[sNgW
 TIE = "\u00a0"
 
 NARROW = 72
-"""On lines shorter than this the symbols are left out."""
+"""Line width below which the symbols are left out."""
 
 
 def show(blocks: Iterable[Block], *, color: bool = True) -> None:
@@ -93,7 +93,7 @@ def _parts(blocks: Iterable[Block], width: int) -> Iterator[tuple[str, str] | Ta
 
 
 def height(blocks: Sequence[Block], width: int = 80) -> int:
-    """How many lines blocks take."""
+    """Number of lines that blocks take."""
     return len(as_text(blocks, width).splitlines()) if blocks else 0
 
 

@@ -20,7 +20,7 @@ class TrajectoryCsv:
     motion: Motion
 
     def __len__(self) -> int:
-        """How many pieces there are."""
+        """Number of pieces."""
         return 1 + -(-len(self.motion.t_s) // BLOCK)
 
     def __iter__(self) -> Iterator[str]:

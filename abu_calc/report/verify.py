@@ -20,7 +20,7 @@ def verify_blocks(result: VerifyResult) -> tuple[Block, ...]:
 
 
 def verify_screen(result: VerifyResult) -> tuple[Block, ...]:
-    """What differs, as far as there is room; the files that are as expected in a line."""
+    """One screen: differences as far as there is room; files that are as expected take one line."""
     differ = [file.file for file in result.files if file.failed]
     same = [file.file for file in result.files if not file.failed]
     title = f"{len(same)} of {many(len(result.files), 'file')} as expected"
@@ -44,9 +44,9 @@ def _blocks(result: VerifyResult, shown: set[str]) -> list[Block]:
     return blocks
 
 
-def _row(one: ComparedValue) -> tuple[str, ...]:
-    deviation = "" if one.deviation is None else f"{one.deviation:.2e}"
-    return one.path, _value(one.expected), _value(one.found), deviation, f"{one.tolerance:.0e}"
+def _row(entry: ComparedValue) -> tuple[str, ...]:
+    deviation = "" if entry.deviation is None else f"{entry.deviation:.2e}"
+    return entry.path, _value(entry.expected), _value(entry.found), deviation, f"{entry.tolerance:.0e}"
 
 
 def _value(value: Any) -> str:

@@ -85,7 +85,7 @@ def _beside(path: Path, pieces: Iterable[str | bytes]) -> Path:
     handle, name = tempfile.mkstemp(prefix=".abu-", suffix=final.suffix, dir=final.parent)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.writelines(one.encode("utf-8", "replace") if isinstance(one, str) else one for one in pieces)
+            file.writelines(piece.encode("utf-8", "replace") if isinstance(piece, str) else piece for piece in pieces)
         Path(name).chmod(stat.S_IMODE(final.stat().st_mode) if final.exists() else 0o666 & ~_umask())
     except BaseException:
         Path(name).unlink(missing_ok=True)
@@ -94,7 +94,7 @@ def _beside(path: Path, pieces: Iterable[str | bytes]) -> Path:
 
 
 def _final(path: Path) -> Path:
-    """Where a path leads, through symbolic links."""
+    """Target of a path, through symbolic links."""
     return Path(os.path.realpath(path)) if path.is_symlink() else path.absolute()
 
 

@@ -1,1 +1,1 @@
-"""What makes a scene: a design, a scene file, and the tables both are written in."""
+"""Sources of a scene: a design, a scene file, and the tables in which both are written."""

@@ -1,4 +1,7 @@
-"""How long a scene lasts: of a machine until what dies out last is gone, of any within bounds of work."""
+"""Duration of a scene, within bounds of work.
+
+A machine's scene lasts until its slowest transient has died out.
+"""
 
 import math
 from collections.abc import Callable
@@ -19,7 +22,7 @@ DECAY_TIMES = 7.0
 LONGEST_REVOLUTIONS = 400.0
 LEAST_REVOLUTIONS = 40.0
 MOST_CYCLES = 4000.0
-"""Of the speed or of the support, whichever is faster: a few seconds of work."""
+"""Most cycles of the speed or of the support, whichever is faster: a few seconds of work."""
 MOST_VALUES = 4e6
 """Revolutions times states: what fits into memory, and some minutes of work."""
 
@@ -43,11 +46,13 @@ def slowest_rate(design: Design, rate_at: Callable[[float], float]) -> float:
 
     On a horizontal spindle dry friction brakes balls that gravity shakes, as more drag would: then they creep.
     """
-    case, one = design.case, design.autobalancer
+    case, autobalancer = design.case, design.autobalancer
     rate = rate_at(case.drag)
     if case.table.machine.spindle_axis != "horizontal":
         return rate
-    added = shaken_drag(case.friction_arm, one.ball_diameter / 2, one.pitch_radius, case.speed, case.inertia_factor)
+    added = shaken_drag(
+        case.friction_arm, autobalancer.ball_diameter / 2, autobalancer.pitch_radius, case.speed, case.inertia_factor
+    )
     return min(rate, rate_at(case.drag + added)) if added else rate
 
 

@@ -1,6 +1,6 @@
-"""From a design to its scenes.
+"""Scenes of a design.
 
-What few files ask for (swing arm, motor, balls across their race) is imported when they do.
+Parts that few files ask for (swing arm, motor, balls across their race) are imported on demand.
 """
 
 import math
@@ -58,16 +58,19 @@ SCENES: Final[dict[str, str | None]] = {
 """The scenes of a machine, and the table of its file that each needs."""
 
 RESTITUTION = 0.5
-"""Of steel balls with oil between them; assumed."""
+"""Coefficient of restitution of steel balls with oil between them; assumed."""
 
 WORST = math.pi
-"""Where the race's centre stands, from the imbalance: there it asks for M Δ more of the balls, as sizing takes it."""
+"""Angle of the race's centre from the imbalance [rad] at which it asks for M Δ more of the balls.
+
+Sizing takes the same angle.
+"""
 
 LAGS = 3.0
 """Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
 
 TIME_CONSTANTS = 5.0
-"""After so many time constants the speed of a motor is within 1 % of its idle speed."""
+"""Time constants after which the speed of a motor is within 1 % of its idle speed."""
 
 
 def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched", race_centre: float = WORST) -> Scene:
@@ -168,9 +171,9 @@ def _refuse_what_is_missing(design: Design, which: str) -> None:
 
 def _held(design: Design) -> Support:
     """The machine on its springs or in hands, as a point mass: that which is felt in the race plane, without balls."""
-    case, one = design.case, design.autobalancer
-    balls = one.ball_count * one.ball_mass
-    felt = case.body.effective_mass(one.mass, case.race_place)
+    case, autobalancer = design.case, design.autobalancer
+    balls = autobalancer.ball_count * autobalancer.ball_mass
+    felt = case.body.effective_mass(autobalancer.mass, case.race_place)
     Range("mass felt in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
           remedy="Fewer or smaller balls.").check(felt)  # fmt: skip
     return _support(case, felt - balls)
@@ -194,23 +197,23 @@ def _pulled(design: Design, which: str) -> tuple[float, float]:
 
 def _race(design: Design, start: Start, *, turning: bool) -> Race:
     """The race with its balls; a rotor that does not turn yet has them at rest, however they start."""
-    case, one = design.case, design.autobalancer
+    case, autobalancer = design.case, design.autobalancer
     back = -case.speed if start == "standstill" and turning else 0.0
     return Race(
-        pitch_radius=one.pitch_radius,
-        ball_masses=(one.ball_mass,) * one.ball_count,
+        pitch_radius=autobalancer.pitch_radius,
+        ball_masses=(autobalancer.ball_mass,) * autobalancer.ball_count,
         drag=case.drag,
         inertia_factor=case.inertia_factor,
         start_angles=_start_angles(design, start),
-        start_speeds=(back,) * one.ball_count,
-        ball_radius=one.ball_diameter / 2,
+        start_speeds=(back,) * autobalancer.ball_count,
+        ball_radius=autobalancer.ball_diameter / 2,
     )
 
 
 def contact_half_angle(design: Design) -> float:
     """Half the angle between touching balls [rad]."""
-    one = design.autobalancer
-    return half_angle(one.ball_diameter / 2, one.pitch_radius)
+    autobalancer = design.autobalancer
+    return half_angle(autobalancer.ball_diameter / 2, autobalancer.pitch_radius)
 
 
 def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
@@ -227,7 +230,7 @@ def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
 
 
 def _angles_of_file(design: Design) -> tuple[float, ...]:
-    """Of as many balls as there are [rad]. Raises InputError."""
+    """Angles of the file, as many as there are balls [rad]. Raises InputError."""
     table, count = design.case.table.start, design.autobalancer.ball_count
     if table is None:
         raise InputError(
@@ -243,7 +246,7 @@ def _angles_of_file(design: Design) -> tuple[float, ...]:
 
 
 def _effects(design: Design, which: str, race_centre: float) -> Iterator[Effect]:
-    """All that the file has data for, in the order of the registry."""
+    """All effects that the file has data for, in the order of the registry."""
     case, table, radius = design.case, design.case.table, design.autobalancer.ball_diameter / 2
     if which == "run-up" and table.run_up:
         yield guided(design, table.run_up.time_s) if table.motor is None else RunUp(running_up(design))
@@ -291,7 +294,10 @@ def _contact(design: Design) -> GrindingContact | None:
 
 
 def guided(design: Design, up: float) -> RunUp:
-    """From rest to full speed in a time [s], 0: at full speed from the start; then the pause that the file asks for."""
+    """Course of the speed from rest to full speed in a time [s]; 0: at full speed from the start.
+
+    The temporary speed reduction that the file asks for follows.
+    """
     given, speed = design.case.table.run_up, design.case.speed
     if given is None or given.pause_speed_rpm is None:
         return RunUp(up)

@@ -1,4 +1,4 @@
-"""From a scene file to the scene that is simulated."""
+"""Scene that is simulated, from a scene file."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -60,7 +60,7 @@ Held = tuple[Support, tuple[float, ...], tuple[float, ...]]
 
 
 def _planar(table: SceneTable) -> Held:
-    """On springs, with a further body where the file has one."""
+    """Support on springs, with a further body if the file has one."""
     mass = table.mass_kg or 0.0  # which no support takes
     stiffness, damping = _pair(table.stiffness_N_per_m), _pair(table.damping_N_s_per_m)
     body = table.body
@@ -71,7 +71,7 @@ def _planar(table: SceneTable) -> Held:
 
 
 def _tilting(table: SceneTable) -> Held:
-    """On bearings."""
+    """Support on bearings."""
     rotor = _given(table.tilting)
     support = tilting(
         table.mass_kg or 0.0,
@@ -86,7 +86,7 @@ def _tilting(table: SceneTable) -> Held:
 
 
 def _arm(table: SceneTable) -> Held:
-    """On a swing arm, at rest where it stands."""
+    """Support on a swing arm, at rest where it stands."""
     arm = _given(table.swing_arm)
     joint = (
         to_si(arm.arm_length_mm, "mm"),
@@ -113,7 +113,7 @@ SUPPORTS: Final[Mapping[str, Callable[[SceneTable], Held]]] = {
     "tilting": _tilting,
     "swing-arm": _arm,
 }
-"""How the tables of each kind of support become one in SI: by the key `support` of a scene."""
+"""Conversion of each kind of support from its tables to SI: by the key `support` of a scene."""
 
 
 def _lift_off(table: SceneTable, support: Support) -> tuple[LiftOff, ...]:
@@ -131,7 +131,10 @@ def _given(table: Table | None) -> Table:
 
 
 def _started(table: SceneTable, support: Support) -> Held:
-    """With its axis, the first two coordinates, where the file says, and all else at rest at its place."""
+    """Support with its start: its axis, the first two coordinates, as the file says.
+
+    All else is at rest at its place.
+    """
     start, rest = table.initial, (0.0,) * (len(support.names) - 2)
     place = to_si(start.x_mm, "mm"), to_si(start.y_mm, "mm")
     velocity = to_si(start.vx_mm_per_s, "mm_per_s"), to_si(start.vy_mm_per_s, "mm_per_s")
@@ -139,7 +142,10 @@ def _started(table: SceneTable, support: Support) -> Held:
 
 
 def _standing(table: SceneSwingArm, arm: SwingArm) -> Held:
-    """At rest where it stands, refused where it does not, or where the disk does not touch the work."""
+    """Swing arm at rest where it stands.
+
+    Raises InputError if it does not stand, or if the disk does not touch the workpiece.
+    """
     try:
         (angle,) = arm.resting_position()
     except InputError as error:
@@ -157,7 +163,7 @@ def _standing(table: SceneSwingArm, arm: SwingArm) -> Held:
 
 
 def _pair(values: tuple[float, ...] | None) -> Pair:
-    """What a file gives along x and y; zero where it gives nothing."""
+    """Values that a file gives along x and y; zero if it gives none."""
     x, y = values or (0.0, 0.0)
     return x, y
 

@@ -1,4 +1,4 @@
-"""From the tables of a scene file to its effects."""
+"""Effects of a scene file, from its tables."""
 
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Final
@@ -88,4 +88,4 @@ NUMBERS: Final[Mapping[str, Callable[[Any], Numbers]]] = {
     "motor": motor_numbers,
     "transverse_motion": _transverse_motion,
 }
-"""How each effect's table becomes its numbers in SI."""
+"""Conversion of each effect's table to its numbers in SI."""

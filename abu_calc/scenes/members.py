@@ -17,15 +17,18 @@ from abu_calc.units import from_si
 STARTS: tuple[Start, ...] = ("bunched", "behind", "spread", "standstill")
 
 DRAGS = (1.0, 1 / 3, 3.0)
-"""Of the drag given: as oil is meant, hot, and cold."""
+"""Factors on the given viscous drag rate: oil as intended, hot, and cold."""
 
 RUN_UP, SLOW = 1.0, 4.0
 """Run-up [s] of a file that names none, and one slow enough to catch balls at a resonance."""
 
 OPPOSITE, ALIKE = math.pi, math.tau
-"""Where the centre of the race stands, from the imbalance: opposite it asks for the most capacity, on the same side
-balls settle latest and friction leaves the loudest arrangements. A whole turn, since equations without an angle would
-be made and compiled once more."""
+"""Angles of the race's centre from the imbalance [rad].
+
+Opposite it the race asks for the most capacity. On the same side balls settle latest, and friction leaves
+the loudest arrangements. `ALIKE` is a whole turn, since equations without an angle would be made and
+compiled once more.
+"""
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,7 @@ class Member:
     speed: float | None = None
     by_motor: bool = False
     angles: tuple[float, ...] = ()
-    """Of the balls from the imbalance [rad], where they are `placed`."""
+    """Angles of the balls from the imbalance [rad], if they are `placed`."""
 
     @property
     def race_centre_deg(self) -> float:
@@ -52,23 +55,24 @@ class Member:
 
     @property
     def way(self) -> str:
-        """In words, without a speed."""
+        """Start case in words, without a speed."""
         if self.by_motor:
             return "run-up by the motor"
         return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
 
     @property
     def name(self) -> str:
-        """In words."""
+        """Start case in words."""
         return self.way if self.speed is None else f"{self.way} ({from_si(self.speed, 'rpm'):.6g} rpm)"
 
 
 def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = DRAGS) -> Iterator[Member]:
-    """All that are simulated, at these shares of the drag given; at that itself with the race off to either side.
+    """All start cases that are simulated, at these shares of the given viscous drag rate.
 
-    Below the drag `doubtful` [1/s] balls might hang, so that a slow run-up is tried, too. A speed range has its ends
-    tried after the rated speed: at the lowest balls hang first and settle latest, at the highest they are loudest. A
-    motor runs up to its idle speed alone.
+    At the given rate itself the race is off to either side. Below the rate `doubtful` [1/s] balls might stall,
+    so that a slow run-up is tried, too. The ends of a speed range are tried after the rated speed: at the
+    lowest balls stall first and settle latest, at the highest they are loudest. A motor runs up to its idle
+    speed alone.
     """
     case, usual = design.case, usual_run_up(design)
     starts: tuple[Start, ...] = STARTS if case.table.start is None else (*STARTS, "placed")

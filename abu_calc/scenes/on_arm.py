@@ -13,8 +13,8 @@ from abu_calc.spec.machine import SwingArm as SwingArmTable
 
 def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArm:
     """The swing arm with the machine and the autobalancer, without balls."""
-    case, one = design.case, design.autobalancer
-    arm = read_arm(case, table, one.mass - one.ball_count * one.ball_mass)
+    case, autobalancer = design.case, design.autobalancer
+    arm = read_arm(case, table, autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass)
     joint = arm.length, arm.inertia, arm.joint_stiffness, arm.joint_damping
     if not cutting:
         return idle_arm(*joint)
@@ -35,8 +35,8 @@ def ball_rate_on_arm(design: Design, arm: SwingArm, drag: float) -> float:
 
     There the rotor moves along one axis alone, so that half the stiffness of the slow motion is left.
     """
-    case, one = design.case, design.autobalancer
-    mass = arm.felt_mass + one.ball_count * one.ball_mass
+    case, candidate = design.case, design.autobalancer
+    mass = arm.felt_mass + candidate.ball_count * candidate.ball_mass
     natural = math.sqrt(max(arm.stiffness, 0.0) / mass)
-    kappa = ball_stiffness(one.ball_mass, mass, case.speed, (natural, natural)) / 2
-    return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, drag, case.inertia_factor)
+    kappa = ball_stiffness(candidate.ball_mass, mass, case.speed, (natural, natural)) / 2
+    return decay_rate((kappa,) * candidate.ball_count, candidate.budget.resting_angles, drag, case.inertia_factor)

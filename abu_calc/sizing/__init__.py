@@ -38,10 +38,10 @@ def size(machine: MachineFile) -> Design:
     return _designed(case, imbalance, choose_for_motor(case, imbalance.value))
 
 
-def instead(design: Design, one: Candidate, why: str) -> Design:
+def instead(design: Design, candidate: Candidate, why: str) -> Design:
     """The same machine with another candidate; `why` the first choice was not taken."""
-    others = tuple(pair for pair in design.choice.runners_up if pair[0] is not one)
-    choice = replace(design.choice, best=one, runners_up=((design.autobalancer, why), *others))
+    others = tuple(pair for pair in design.choice.runners_up if pair[0] is not candidate)
+    choice = replace(design.choice, best=candidate, runners_up=((design.autobalancer, why), *others))
     return _designed(design.case, design.imbalance, choice)
 
 
@@ -49,7 +49,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
     machine, best = case.table, choice.best
     frequency = frequency_region(case, best.ball_mass, best.mass)
     race = track(case, best, frequency.natural_frequencies)
-    others = tuple(track(case, one, frequency.natural_frequencies) for one, _ in choice.runners_up)
+    others = tuple(track(case, runner_up, frequency.natural_frequencies) for runner_up, _ in choice.runners_up)
     idle = idle_vibration(case, imbalance.value, best, frequency.balancing_possible)
     worst = worst_residuals(case, imbalance.value, best)
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
@@ -89,9 +89,9 @@ def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":
     return seat_bearings(machine.bearing)
 
 
-def _arm(case: Case, imbalance: float, one: Candidate) -> "SwingArmBounds | None":
+def _arm(case: Case, imbalance: float, candidate: Candidate) -> "SwingArmBounds | None":
     if case.table.swing_arm is None:
         return None
     from abu_calc.sizing.swing_arm import swing_arm_bounds
 
-    return swing_arm_bounds(case, case.table.swing_arm, imbalance, one.mass, one.capacity)
+    return swing_arm_bounds(case, case.table.swing_arm, imbalance, candidate.mass, candidate.capacity)

@@ -1,4 +1,4 @@
-"""What to change on a swing arm, and by how much, so that its bounds hold: stiffness first, damping second."""
+"""Changes of a swing arm, with their size, that meet its bounds: stiffness first, damping second."""
 
 import math
 from collections.abc import Mapping
@@ -46,7 +46,7 @@ class Change:
 
     @property
     def text(self) -> str:
-        """With the step from the old value.
+        """Change in words, with the step from the old value.
 
         >>> Change("joint_damping_N_s_per_m", 2.0, 2.5).text, Change("joint_damping_N_s_per_m", 0.01, 0.35).text
         ('joint_damping_N_s_per_m = 2.5 (+25 %)', 'joint_damping_N_s_per_m = 0.35 (35 times)')
@@ -65,7 +65,7 @@ class Change:
 
     @property
     def reach(self) -> float:
-        """How far it is from the old value: of multiples the logarithm; an angle is at hand."""
+        """Distance from the old value: the logarithm of the ratio; 0 for an angle, which is at hand."""
         if self.key.endswith("_deg") or not self.old or not self.new:
             return 0.0
         return abs(math.log(self.new / self.old))
@@ -73,14 +73,14 @@ class Change:
 
 @dataclass(frozen=True)
 class Way:
-    """How an arm is mended where there is a choice; `margin` over each bound."""
+    """Choices in mending an arm; `margin` over each bound."""
 
     margin: float = 1.05
     softer_contact: bool = False
     joint: Literal["as it is", "stiffer", "softer"] = "as it is"
     """Stiff enough for every contact angle, or soft enough for the torque that presses."""
     inertia: float = 1.0
-    """At least so many times of what it has, whatever the bounds say."""
+    """Least factor on the present inertia, whatever the bounds say."""
     damping: float = 1.0
 
 
@@ -110,7 +110,7 @@ def _gain(arm: Arm) -> float:
 
 
 def _held(arm: Arm, way: Way) -> Arm | None:
-    """With another joint, if that is the way."""
+    """Arm with another pivot, if `way` asks for one; None if it cannot be softer."""
     if way.joint == "stiffer":
         return replace(arm, joint_stiffness=up(max(arm.joint_stiffness, way.margin * standing_stiffness(arm))))
     if way.joint == "softer":
@@ -163,7 +163,7 @@ def _degrees(arm: Arm) -> float:
 
 
 def _plain(value: float) -> float:
-    """Without the rounding of a way through SI."""
+    """Value without the rounding of a conversion to SI and back."""
     return float(f"{value:.12g}")
 
 

@@ -26,7 +26,10 @@ from abu_calc.units import from_si, to_si
 RUNNERS_UP = 4
 LARGER_RACES = 12
 USUAL_PAIRS = 1000
-"""Of diameter and count in the envelope of a hand grinder; where there are more, fewer larger races are tried."""
+"""Pairs of diameter and count in the envelope of a hand grinder.
+
+If there are more, fewer larger races are tried.
+"""
 DOZEN = 12
 """More balls than this are proposed where nothing else fits only: they touch often, cost much, and settle late."""
 
@@ -88,14 +91,14 @@ class Choice:
     ),
 )
 def choose(case: Case, imbalance: float) -> Choice:
-    found = sorted(candidates(case, imbalance), key=lambda one: _rank(case, one))
-    if not found:
+    ranking = sorted(candidates(case, imbalance), key=lambda candidate: _rank(case, candidate))
+    if not ranking:
         raise impossible("ball_count", case.autobalancer.ball_count or 2, "so many do not fit round any race")
-    best, others = found[0], found[1:]
-    first = {id(one) for one in _front([one for one in found if sound(case, one)])}
-    picked = sorted(others, key=lambda one: id(one) not in first)[:RUNNERS_UP]
-    picked.sort(key=lambda one: _rank(case, one))
-    return Choice(best, tuple((one, _why_not(case, one, best)) for one in picked), len(found))
+    best, others = ranking[0], ranking[1:]
+    first = {id(candidate) for candidate in _front([candidate for candidate in ranking if sound(case, candidate)])}
+    picked = sorted(others, key=lambda candidate: id(candidate) not in first)[:RUNNERS_UP]
+    picked.sort(key=lambda candidate: _rank(case, candidate))
+    return Choice(best, tuple((candidate, _why_not(case, candidate, best)) for candidate in picked), len(ranking))
 
 
 def choose_for_motor(case: Case, imbalance: float) -> Choice:
@@ -112,16 +115,23 @@ def choose_for_motor(case: Case, imbalance: float) -> Choice:
     if not sound(rated, other.best):
         return choice
 
-    def judged(one: Candidate) -> Candidate:
-        return evaluate(case, imbalance, one.ball_count, one.ball_diameter, one.race_radius)
+    def judged(candidate: Candidate) -> Candidate:
+        return evaluate(case, imbalance, candidate.ball_count, candidate.ball_diameter, candidate.race_radius)
 
     best = judged(other.best)
-    others = [judged(one) for one, _ in other.runners_up]
-    return Choice(best, tuple((one, _why_not(case, one, best)) for one in others), choice.examined + other.examined)
+    others = [judged(runner_up) for runner_up, _ in other.runners_up]
+    return Choice(
+        best,
+        tuple((runner_up, _why_not(case, runner_up, best)) for runner_up in others),
+        choice.examined + other.examined,
+    )
 
 
 def candidates(case: Case, imbalance: float) -> list[Candidate]:
-    """For every diameter and count the smallest race that suffices; where none does at all, the largest there is."""
+    """Smallest race that suffices, for every diameter and count.
+
+    If none suffices at all, the largest race there is.
+    """
     tried = [
         (diameter, count, radii)
         for diameter in ball_diameters(case)
@@ -129,8 +139,8 @@ def candidates(case: Case, imbalance: float) -> list[Candidate]:
         for count in ball_counts(case, diameter, radii[-1])
     ]
     larger = max(1, LARGER_RACES * USUAL_PAIRS // max(len(tried), USUAL_PAIRS))
-    found = [_smallest(case, imbalance, *each, larger) for each in tried]
-    return [one for one in found if one] or [
+    sufficient = [_smallest(case, imbalance, *each, larger) for each in tried]
+    return [candidate for candidate in sufficient if candidate] or [
         evaluate(case, imbalance, count, diameter, radii[-1]) for diameter, count, radii in tried
     ]
 
@@ -180,7 +190,7 @@ def _smallest(
         return smallest
     larger = radii[first + 1 :]
     tried = (evaluate(case, imbalance, count, diameter, each) for each in larger[:: len(larger) // most + 1])
-    return next((one for one in tried if one.budget.within), smallest)
+    return next((candidate for candidate in tried if candidate.budget.within), smallest)
 
 
 def _ball_mass(case: Case, diameter: float) -> float:
@@ -197,50 +207,58 @@ def _mass(case: Case, count: int, diameter: float, radius: float) -> float:
     return _housing(case, diameter, radius).mass + count * _ball_mass(case, diameter)
 
 
-def enough(case: Case, one: Candidate) -> bool:
-    """Whether it carries the need with the margin asked for."""
-    return one.capacity_ratio >= case.autobalancer.capacity_margin
+def enough(case: Case, candidate: Candidate) -> bool:
+    """True if the autobalancer carries the required capacity with the margin asked for."""
+    return candidate.capacity_ratio >= case.autobalancer.capacity_margin
 
 
-def light(case: Case, one: Candidate) -> bool:
-    """Whether it weighs no more than allowed."""
-    return one.mass_fraction <= case.autobalancer.max_mass_fraction
+def light(case: Case, candidate: Candidate) -> bool:
+    """True if the autobalancer weighs no more than allowed."""
+    return candidate.mass_fraction <= case.autobalancer.max_mass_fraction
 
 
-def sound(case: Case, one: Candidate) -> bool:
-    """Whether it falls short of nothing."""
-    return enough(case, one) and one.strength.enough and one.stays_round and one.budget.within and light(case, one)
+def sound(case: Case, candidate: Candidate) -> bool:
+    """True if the candidate falls short of nothing."""
+    return (
+        enough(case, candidate)
+        and candidate.strength.enough
+        and candidate.stays_round
+        and candidate.budget.within
+        and light(case, candidate)
+    )
 
 
-def _rank(case: Case, one: Candidate) -> tuple[float, ...]:
+def _rank(case: Case, candidate: Candidate) -> tuple[float, ...]:
     """Sorts the best first: what is short of something is ranked by how short it is."""
-    shortage = max(0.0, case.autobalancer.capacity_margin - one.capacity_ratio)
-    excess = 0.0 if one.budget.within else one.budget.residual
-    bad = shortage, not one.strength.enough, not one.stays_round, excess, not light(case, one)
-    return (*bad, one.ball_count > DOZEN, round(one.mass, 9), one.ball_diameter)
+    shortage = max(0.0, case.autobalancer.capacity_margin - candidate.capacity_ratio)
+    excess = 0.0 if candidate.budget.within else candidate.budget.residual
+    bad = shortage, not candidate.strength.enough, not candidate.stays_round, excess, not light(case, candidate)
+    return (*bad, candidate.ball_count > DOZEN, round(candidate.mass, 9), candidate.ball_diameter)
 
 
 def _front(sound: list[Candidate]) -> list[Candidate]:
-    """Those than which no other is both lighter and more accurate; `sound` comes sorted by mass."""
+    """Candidates than which no other is both lighter and more accurate; `sound` comes sorted by mass."""
     front: list[Candidate] = []
-    for one in sound:
-        if not front or one.budget.residual < front[-1].budget.residual:
-            front.append(one)
+    for candidate in sound:
+        if not front or candidate.budget.residual < front[-1].budget.residual:
+            front.append(candidate)
     return front
 
 
-def _why_not(case: Case, one: Candidate, best: Candidate) -> str:
-    if not enough(case, one):
-        return f"carries only {one.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
-    if not one.strength.enough:
+def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
+    if not enough(case, candidate):
+        return (
+            f"carries only {candidate.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
+        )
+    if not candidate.strength.enough:
         return "stressed more than its material bears"
-    if not one.stays_round:
+    if not candidate.stays_round:
         return "its race would go oval"
-    if not one.budget.within:
-        return f"rests at {from_si(one.budget.residual, 'um'):.1f} µm, more than the limit permits"
-    if not light(case, one):
-        return f"weighs {100 * one.mass_fraction:.1f} % of the machine"
-    heavier = from_si(one.mass - best.mass, "g")
-    finer = from_si(best.budget.residual - one.budget.residual, "um")
+    if not candidate.budget.within:
+        return f"rests at {from_si(candidate.budget.residual, 'um'):.1f} µm, more than the limit permits"
+    if not light(case, candidate):
+        return f"weighs {100 * candidate.mass_fraction:.1f} % of the machine"
+    heavier = from_si(candidate.mass - best.mass, "g")
+    finer = from_si(best.budget.residual - candidate.budget.residual, "um")
     gain = f", though it rests {finer:.1f} µm nearer" if finer > 0.05 else ""
     return f"{heavier:.1f} g heavier{gain}" if heavier > 0.05 else "equally heavy, with larger balls"

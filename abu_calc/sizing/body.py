@@ -17,7 +17,7 @@ class Body:
 
     @property
     def is_rigid(self) -> bool:
-        """Whether transverse inertia and the place of the wheel are known."""
+        """True if transverse inertia and the place of the wheel are known."""
         return self.inverse_inertia > 0
 
     @formula(

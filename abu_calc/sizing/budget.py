@@ -32,13 +32,13 @@ class AccuracyBudget:
 
     @property
     def residual(self) -> float:
-        """As expected: the root of the sum of squares, and what the balls cannot carry on top."""
+        """Expected residual displacement: the root of the sum of squares, plus what the balls cannot carry."""
         parts = self.race_eccentricity, self.rolling_friction, self.race_ovality, self.plane_offset
         return math.hypot(*parts) + self.shortfall
 
     @property
     def within(self) -> bool:
-        """Whether the expected residual is permitted."""
+        """True if the expected residual displacement is permitted."""
         return self.residual <= self.permitted
 
 
@@ -134,9 +134,9 @@ def accuracy_budget(
 def budget_where_worst(
     case: Case, imbalance: float, need: Requirement, balls: Balls, angles: tuple[float, ...]
 ) -> AccuracyBudget:
-    """At that of the judged speeds where the residual is nearest to what the limit permits, or most above it."""
-    found = [accuracy_budget(case, imbalance, need, balls, angles, speed) for speed in judged_speeds(case)]
-    return max(found, key=lambda one: one.residual * one.speed)
+    """Budget at the judged speed whose residual is nearest to the limit's permitted one, or most above it."""
+    budgets = [accuracy_budget(case, imbalance, need, balls, angles, speed) for speed in judged_speeds(case)]
+    return max(budgets, key=lambda budget: budget.residual * budget.speed)
 
 
 def judged_speeds(case: Case) -> tuple[float, ...]:

@@ -28,7 +28,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Handle:
-    """Where levels are wanted: a name and a place [m] from the centre of mass."""
+    """Place at which levels are wanted: a name and a place [m] from the centre of mass."""
 
     name: str
     place: float
@@ -36,7 +36,7 @@ class Handle:
 
 @dataclass(frozen=True)
 class Case:
-    """What sizing needs to know of a machine [SI]; masses without the autobalancer."""
+    """Machine data that sizing needs [SI]; masses without the autobalancer."""
 
     table: MachineFile
     autobalancer: Autobalancer

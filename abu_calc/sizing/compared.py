@@ -1,4 +1,4 @@
-"""What was measured with the autobalancer, beside what is predicted of the same place."""
+"""Measurement with the autobalancer, beside the prediction for the same place."""
 
 import math
 
@@ -34,8 +34,8 @@ class Compared:
 
 def measured_place(case: Case, shown: Shown) -> tuple[str, float]:
     """Name and place [m] from the centre of mass of where it was measured."""
-    found = next((handle for handle in case.handles if handle.name == shown.at), None)
-    return ("wheel plane", case.body.wheel) if found is None else (found.name, found.place)
+    named_handle = next((handle for handle in case.handles if handle.name == shown.at), None)
+    return ("wheel plane", case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
 
 
 def compared(case: Case, level: float | None) -> Compared | None:
@@ -51,12 +51,12 @@ def compared(case: Case, level: float | None) -> Compared | None:
 
 def compared_design(design: Design) -> Compared | None:
     """Against what the accuracy budget leaves, idle at the rated speed, background included."""
-    case, one, possible = design.case, design.autobalancer, design.frequency.balancing_possible
+    case, chosen, possible = design.case, design.autobalancer, design.frequency.balancing_possible
     table = case.table.measured_after
     if table is None or table.shown is None:
         return None
     budget = accuracy_budget(
-        case, design.imbalance.value, one.requirement, one.balls, one.budget.resting_angles, case.speed
+        case, design.imbalance.value, chosen.requirement, chosen.balls, chosen.budget.resting_angles, case.speed
     )
     known = possible and math.isfinite(budget.residual)
     return compared(case, level_where_measured(design, budget.residual if known else None))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Design:
-    """What `size` returns, in the order of the steps; SI inside."""
+    """Return value of `size`, in the order of the steps; SI inside."""
 
     case: Case
     frequency: FrequencyRegion

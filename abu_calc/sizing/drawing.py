@@ -22,7 +22,7 @@ ROUGHNESS = to_si(0.16, "um")
 """Ra of the race, at most."""
 HARDNESS = "60–63 HRC"
 CASE_DEPTH = to_si(0.5, "mm")
-"""Of the hard case after grinding, at least."""
+"""Least depth of the hard case after grinding [m]."""
 BORE, SPINDLE = "H6", "js6"
 WAVINESS = to_si(2.5, "um")
 DENT = to_si(1, "um")
@@ -53,21 +53,21 @@ def extra_level(residual: float, part: float) -> float:
     return 20 * math.log10(math.hypot(residual, part) / residual) if residual > 0 else math.inf
 
 
-def drawing(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
+def drawing(case: Case, candidate: Candidate, track: Track) -> tuple[Advice, ...]:
     """Advice for the drawing; requirements are engineering practice (assumed), costs are computed from the budget.
 
     What only changes the capacity, or what the balls themselves balance, costs nothing.
     """
-    return (*_race(case, one, track), *_seat_and_balls(case, one), *_running(case, one, track))
+    return (*_race(case, candidate, track), *_seat_and_balls(case, candidate), *_running(case, candidate, track))
 
 
-def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
-    budget, abu = one.budget, case.autobalancer
+def _race(case: Case, candidate: Candidate, track: Track) -> tuple[Advice, ...]:
+    budget, abu = candidate.budget, case.autobalancer
     eccentricity = from_si(case.race_eccentricity, "um")
     others = math.hypot(budget.rolling_friction, budget.race_ovality, budget.plane_offset)
     smooth = math.hypot(budget.race_eccentricity, budget.race_ovality, budget.plane_offset)
     arm = case.friction_arm or SOFT_ARM
-    race = f"R {from_si(one.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
+    race = f"R {from_si(candidate.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
     return (
         Advice("race", f"{race} at the bottom (capacity only)", 0.0),
         Advice("groove", f"{_across(track.groove_radius)} (shakes out friction, no level of its own)", 0.0),
@@ -78,7 +78,7 @@ def _race(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
         Advice("race waviness", "n_k lobes of amplitude a_k leave n_k·a_k: 5 × 0.5 µm",
                _cost(budget.residual, WAVINESS)),
         Advice("race surface", f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: one of {_um(DENT)} µm depth holds a ball",
-               _cost(budget.residual, DENT * one.pitch_radius / _dent_half_width(one))),
+               _cost(budget.residual, DENT * candidate.pitch_radius / _dent_half_width(candidate))),
         Advice("race hardness", f"{HARDNESS}, case ≥ {_mm(CASE_DEPTH)} mm after grinding (given: "
                f"{abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
                _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction)),
@@ -91,9 +91,9 @@ def _across(groove: float | None) -> str:
     return "straight ± 2 µm" if groove is None else f"R {from_si(groove, 'mm'):.2f} ± {_mm(GROOVE_TOLERANCE)} mm across"
 
 
-def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
+def _seat_and_balls(case: Case, candidate: Candidate) -> tuple[Advice, ...]:
     clearance = _bore_clearance(to_si(case.autobalancer.bore_diameter_mm, "mm"))
-    rest = math.hypot(one.budget.rolling_friction, one.budget.race_ovality, one.budget.plane_offset)
+    rest = math.hypot(candidate.budget.rolling_friction, candidate.budget.race_ovality, candidate.budget.plane_offset)
     play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at worst"
     cost = None if clearance is None else _cost(rest, clearance / 2)
     return (
@@ -103,8 +103,8 @@ def _seat_and_balls(case: Case, one: Candidate) -> tuple[Advice, ...]:
     )  # fmt: skip
 
 
-def _running(case: Case, one: Candidate, track: Track) -> tuple[Advice, ...]:
-    oval = one.roundness
+def _running(case: Case, candidate: Candidate, track: Track) -> tuple[Advice, ...]:
+    oval = candidate.roundness
     optimum = "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
     return (
         Advice("oil", f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
@@ -143,6 +143,6 @@ def _cost(rest: float, part: float) -> float | None:
     return cost if math.isfinite(cost) else None
 
 
-def _dent_half_width(one: Candidate) -> float:
+def _dent_half_width(candidate: Candidate) -> float:
     """Half chord [m] of the ball in a dent of that depth."""
-    return math.sqrt(one.ball_diameter * DENT)
+    return math.sqrt(candidate.ball_diameter * DENT)

@@ -28,7 +28,10 @@ PLACES = 16
 
 @dataclass(frozen=True)
 class FrequencyRegion:
-    """Where the working speeds lie [rad/s]; `least_speed` is the lower end of the zone that the rated speed needs."""
+    """Region of the working speeds [rad/s].
+
+    `least_speed` is the lower end of the zone that the rated speed needs.
+    """
 
     speed: float
     natural_frequencies: tuple[float, float]
@@ -87,7 +90,10 @@ def zones(frequencies: tuple[float, float]) -> tuple[tuple[float, float] | None,
 
 
 def frequency_region(case: Case, ball_mass: float, added_mass: float) -> FrequencyRegion:
-    """Whether light balls balance over the whole speed range, with the mass of the autobalancer added."""
+    """Region of the whole speed range, and whether light balls balance there.
+
+    The mass of the autobalancer is added.
+    """
     mass = case.body.effective_mass(added_mass)
     frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
     between, above = zones(frequencies)
@@ -109,7 +115,10 @@ def frequency_region(case: Case, ball_mass: float, added_mass: float) -> Frequen
 
 
 def _recedes(case: Case, speed: float, mass: float) -> bool:
-    """Whether the support moves against the imbalance on average: Re(1/D_x + 1/D_y) < 0, for any linear support."""
+    """True if the support moves against the imbalance on average: Re(1/D_x + 1/D_y) < 0.
+
+    The condition holds for any linear support.
+    """
     return sum((1 / dynamic_stiffness(case.suspension, axis, speed, mass)).real for axis in (0, 1)) < 0
 
 

@@ -13,10 +13,10 @@ STEEL: Final = 7800.0
 ALUMINIUM: Final = 2700.0
 
 HUB_CLEARANCE: Final = to_si(0.5, "mm")
-"""Between balls and hub."""
+"""Distance between balls and hub [m]."""
 
 GROOVE_CLEARANCE: Final = to_si(0.3, "mm")
-"""Between balls and webs, each side."""
+"""Distance between balls and webs [m], each side."""
 
 
 @dataclass(frozen=True)

@@ -16,14 +16,15 @@ UNITS = {
     "measured_displacement_um": "µm",
     "measured_acceleration_m_per_s2": "m/s²",
 }
-"""Of what an instrument shows, as printed."""
+"""Units of instrument readings, as shown."""
 
 
 @dataclass(frozen=True)
 class Readings:
-    """What instruments show of an rms velocity [m/s] at one frequency, all rms; without W_h no `weighted`.
+    """Instrument readings of an rms velocity [m/s] at one frequency, all rms; without W_h no `weighted`.
 
-    `weighted`: a_h of one axis; `total`: a_hv [m/s²], the vector sum of the two axes that an imbalance moves alike.
+    `weighted`: a_h of one axis; `total`: a_hv [m/s²], the vector sum of the two axes that an imbalance moves
+    alike.
     """
 
     velocity: float
@@ -88,7 +89,7 @@ def _velocity(shown: Shown, value: float, speed: float) -> float:
 
 
 def in_words(shown: Shown) -> str:
-    """What was read, with its unit and how.
+    """Reading in words, with its unit and the way it was taken.
 
     >>> in_words(Shown("measured_acceleration_m_per_s2", (2.5, 2.7), "Wh", 3, "front"))
     '2.5, 2.7 m/s² (W_h, vector sum of three axes) at "front"'
@@ -103,13 +104,13 @@ def in_words(shown: Shown) -> str:
 
 def as_shown(shown: Shown, velocity: float, speed: float) -> float | None:
     """An rms velocity of one axis [m/s] in the unit, the weighting and the axes of what was shown; None without W_h."""
-    found = readings(velocity, speed)
+    reading = readings(velocity, speed)
     many = math.sqrt(2) if shown.axes == 3 else 1.0
     if shown.key == "measured_level_db":
         return level_from_velocity(many * velocity)
     if shown.key == "measured_velocity_mm_per_s":
         return from_si(many * velocity, "mm_per_s")
     if shown.key == "measured_displacement_um":
-        return from_si(many * found.displacement, "um")
-    acceleration = found.weighted if shown.weighting == "Wh" else found.acceleration
+        return from_si(many * reading.displacement, "um")
+    acceleration = reading.weighted if shown.weighting == "Wh" else reading.acceleration
     return None if acceleration is None else many * acceleration

@@ -12,13 +12,13 @@ from abu_calc.sizing.worst import WorstResidual, worst_residuals
 from abu_calc.units import from_si
 
 SHARES = (0.5, 0.25)
-"""Of the race's eccentricity and of the friction's lever arm, that are tried."""
+"""Shares of the race's eccentricity and of the friction's lever arm that are tried."""
 
 
 def vibration_checks(
     case: Case,
     imbalance: float,
-    one: Candidate,
+    candidate: Candidate,
     idle: Vibration,
     levels: SpeedLevels | None,
     worst: Sequence[WorstResidual],
@@ -32,19 +32,19 @@ def vibration_checks(
     remedy = None
     if not idle.lowered:
         remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
-        if one.budget.shortfall:
+        if candidate.budget.shortfall:
             remedy = "What gives the balls enough capacity, see ABU201."
-        elif one.budget.rolling_friction > one.budget.race_eccentricity:
+        elif candidate.budget.rolling_friction > candidate.budget.race_eccentricity:
             remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
     message = "with the autobalancer against without, idle"
     return (
-        _level_check(case, imbalance, one, levels, worst),
+        _level_check(case, imbalance, candidate, levels, worst),
         coded("ABU402", verdict(idle.lowered), message, after, before, "dB", remedy),
     )
 
 
 def _level_check(
-    case: Case, imbalance: float, one: Candidate, levels: SpeedLevels, worst: Sequence[WorstResidual]
+    case: Case, imbalance: float, candidate: Candidate, levels: SpeedLevels, worst: Sequence[WorstResidual]
 ) -> Check:
     """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
     limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
@@ -54,11 +54,11 @@ def _level_check(
     if kept and not safe:
         there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
         message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
-    remedy = None if kept and safe else _remedy(case, imbalance, one, None if kept else worst)
+    remedy = None if kept and safe else _remedy(case, imbalance, candidate, None if kept else worst)
     return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", remedy)
 
 
-def _remedy(case: Case, imbalance: float, one: Candidate, held: Sequence[WorstResidual] | None) -> str:
+def _remedy(case: Case, imbalance: float, candidate: Candidate, held: Sequence[WorstResidual] | None) -> str:
     """The least truer race that keeps the limit, by the same formulas.
 
     `held`: where friction holds the balls worst, which is not asked about; None: that is what has to keep it.
@@ -71,24 +71,26 @@ def _remedy(case: Case, imbalance: float, one: Candidate, held: Sequence[WorstRe
         )
 
     def level(other: Case) -> float:
-        levels = speed_levels(other, imbalance, one, held or worst_residuals(other, imbalance, one), possible=True)
+        levels = speed_levels(
+            other, imbalance, candidate, held or worst_residuals(other, imbalance, candidate), possible=True
+        )
         return math.inf if levels is None else (levels.highest if held else levels.arranged).after
 
     *others, (words, truest) = _truer(case)
     if (least := level(truest)) > limit:
         return (
             f"Tried without success: {1 / SHARES[-1]:g} times less eccentricity and friction of the race. What is "
-            f"left: {_left(one)}a heavier machine, or another limits.vibration_level_db."
+            f"left: {_left(candidate)}a heavier machine, or another limits.vibration_level_db."
         )
     tried = ((each, level(other)) for each, other in others)
-    words, found = next((pair for pair in tried if pair[1] <= limit), (words, least))
-    return f"Tried: {words} gives {found:.1f} dB."
+    words, new_level = next((pair for pair in tried if pair[1] <= limit), (words, least))
+    return f"Tried: {words} gives {new_level:.1f} dB."
 
 
-def _left(one: Candidate) -> str:
-    """What else rests at the wheel of this design."""
-    capacity = "enough capacity (ABU201), " if one.budget.shortfall else ""
-    return f"{capacity}a race nearer to the wheel's plane, " if one.budget.plane_offset else capacity
+def _left(candidate: Candidate) -> str:
+    """Actions on the other residuals at the wheel: enough capacity, or a race nearer to the wheel's plane."""
+    capacity = "enough capacity (ABU201), " if candidate.budget.shortfall else ""
+    return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
 
 
 def _truer(case: Case) -> Iterator[tuple[str, Case]]:

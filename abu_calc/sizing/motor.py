@@ -9,9 +9,12 @@ from abu_calc.units import from_si, to_si
 
 
 def motor_checks(case: Case) -> tuple[Check, ...]:
-    """Whether the motor idles at a working speed of the file, and turns under load; no check without a motor.
+    """Checks of the motor: idling at a working speed of the file, turning under load.
 
-    A warning, not a failure: the speeds judged include the idle speed, see `Case.speed_range`.
+    There is none without a motor.
+
+    A missed working speed is a warning, not a failure: the speeds judged include the idle speed, see
+    `Case.speed_range`.
     """
     if case.idle_speed is None:
         return ()

@@ -1,4 +1,4 @@
-"""What the search may choose from: the envelope, stock sizes, and what the file has pinned."""
+"""Choices of the search: the envelope, stock sizes, and values that the file has pinned."""
 
 from abu_calc.errors import InputError, Place
 from abu_calc.formulas.ball_ring import best_count, half_angle, most_balls
@@ -82,18 +82,18 @@ def _pinned_diameter(case: Case, given_mm: float) -> float:
         least = from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter), "mm")
         greatest = from_si(_greatest(case), "mm")
         key = "race_radius_mm" if abu.race_radius_mm is not None else "ball_diameter_mm"
-        found = given_mm if abu.race_radius_mm is None else abu.race_radius_mm
+        pinned_mm = given_mm if abu.race_radius_mm is None else abu.race_radius_mm
         allowed_text = f"race radius {least:.2f} … {greatest:.2f}" if least <= greatest else "a smaller ball"
-        raise impossible(key, found, "hub, ball and wall do not fit one inside the other", allowed_text)
+        raise impossible(key, pinned_mm, "hub, ball and wall do not fit one inside the other", allowed_text)
     return diameter
 
 
-def impossible(key: str, found: float, message: str, allowed: str | None = None) -> InputError:
+def impossible(key: str, given: float, message: str, allowed: str | None = None) -> InputError:
     """The error that refuses a choice that no geometry allows."""
     return InputError(
         f"geometrically impossible: {message}",
         place=Place(key=f"autobalancer.{key}"),
-        found=f"{found:g}",
+        found=f"{given:g}",
         allowed=allowed,
         remedy="Change it, or widen autobalancer.max_outer_diameter_mm or max_width_mm.",
     )

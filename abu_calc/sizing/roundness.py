@@ -1,4 +1,7 @@
-"""How oval balls make their race: an oval race has two lobes, and these hold balls where they are."""
+"""Two-lobe ovality that balls cause in their race.
+
+An oval race has two lobes, and these hold balls in their places.
+"""
 
 from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
@@ -7,7 +10,7 @@ from abu_calc.sizing.stress import STEEL_MODULUS, hinged_wall_lobes, ring_flexur
 from abu_calc.units import to_si
 
 MODULUS = {STEEL: STEEL_MODULUS, ALUMINIUM: 70e9}
-"""Of the body, by its density [Pa]."""
+"""Elastic modulus of the body, by its density [Pa]."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,10 @@ class Roundness:
 
 
 def roundness(case: Case, force: float, race_radius: float, ball_diameter: float) -> Roundness:
-    """Of a housing by its rules: the webs from the hub to the race, the wall between them by the race ring alone."""
+    """Roundness of a housing by its rules.
+
+    The webs reach from the hub to the race. The race ring alone is the wall between them.
+    """
     abu = case.autobalancer
     rules, wall = RULES[abu.design], to_si(abu.min_wall_mm, "mm")
     hub, between = to_si(abu.bore_diameter_mm, "mm") / 2 + rules.hub_wall, ball_diameter + 2 * GROOVE_CLEARANCE

@@ -40,17 +40,17 @@ class Part:
 
     @property
     def area(self) -> float:
-        """Of the half section [m²]."""
+        """Area of the half section [m²]."""
         return _moments(self.outline)[0]
 
     @property
     def mass(self) -> float:
-        """Of the part [kg]."""
+        """Mass of the part [kg]."""
         return self.density * volume_of_revolution(self.outline)
 
     @property
     def material(self) -> str:
-        """In a word."""
+        """Material in a word."""
         return MATERIALS[self.density]
 
 
@@ -74,41 +74,41 @@ class Section:
     parts: tuple[Part, ...]
 
 
-def section(case: Case, one: Candidate) -> Section:
+def section(case: Case, candidate: Candidate) -> Section:
     """The section of a candidate: body, cover, and the race ring of those designs that have one."""
     abu = case.autobalancer
     rules, bore, wall = RULES[abu.design], to_si(abu.bore_diameter_mm, "mm") / 2, to_si(abu.min_wall_mm, "mm")
-    inner, race = one.ball_diameter + 2 * GROOVE_CLEARANCE, one.race_radius
-    groove = groove_radius(race, one.ball_diameter / 2) if abu.corrector == "ball" else None
+    inner, race = candidate.ball_diameter + 2 * GROOVE_CLEARANCE, candidate.race_radius
+    groove = groove_radius(race, candidate.ball_diameter / 2) if abu.corrector == "ball" else None
     depth = 0.0 if groove is None else groove_depth(groove, inner)
-    found = Section(
+    cut = Section(
         bore, bore + rules.hub_wall, race, race - depth, groove, race + wall, race + wall + rules.body_wall, rules.web,
         inner, inner + 2 * rules.web, (),
     )  # fmt: skip
-    return replace(found, parts=_parts(found, rules.body_density))
+    return replace(cut, parts=_parts(cut, rules.body_density))
 
 
-def _parts(one: Section, density: float) -> tuple[Part, ...]:
+def _parts(cut: Section, density: float) -> tuple[Part, ...]:
     """One piece has the race in its body; else a ring is pressed in as far as the closed web."""
-    cover = Part("cover", density, _box(one.width - one.web, one.width, one.hub_radius, one.race_radius))
-    hub = Vertex(0, one.bore_radius), Vertex(one.width, one.bore_radius), Vertex(one.width, one.hub_radius)
-    web, rim = Vertex(one.web, one.hub_radius), (Vertex(one.width, one.outer_radius), Vertex(0, one.outer_radius))
+    cover = Part("cover", density, _box(cut.width - cut.web, cut.width, cut.hub_radius, cut.race_radius))
+    hub = Vertex(0, cut.bore_radius), Vertex(cut.width, cut.bore_radius), Vertex(cut.width, cut.hub_radius)
+    web, rim = Vertex(cut.web, cut.hub_radius), (Vertex(cut.width, cut.outer_radius), Vertex(0, cut.outer_radius))
     # The body goes round counter-clockwise: along the bore, up the hub, back to the web, up it, out along the wall.
-    race = _race(one)
-    if one.outer_radius == one.ring_radius:
+    race = _race(cut)
+    if cut.outer_radius == cut.ring_radius:
         return Part("body", density, (*hub, web, *race, *rim)), cover
-    seat = Vertex(one.web, one.ring_radius), Vertex(one.width, one.ring_radius)
-    ring = *race, Vertex(one.width, one.ring_radius), Vertex(one.web, one.ring_radius)
+    seat = Vertex(cut.web, cut.ring_radius), Vertex(cut.width, cut.ring_radius)
+    ring = *race, Vertex(cut.width, cut.ring_radius), Vertex(cut.web, cut.ring_radius)
     return Part("body", density, (*hub, web, *seat, *rim)), Part("race ring", STEEL, ring), cover
 
 
-def _race(one: Section) -> Outline:
-    """From the closed web along the groove, and out to the open face along the seat of the cover."""
-    left, right = one.web, one.width - one.web
-    sagitta = one.race_radius - one.shoulder_radius
-    start = Vertex(left, one.shoulder_radius, -2 * sagitta / one.inner_width)
-    step = (Vertex(right, one.race_radius),) if sagitta else ()
-    return start, Vertex(right, one.shoulder_radius), *step, Vertex(one.width, one.race_radius)
+def _race(cut: Section) -> Outline:
+    """Outline from the closed web along the groove, and out to the open face along the seat of the cover."""
+    left, right = cut.web, cut.width - cut.web
+    sagitta = cut.race_radius - cut.shoulder_radius
+    start = Vertex(left, cut.shoulder_radius, -2 * sagitta / cut.inner_width)
+    step = (Vertex(right, cut.race_radius),) if sagitta else ()
+    return start, Vertex(right, cut.shoulder_radius), *step, Vertex(cut.width, cut.race_radius)
 
 
 def _box(left: float, right: float, inner: float, outer: float) -> Outline:

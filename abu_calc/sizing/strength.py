@@ -1,4 +1,4 @@
-"""Whether balls, race and rim bear their forces at the highest speed."""
+"""Strength of balls, race and rim under their forces at the highest speed."""
 
 from abu_calc.frozen import dataclass
 from abu_calc.sizing.case import Case
@@ -28,7 +28,7 @@ class Strength:
 
     @property
     def enough(self) -> bool:
-        """Whether both stresses are permitted."""
+        """True if both stresses are permitted."""
         return self.contact_pressure <= self.permitted_pressure and self.hoop_stress <= self.permitted_hoop
 
 

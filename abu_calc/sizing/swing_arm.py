@@ -33,12 +33,13 @@ LEAST_SINE = 1e-6
 
 @dataclass(frozen=True)
 class SwingArmBounds:
-    """What stiffness and damping the arm must have [SI]; `arm` itself with the autobalancer on it.
+    """Stiffness and damping that the arm must have [SI]; `arm`: the arm with the autobalancer on it.
 
-    `bunched_limit`: the damping needed while the balls stand side by side on the heavy side, None beyond κ = 0.3.
-    `lifted`: contact angles between which the arm does not stand; `standing_stiffness`: of the joint, with which it
-    stands at every one. `parametric_angles`: at which the rated speed is twice the natural frequency.
-    `cutting_frequency`: at the contact angle given; None, as the resting angle, where the arm does not stand.
+    `bunched_limit`: damping needed while the balls are together on the heavy side; None beyond κ = 0.3.
+    `lifted`: contact angles between which the arm does not stand.
+    `standing_stiffness`: stiffness of the pivot with which the arm stands at every contact angle.
+    `parametric_angles`: contact angles at which the rated speed is twice the natural frequency.
+    `cutting_frequency`: at the contact angle given; None, like the resting angle, if the arm does not stand.
     """
 
     arm: Arm
@@ -77,7 +78,7 @@ def swing_arm_bounds(
     own = contact_gain(arm.contact_angle, arm.friction, ratio)
     heavy = imbalance + capacity
     known = arm.length * heavy / arm.inertia <= MODULATION.high
-    found = SwingArmBounds(
+    bounds = SwingArmBounds(
         arm=arm,
         stiffness_limit=limits[0],
         stiffness_limit_exact=limits[1],
@@ -96,11 +97,11 @@ def swing_arm_bounds(
         press_force=None if angle is None else press_force(arm, angle),
         checks=(),
     )
-    return replace(found, checks=doubted(_checks(found), table.borrowed()))
+    return replace(bounds, checks=doubted(_checks(bounds), table.borrowed()))
 
 
 def doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check, ...]:
-    """What passes by another machine's data alone warns."""
+    """Checks with a warning in place of each pass that rests on another machine's data alone."""
     if not borrowed:
         return checks
     reason, remedy = "; rests on example data", "Give [swing_arm] its own numbers, see the warning."
@@ -129,22 +130,25 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
     )
 
 
-def _checks(found: SwingArmBounds) -> tuple[Check, ...]:
-    arm, limit = found.arm, min(found.stiffness_limit, found.stiffness_limit_exact)
+def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
+    arm, limit = bounds.arm, min(bounds.stiffness_limit, bounds.stiffness_limit_exact)
     stiff, stiffness = arm.contact_stiffness < limit, arm_stiffness(arm)
     return (
         coded("ABU501", verdict(stiff), "supercritical at the lowest speed and the worst "
               "contact angle (the safer of series and exact), while the disk is pressed; necessary, not sufficient",
               arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
-        _damped(arm, found.damping_limit, found.bunched_limit),
-        coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{_lifted(found.lifted)}",
+        _damped(arm, bounds.damping_limit, bounds.bunched_limit),
+        coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{_lifted(bounds.lifted)}",
               stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].remedy, "least"),
-        _pressing(arm, found.pressed_angle),
+        _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip
 
 
 def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
-    """By the imbalance; warns where balls that stand on the heavy side at a start need more."""
+    """Check of the damping against the imbalance.
+
+    It warns if balls that are on the heavy side at a start need more.
+    """
     damped = arm.joint_damping > limit
     safe = bunched is not None and arm.joint_damping > bunched
     message = "above what parametric resonance at twice the natural frequency can overcome while the disk is pressed"
@@ -156,10 +160,10 @@ def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
 
 
 def _lifted(angles: tuple[float, float] | None) -> str:
-    """Where it would not stand, in words."""
+    """Contact angles at which the arm would not stand, in words."""
     if angles is None:
         return "; it stands at every contact angle"
-    low, high = (from_si(one, "deg") for one in angles)
+    low, high = (from_si(angle, "deg") for angle in angles)
     return f"; from {low:.3g}° to {high:.3g}° friction lifts the wheel by itself (static divergence)"
 
 

@@ -46,29 +46,31 @@ def carry_over_speed(pitch_radius: float) -> float:
     return math.sqrt(GRAVITY / pitch_radius)
 
 
-def track(case: Case, one: Candidate, frequencies: tuple[float, float]) -> Track:
+def track(case: Case, candidate: Candidate, frequencies: tuple[float, float]) -> Track:
     """Track of one candidate at the rated speed."""
-    kappa = ball_stiffness(one.ball_mass, one.requirement.effective_mass, case.speed, frequencies)
-    slowest, _ = slow_stiffness((kappa,) * one.ball_count, one.budget.resting_angles)
+    kappa = ball_stiffness(candidate.ball_mass, candidate.requirement.effective_mass, case.speed, frequencies)
+    slowest, _ = slow_stiffness((kappa,) * candidate.ball_count, candidate.budget.resting_angles)
     rolls = case.autobalancer.corrector == "roller"
     return Track(
-        groove_radius=None if rolls else groove_radius(one.race_radius, one.ball_diameter / 2),
-        carry_over=carry_over_speed(one.pitch_radius),
+        groove_radius=None if rolls else groove_radius(candidate.race_radius, candidate.ball_diameter / 2),
+        carry_over=carry_over_speed(candidate.pitch_radius),
         ball_stiffness=kappa,
         optimum_drag=optimum_drag(slowest, case.inertia_factor) if slowest > 0 else None,
-        decay_rates=tuple((drag, _rate(case, one, kappa, drag)) for drag in (case.drag, case.drag / 3, 3 * case.drag)),
+        decay_rates=tuple(
+            (drag, _rate(case, candidate, kappa, drag)) for drag in (case.drag, case.drag / 3, 3 * case.drag)
+        ),
     )
 
 
-def _rate(case: Case, one: Candidate, kappa: float, drag: float) -> float:
-    return decay_rate((kappa,) * one.ball_count, one.budget.resting_angles, drag, case.inertia_factor)
+def _rate(case: Case, candidate: Candidate, kappa: float, drag: float) -> float:
+    return decay_rate((kappa,) * candidate.ball_count, candidate.budget.resting_angles, drag, case.inertia_factor)
 
 
-def track_checks(case: Case, imbalance: float, one: Candidate, race: Track) -> tuple[Check, ...]:
+def track_checks(case: Case, imbalance: float, candidate: Candidate, race: Track) -> tuple[Check, ...]:
     """Pressure, hardness, hoop stress, roundness at the highest speed; on a horizontal spindle that the balls are
     carried over at the lowest.
     """
-    hardness, stress = case.autobalancer.race_hardness_HRC, one.strength
+    hardness, stress = case.autobalancer.race_hardness_HRC, candidate.strength
     pressure, permitted = from_si(stress.contact_pressure, "MPa"), from_si(stress.permitted_pressure, "MPa")
     hoop, limit = from_si(stress.hoop_stress, "MPa"), from_si(stress.permitted_hoop, "MPa")
     top = f"{from_si(case.speed_range[1], 'rpm'):.6g} rpm"
@@ -81,7 +83,7 @@ def track_checks(case: Case, imbalance: float, one: Candidate, race: Track) -> t
               None if hardness >= LEAST_HARDNESS_HRC else "Harden the race to 60–63 HRC and grind it.", "least"),
         coded("ABU303", verdict(hoop <= limit), f"spinning rim at {top} (limit assumed)", hoop, limit,
               "MPa", None if hoop <= limit else trials.remedy(case, imbalance, trials.stronger(case), _bears)),
-        _roundness(case, imbalance, one, top),
+        _roundness(case, imbalance, candidate, top),
     ]  # fmt: skip
     if case.table.machine.spindle_axis == "horizontal":
         lowest, needed = from_si(case.speed_range[0], "rpm"), from_si(race.carry_over, "rpm")
@@ -93,16 +95,22 @@ def track_checks(case: Case, imbalance: float, one: Candidate, race: Track) -> t
     return tuple(checks)
 
 
-def _bears(_: Case, one: Candidate) -> bool:
-    return one.strength.enough
+def _bears(_: Case, candidate: Candidate) -> bool:
+    return candidate.strength.enough
 
 
-def _roundness(case: Case, imbalance: float, one: Candidate, top: str) -> Check:
-    """What an oval race leaves where one web alone holds it, against all that the level's limit permits."""
-    left, permitted = oval_rest(one.roundness.unaided), permitted_displacement(case, one.mass, case.speed_range[1])
-    drawn = f"{from_si(oval_rest(one.roundness.lobes), 'um'):.3g} µm"
-    return coded("ABU304", verdict(one.stays_round), "what the two lobes leave of a race that two opposite balls make "
+def _roundness(case: Case, imbalance: float, candidate: Candidate, top: str) -> Check:
+    """Check of the residual that an oval race leaves if one web alone holds it.
+
+    The value is compared with all that the level's limit permits.
+    """
+    left, permitted = (
+        oval_rest(candidate.roundness.unaided),
+        permitted_displacement(case, candidate.mass, case.speed_range[1]),
+    )
+    drawn = f"{from_si(oval_rest(candidate.roundness.lobes), 'um'):.3g} µm"
+    return coded("ABU304", verdict(candidate.stays_round), "what the two lobes leave of a race that two opposite balls make "
         f"oval, held by one web alone, at {top}; {drawn} as drawn, the cover carrying the wall", from_si(left, "um"),
-        from_si(permitted, "um"), "µm", None if one.stays_round else
+        from_si(permitted, "um"), "µm", None if candidate.stays_round else
         trials.remedy(case, imbalance, trials.rounder(case), lambda _, other: other.stays_round),
     )  # fmt: skip

@@ -1,4 +1,7 @@
-"""What would make the best candidate hold what it does not: changes of the file, each tried by the same search."""
+"""Changes of the file with which the best candidate meets what it misses.
+
+The same search tries each of them.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -10,11 +13,11 @@ from abu_calc.sizing.case import Case
 from abu_calc.units import from_si
 
 ROOM = (1.1, 1.25, 1.5)
-"""Of the envelope."""
+"""Factors on the envelope."""
 WALLS = (1.5, 2.0, 3.0)
-"""Of the least wall."""
+"""Factors on the least wall."""
 HARDEST = 63.0
-"""Of a ground race [HRC]."""
+"""Hardness of a ground race, at most [HRC]."""
 PINS = "ball_count", "ball_diameter_mm", "race_radius_mm"
 
 Holds = Callable[[Case, Candidate], bool]
@@ -26,15 +29,15 @@ def remedy(case: Case, imbalance: float, changes: Iterator[Change], holds: Holds
     tried, partly = [], ""
     for words, other in changes:
         try:
-            one = choose(other, imbalance).best
+            candidate = choose(other, imbalance).best
         except AbuError:  # no race fits: no remedy
             continue
         tried.append(words)
-        found = f"Tried: with {words}, {_balls(one)}"
-        if sound(other, one):
-            return f"{found} holds it, and what else is asked of the autobalancer."
-        if holds(other, one) and not partly:
-            partly = f"{found} holds it, though not all else."
+        trial = f"Tried: with {words}, {_balls(candidate)}"
+        if sound(other, candidate):
+            return f"{trial} holds it, and what else is asked of the autobalancer."
+        if holds(other, candidate) and not partly:
+            partly = f"{trial} holds it, though not all else."
     return partly or (f"Tried without success: {'; '.join(tried)}." if tried else "What can be changed was not found.")
 
 
@@ -97,5 +100,5 @@ def _with(case: Case, **changed: Any) -> Case:
     return replace(case, autobalancer=abu, table=case.table.model_copy(update={"autobalancer": abu}))
 
 
-def _balls(one: Candidate) -> str:
-    return f"{one.ball_count} × Ø{from_si(one.ball_diameter, 'mm'):.5g} mm"
+def _balls(candidate: Candidate) -> str:
+    return f"{candidate.ball_count} × Ø{from_si(candidate.ball_diameter, 'mm'):.5g} mm"

@@ -15,7 +15,7 @@ from abu_calc.sizing.case import EQUAL_SPEEDS, Case
 from abu_calc.sizing.worst import WorstResidual
 
 CURVE_STEPS = 6
-"""Of the speed range, in the curve of level against speed."""
+"""Steps of the speed range in the curve of level against speed."""
 
 
 @dataclass(frozen=True)
@@ -86,34 +86,38 @@ class SpeedLevels:
     assumed="steady state",
     source="Kladiev 1996 (level and limit); the rigid body and the budget are ours",
 )
-def idle_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Vibration:
+def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Vibration:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
-    return handle_levels(case, before, _residual(case, imbalance, one, case.speed) if possible else None, one.mass)
+    return handle_levels(
+        case, before, _residual(case, imbalance, candidate, case.speed) if possible else None, candidate.mass
+    )
 
 
-def idle_speed_levels(case: Case, imbalance: float, one: Candidate, possible: bool) -> Levels | None:
+def idle_speed_levels(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Levels | None:
     """Levels of `idle_vibration` at the loudest place at the motor's idle speed, where that is not the rated speed."""
     idle = case.idle_speed
     if idle is None or math.isclose(idle, case.speed, rel_tol=EQUAL_SPEEDS):
         return None
-    return idle_vibration(replace(case, speed=idle), imbalance, one, possible).worst
+    return idle_vibration(replace(case, speed=idle), imbalance, candidate, possible).worst
 
 
 def speed_levels(
-    case: Case, imbalance: float, one: Candidate, worst: Sequence[WorstResidual], possible: bool
+    case: Case, imbalance: float, candidate: Candidate, worst: Sequence[WorstResidual], possible: bool
 ) -> SpeedLevels | None:
     """Levels over the speed range, background included."""
     if not possible:
         return None
-    transmission = loudest_transmission(case, one.mass)
+    transmission = loudest_transmission(case, candidate.mass)
 
     def at(speed: float, residual: float) -> LevelAtSpeed:
         return LevelAtSpeed(speed, displacement_level(residual * transmission, speed, case.background_level))
 
     low, high = case.speed_range
     steps = {low + (high - low) * step / CURVE_STEPS for step in range(CURVE_STEPS)}
-    curve = tuple(at(speed, _residual(case, imbalance, one, speed)) for speed in sorted({*steps, *judged_speeds(case)}))
+    curve = tuple(
+        at(speed, _residual(case, imbalance, candidate, speed)) for speed in sorted({*steps, *judged_speeds(case)})
+    )
     highest, arranged = max(curve, key=_after), max((at(each.speed, each.residual) for each in worst), key=_after)
     return SpeedLevels(curve, highest, arranged)
 
@@ -122,8 +126,10 @@ def _after(level: LevelAtSpeed) -> float:
     return level.after
 
 
-def _residual(case: Case, imbalance: float, one: Candidate, speed: float) -> float:
-    return accuracy_budget(case, imbalance, one.requirement, one.balls, one.budget.resting_angles, speed).residual
+def _residual(case: Case, imbalance: float, candidate: Candidate, speed: float) -> float:
+    return accuracy_budget(
+        case, imbalance, candidate.requirement, candidate.balls, candidate.budget.resting_angles, speed
+    ).residual
 
 
 @dataclass(frozen=True)
@@ -157,25 +163,25 @@ class Loaded:
     assumed="no separation of wheel and work",
     source="derived",
 )
-def loaded_vibration(case: Case, imbalance: float, one: Candidate, possible: bool) -> Loaded | None:
+def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Loaded | None:
     if case.contact is None:
         return None
-    bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, one.mass, damped=True)
+    bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, candidate.mass, damped=True)
     if bare is None or loaded is None:
-        idle = idle_vibration(case, imbalance, one, possible)
+        idle = idle_vibration(case, imbalance, candidate, possible)
         return Loaded(idle, idle.worst, parts_before=False, parts_after=False)
     runout, press = cmath.rect(case.runout, math.radians(case.table.wheel.runout_angle_deg)), case.contact.press_force
     before, after = max(map(abs, bare.axis(imbalance, runout))), None
     balancing = loaded.balancing_imbalance(runout)
-    carried = abs(balancing - imbalance) * abs(one.requirement.plane_ratio) <= one.capacity
+    carried = abs(balancing - imbalance) * abs(candidate.requirement.plane_ratio) <= candidate.capacity
     balanced = possible and carried and not loaded.balls_increase_imbalance
     if balanced:
-        rest = _residual(case, imbalance, one, case.speed)
+        rest = _residual(case, imbalance, candidate, case.speed)
         after = math.hypot(max(map(abs, loaded.axis(balancing, runout))), rest)
-    levels = handle_levels(case, before, after, one.mass)
+    levels = handle_levels(case, before, after, candidate.mass)
     parts_before = abs(bare.normal_force(imbalance, runout)) > press
     parts_after = balanced and abs(loaded.normal_force(balancing, runout)) > press
-    valid = handle_levels(case, None if parts_before else before, None if parts_after else after, one.mass)
+    valid = handle_levels(case, None if parts_before else before, None if parts_after else after, candidate.mass)
     return Loaded(valid, levels.worst, parts_before, parts_after)
 
 
@@ -196,14 +202,14 @@ def _loudest(levels: Iterable[float | None]) -> float | None:
     return max((level for level in levels if level is not None), default=None)
 
 
-def level_at_loudest(case: Case, one: Candidate, displacement: float) -> float:
+def level_at_loudest(case: Case, candidate: Candidate, displacement: float) -> float:
     """The level [dB] at the loudest handle of a displacement 0–peak [m] of the race, idle.
 
     What rests at a wheel off the race's plane is added as squares.
     """
     places = [handle.place for handle in case.handles] or [case.body.wheel]
-    at_wheel = math.hypot(displacement, one.budget.plane_offset)
-    return max(_level(case, at_wheel * case.body.transmission(place, one.mass)) for place in places)
+    at_wheel = math.hypot(displacement, candidate.budget.plane_offset)
+    return max(_level(case, at_wheel * case.body.transmission(place, candidate.mass)) for place in places)
 
 
 def _level(case: Case, displacement: float) -> float:

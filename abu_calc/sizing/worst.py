@@ -1,4 +1,4 @@
-"""What may stay at the worst: the arrangement at which friction holds the axis farthest off, and everything in line."""
+"""Worst residual displacement: friction holds the axis farthest off, and all parts are in line."""
 
 import math
 from functools import lru_cache
@@ -11,7 +11,7 @@ from abu_calc.sizing.budget import accuracy_budget, judged_speeds
 from abu_calc.sizing.case import Case
 
 _friction = lru_cache(maxsize=64)(worst_friction)
-"""Of races that differ in their eccentricity alone it is the same."""
+"""Worst friction, cached: races that differ only in their eccentricity have the same."""
 
 
 @dataclass(frozen=True)
@@ -24,16 +24,16 @@ class WorstResidual:
     residual: float
 
 
-def worst_residuals(case: Case, imbalance: float, one: Candidate) -> tuple[WorstResidual, ...]:
-    """At each of the judged speeds, in their order."""
-    return tuple(_worst(case, imbalance, one, speed) for speed in judged_speeds(case))
+def worst_residuals(case: Case, imbalance: float, candidate: Candidate) -> tuple[WorstResidual, ...]:
+    """Worst residual displacements at each of the judged speeds, in their order."""
+    return tuple(_worst(case, imbalance, candidate, speed) for speed in judged_speeds(case))
 
 
-def _worst(case: Case, imbalance: float, one: Candidate, speed: float) -> WorstResidual:
+def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> WorstResidual:
     """Plain sum of the parts, the race made oval by all balls in two opposite groups."""
-    balls, need = one.balls, one.requirement
-    usual = accuracy_budget(case, imbalance, need, balls, one.budget.resting_angles, speed)
-    mass, carried = case.body.effective_mass(one.mass, case.race_place), imbalance * abs(need.plane_ratio)
+    balls, need = candidate.balls, candidate.requirement
+    usual = accuracy_budget(case, imbalance, need, balls, candidate.budget.resting_angles, speed)
+    mass, carried = case.body.effective_mass(candidate.mass, case.race_place), imbalance * abs(need.plane_ratio)
     flexible = [speed**2 / dynamic_stiffness(case.suspension, axis, speed, mass) for axis in (0, 1)]
     band = case.friction_arm * balls.pitch_radius / balls.radius
     held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)

@@ -1,4 +1,4 @@
-"""What people write: the tables of machine.toml as strict models, and their reading, schema and template.
+"""Files that people write: the tables of machine.toml as strict models; reading, schema and template.
 
-`read.read_machine` is the way in; the models keep the units people wrote, nothing is converted to SI here.
+`read.read_machine` is the way in. The models keep the units of the file: nothing is converted to SI here.
 """

@@ -10,7 +10,7 @@ from abu_calc.spec.table import problem
 from abu_calc.spec.usual import usual
 
 MOST_BEARINGS: Final = 100
-"""In one file; the longest report on them takes some seconds."""
+"""Most bearings in one file; the longest report on them takes some seconds."""
 SeatMaterial = Literal["steel", "stainless-steel", "cast-iron", "aluminium", "magnesium"]
 Pair = Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)]
 

@@ -18,7 +18,7 @@ TOLERANCE = "tolerance"
 MOST_EXPECTED: Final = 1000
 LONGEST_PATH: Final = 200
 MOST_DIGITS: Final = 6
-"""Of a place in a list."""
+"""Most digits of a place in a list."""
 
 
 def _checked_expectations(expected: dict[str, object]) -> dict[str, object]:
@@ -150,7 +150,7 @@ class HasExpectations(Protocol):
 
 
 def expected_values(file: HasExpectations) -> dict[str, object]:
-    """What `abu verify` compares: path in the result → value."""
+    """Values that `abu verify` compares: path in the result → value."""
     return {path: value for path, value in file.expected.items() if not isinstance(value, dict)}
 
 

@@ -1,4 +1,4 @@
-"""How deep a TOML text may be nested, looked at before a parser spends time and memory on it."""
+"""Limit on the nesting of a TOML text, checked before a parser spends time and memory on it."""
 
 import re
 from typing import Final
@@ -21,8 +21,8 @@ def check_nesting(text: str, source: str) -> None:
     if text.count(".") + text.count("[") + text.count("{") <= DEEPEST:
         return
     line, depth, points = 1, 0, 0
-    for found in _TOKEN.finditer(text):
-        token = found[0]
+    for token_match in _TOKEN.finditer(text):
+        token = token_match[0]
         first = token[0]
         if first in "[{":
             depth += 1

@@ -33,7 +33,7 @@ class Document(NamedTuple):
     """A file whose TOML is right; its tables are not looked at yet."""
 
     file: str
-    """As it was named: a path, or a preset; empty when there is none."""
+    """Name as it was given: a path, or a preset; empty if there is none."""
     text: str
     sha256: str
     content: dict[str, object]
@@ -86,7 +86,11 @@ class Reading:
 
     def _override_of(self, key: str) -> "Override | None":
         """The override that an entry of the file comes from, if any: it, or the last that set a table around it."""
-        around = [one for one in self.overrides if key == one.key or key.startswith((f"{one.key}.", f"{one.key}["))]
+        around = [
+            override
+            for override in self.overrides
+            if key == override.key or key.startswith((f"{override.key}.", f"{override.key}["))
+        ]
         return around[-1] if around else None
 
 
@@ -182,9 +186,9 @@ def _decoded(raw: bytes, source: str) -> str:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        found = f"byte 0x{raw[error.start]:02x}"
+        bad_byte = f"byte 0x{raw[error.start]:02x}"
         raise InputError(
-            "the text is not UTF-8", place=Place(source, line), found=found, remedy="save the file as UTF-8"
+            "the text is not UTF-8", place=Place(source, line), found=bad_byte, remedy="save the file as UTF-8"
         ) from None
     if not text.strip():
         raise InputError("the file is empty", place=place, remedy="`abu init FILE` writes a commented one")

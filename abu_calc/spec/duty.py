@@ -1,4 +1,4 @@
-"""What the machine does besides idling: grinding, running up, hanging on a motor or on a swing arm."""
+"""Duties of the machine besides idling: grinding, run-up, work on a motor or on a swing arm."""
 
 from typing import Annotated, ClassVar, Final, Literal
 
@@ -9,9 +9,9 @@ from abu_calc.spec.usual import usual
 
 STIFFNESS: Final = "contact_stiffness_N_per_m"
 JOINT: Final = ("arm_length_mm", "moment_of_inertia_kg_m2", "joint_stiffness_N_per_m", "joint_damping_N_s_per_m")
-"""What an arm is made of."""
+"""Keys of the arm itself."""
 GRIP: Final = (STIFFNESS, "cutting_coefficient", "contact_angle_deg", "touch_angle_deg", "pressing_moment_N_m")
-"""How an arm is pressed to the work."""
+"""Keys of the contact that presses an arm to the workpiece."""
 
 
 class Grinding(Table):
@@ -120,7 +120,7 @@ class RunUp(Table):
     )
 
     def unused(self) -> frozenset[str]:
-        """What tells of the pause, where there is none."""
+        """Keys of the temporary speed reduction, if there is none."""
         return frozenset({"pause_s", "pause_rise_s"}) if self.pause_speed_rpm is None else frozenset()
 
 

@@ -1,4 +1,4 @@
-"""What is wrong with a file, in words: the findings of the models as errors with line, key and remedy."""
+"""Faults of a file, in words: the findings of the models as errors with line, key and action."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -111,7 +111,7 @@ def input_error(error: ValidationError, origin: Origin) -> InputError:
             errors.append(_wrong(kind, finding, origin))
     # A key that is only misspelt is not missing too.
     errors += [absent for path, absent in missing if path not in meant]
-    errors.sort(key=lambda found: (found.place.line is None, found.place.line or 0))
+    errors.sort(key=lambda problem: (problem.place.line is None, problem.place.line or 0))
     return errors[0] if len(errors) == 1 else SpecErrors(errors)
 
 

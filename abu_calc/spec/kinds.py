@@ -60,12 +60,12 @@ def kind_of(content: Mapping[str, object]) -> Kind:
 
 def refuse_others(document: "Document", *wanted: str) -> None:
     """Raises InputError for a file of another kind: a good file, only not one of these."""
-    found = kind_of(document.content)
-    mark = next((mark for mark in found.marks if mark in document.content), None)
-    if found.name in wanted or mark is None:
+    kind = kind_of(document.content)
+    mark = next((mark for mark in kind.marks if mark in document.content), None)
+    if kind.name in wanted or mark is None:
         return
     raise InputError(
-        f"this file holds {found.what}, not {BY_NAME[wanted[0]].what}",
+        f"this file holds {kind.what}, not {BY_NAME[wanted[0]].what}",
         place=Place(document.file, key=mark),
-        remedy=f"`abu {found.command}` takes it",
+        remedy=f"`abu {kind.command}` takes it",
     )

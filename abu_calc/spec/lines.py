@@ -1,4 +1,4 @@
-"""Where each key of a TOML text stands, for texts that a parser has read as well as for those it refused."""
+"""Lines of the keys of a TOML text, for texts that a parser has read and for those it refused."""
 
 import re
 import tomllib

@@ -1,4 +1,4 @@
-"""What an instrument showed of the idle machine, as people write it: keys of [wheel] and of [measured_after] alike."""
+"""Instrument readings of the idle machine in a file: keys of [wheel] and of [measured_after] alike."""
 
 from typing import Annotated, Any, Final, Literal, Self
 
@@ -74,7 +74,7 @@ class Measured(Table):
 
     @property
     def shown(self) -> Shown | None:
-        """What was measured; None where nothing was."""
+        """Measured quantity; None if nothing was measured."""
         for key in QUANTITIES:
             values = getattr(self, key, None)
             if values is not None:
@@ -170,7 +170,7 @@ class MeasuredAfter(Measured):
 
 
 def displaced_quantities(key: str) -> tuple[str, ...]:
-    """What one measured quantity takes the place of: the others, and a weighting of accelerations."""
+    """Keys that one measured quantity replaces: the other quantities, and a weighting of accelerations."""
     if key not in QUANTITIES:
         return ()
     others = tuple(other for other in QUANTITIES if other != key)

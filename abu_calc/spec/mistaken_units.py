@@ -34,7 +34,10 @@ MISTAKEN: Final[dict[str | None, dict[str, float]]] = {
     "rad": {"mrad": 1e-3, "deg": math.pi / 180},
     None: {"%": 0.01},
 }
-"""By the unit in the key: the units written instead, with their values in SI (frequencies and speeds in rad/s)."""
+"""Units written by mistake, by the unit in the key, with their values in SI.
+
+Frequencies and speeds are in rad/s.
+"""
 
 
 MOST: Final = 3
@@ -56,8 +59,8 @@ def guesses(key: str, values: Sequence[float], usual: Usual, speed_rpm: float | 
     [Guess(unit='Hz', values=(5820.0,))]
     """
     unit = unit_suffix(key)
-    found = _levels(values, speed_rpm) if unit == "db" else _converted(unit, values)
-    landing = [guess for guess in found if all(map(usual.holds, guess.values)) and guess.values[0] * values[0] > 0]
+    candidates = _levels(values, speed_rpm) if unit == "db" else _converted(unit, values)
+    landing = [guess for guess in candidates if all(map(usual.holds, guess.values)) and guess.values[0] * values[0] > 0]
     if unit == "db":
         landing.sort(key=lambda guess: abs(guess.values[0] - (usual.low + usual.high) / 2))
     else:
@@ -66,14 +69,14 @@ def guesses(key: str, values: Sequence[float], usual: Usual, speed_rpm: float | 
     return landing[:MOST]
 
 
-def meant_in(found: Sequence[Guess], unit: str) -> str:
+def meant_in(guesses: Sequence[Guess], unit: str) -> str:
     """Guesses in words, `unit` as printed after a number; empty for none.
 
     >>> meant_in([Guess("Hz", (5820.0,)), Guess("rad/s", (926.28,))], " rpm")
     'meant in Hz (5820 rpm) or rad/s (926.3 rpm)'
     """
-    words = (f"{one.unit} ({', '.join(bounded(float(f'{v:.4g}')) for v in one.values)}{unit})" for one in found)
-    return f"meant in {' or '.join(words)}" if found else ""
+    words = (f"{guess.unit} ({', '.join(bounded(float(f'{v:.4g}')) for v in guess.values)}{unit})" for guess in guesses)
+    return f"meant in {' or '.join(words)}" if guesses else ""
 
 
 def _converted(unit: str | None, values: Sequence[float]) -> Iterator[Guess]:
@@ -83,7 +86,7 @@ def _converted(unit: str | None, values: Sequence[float]) -> Iterator[Guess]:
 
 
 def _levels(values: Sequence[float], speed_rpm: float | None) -> Iterator[Guess]:
-    """What a meter shows in place of a velocity level: rms acceleration or velocity, levels of other references."""
+    """Readings mistaken for a velocity level: rms acceleration or velocity, levels of other references."""
     positive = all(value > 0 for value in values)
     if speed_rpm is not None and positive:
         speed = to_si(speed_rpm, "rpm")

@@ -1,4 +1,4 @@
-"""What an unknown key was meant to be."""
+"""Intended meaning of an unknown key."""
 
 import difflib
 from collections.abc import Iterable

@@ -16,7 +16,7 @@ _STEP: Final = re.compile(
     r"""\.?(?:([A-Za-z_][A-Za-z0-9_-]*)|\[(\d{1,6})\]|(?<=\.)(\d{1,6})(?![\w-])|"([^"]*)"|'([^']*)')"""
 )
 CHANGED: Final = "{}"
-"""What messages call an override that Python gave: by its key alone."""
+"""Name in messages of an override that Python gave: its key alone."""
 EXAMPLE: Final = "--set machine.mass_kg=5.6"
 VARIANT: Final = "--variant"
 _KEY_FOLLOWS: Final = re.compile(r"""\s*(?:[\w.\[\]-]|"[^"]*"|'[^']*')+\s*=""")
@@ -37,7 +37,7 @@ class Override:
 
     @property
     def option(self) -> str:
-        """How messages name it."""
+        """Name of the override in messages."""
         return self.given_as.format(self.key)
 
     def blamed(self, error: InputError) -> InputError:
@@ -208,7 +208,7 @@ def _put(document: dict[str, object], override: Override) -> None:
 
 
 def _at(document: dict[str, object], path: Sequence[Part]) -> object:
-    """What stands at a path, or None."""
+    """Value at a path, or None."""
     held: object = document
     for step in path:
         if isinstance(held, dict) and isinstance(step, str):

@@ -54,7 +54,7 @@ def plain_value(value: object, key: str, depth: int = 0) -> Any:
 
 
 def found_as(value: object) -> str:
-    """How messages show a value of Python, cut where it is long."""
+    """Form in which messages show a value of Python, cut if it is long."""
     try:
         text = repr(value)
     except Exception:  # integers of thousands of digits have none, and whatever a script may define

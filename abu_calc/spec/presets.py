@@ -9,7 +9,7 @@ SUFFIX: Final = ".toml"
 
 
 def folder() -> Path:
-    """Where the presets are: inside the installed package, or beside it in a checkout."""
+    """Folder of the presets: inside the installed package, or beside it in a checkout."""
     package = Path(__file__).resolve().parent.parent
     inside = package / "presets"
     return inside if inside.is_dir() else package.parent / "presets"

@@ -92,7 +92,10 @@ def _whole() -> "type[MachineFile]":
 
 
 def _bearings_alone(document: Mapping[str, object]) -> bool:
-    """Whether a file is for bearing seats only: its machine has no more than a name, and there are bearings."""
+    """True if a file is for bearing seats only.
+
+    Its machine then has no more than a name, and there are bearings.
+    """
     head = document.get("machine", {})
     named_only = isinstance(head, dict) and head.keys() <= {"name"}
     return (

@@ -9,5 +9,5 @@ from abu_calc.spec.kinds import kind_of
 def read_file(source: str, overrides: Sequence[str] = ()) -> Reading:
     """Reads a file of any kind, or a preset by its name, entries replaced; raises as the reader of its kind."""
     document = open_document(source)
-    found: Reading = kind_of(document.content).call("reads", document, parsed_overrides(overrides))
-    return found
+    reading: Reading = kind_of(document.content).call("reads", document, parsed_overrides(overrides))
+    return reading

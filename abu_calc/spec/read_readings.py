@@ -39,8 +39,8 @@ class Readings(Reading):
 
     def beside(self, name: str) -> Path:
         """A file that this one names: by its whole path, or beside it."""
-        found = Path(self.file) if Path(self.file).exists() else presets.find(self.file) or Path(self.file)
-        return found.absolute().parent / name
+        own_path = Path(self.file) if Path(self.file).exists() else presets.find(self.file) or Path(self.file)
+        return own_path.absolute().parent / name
 
 
 def read_readings(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Readings:
@@ -55,15 +55,15 @@ def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> R
     """The readings of a document that is open already; raises as `read_readings` does."""
     refuse_others(document, "readings")
     tables, reading = validate(document, overrides, ReadingsFile, lambda _: ReadingsFile)
-    found = Readings(**vars(reading), tables=tables)
-    with found.located():
+    readings = Readings(**vars(reading), tables=tables)
+    with readings.located():
         for index, run in enumerate(tables.run):
-            if run.file is not None and not _is_file(path := found.beside(run.file)):
+            if run.file is not None and not _is_file(path := readings.beside(run.file)):
                 raise InputError(
                     "the record is not there", place=Place(key=f"run[{index}].file"), found=shortened(str(path)),
                     remedy="put the file beside this one, or write its whole path",
                 )  # fmt: skip
-    return found
+    return readings
 
 
 def _is_file(path: Path) -> bool:

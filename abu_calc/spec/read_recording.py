@@ -26,7 +26,7 @@ def read_recording(
     numbers, from 1, of the columns or channels to take. Raises InputError with file, line and column for what is wrong.
     """
     path, content = _content(file)
-    known = next((one for one in QUANTITIES if one == quantity), None)
+    known = next((name for name in QUANTITIES if name == quantity), None)
     if quantity is not None and known is None:
         allowed = ", ".join(QUANTITIES)
         raise InputError("not a quantity of motion", place=Place(key="quantity"), found=quantity, allowed=allowed)
@@ -46,7 +46,7 @@ def read_recording(
 
 
 def is_recording(file: str) -> bool:
-    """Whether a file's name is that of a recording; others hold machines or scenes, or are presets."""
+    """True if a file's name is that of a recording; others hold machines or scenes, or are presets."""
     return Path(file).suffix.lower() in SUFFIXES
 
 

@@ -28,7 +28,7 @@ LENGTHS: Final = (
     "right_plane_to_right_end_m",
 )
 OF_THE_RIG: Final = ("mass_kg", "transverse_inertia_kg_m2", *LENGTHS)
-"""What the equations of the rig need of the roll."""
+"""Data of the roll that the equations of the rig need."""
 ALIKE: Final = 1e-9
 """Places that differ by less, as directions, are one [rad]."""
 

@@ -1,4 +1,4 @@
-"""How far readings and data of the rig may be off."""
+"""Errors that readings and data of the rig may have."""
 
 from pydantic import Field
 

@@ -35,7 +35,7 @@ class Recording:
 
     @property
     def duration(self) -> float:
-        """Of the record [s]."""
+        """Duration of the record [s]."""
         return len(self.samples[0]) / self.rate
 
 
@@ -50,9 +50,9 @@ class Asked:
 
 def recording(
     path: str, content: bytes, quantity: MotionQuantity, axes: Sequence[tuple[str, NDArray[np.float64]]], rate: float,
-    told: Sequence[str] = (), *, simulated: bool = False,
+    remarks: Sequence[str] = (), *, simulated: bool = False,
 ) -> Recording:  # fmt: skip
-    """What was read; refused with more than three axes, or one that stands still."""
+    """Recording of the data read; refused with more than three axes, or with one that stands still."""
     names, samples = tuple(name for name, _ in axes), tuple(values for _, values in axes)
     if len(axes) > MOST_AXES:
         raise InputError(
@@ -73,12 +73,12 @@ def recording(
             remedy="A sensor that is not connected? Leave the channel out: --channels (Python: channels=).",
         )  # fmt: skip
     digest = hashlib.sha256(content).hexdigest()
-    return Recording(path, digest, quantity, names, samples, rate, tuple(told), simulated)
+    return Recording(path, digest, quantity, names, samples, rate, tuple(remarks), simulated)
 
 
 def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int]:
     """Indices of the columns or channels asked for, by name or by number from 1."""
-    found = []
+    indices = []
     for asked in channels:
         index = names.index(asked) if asked in names else int(asked) - 1 if asked.isdecimal() else -1
         if not 0 <= index < len(names):
@@ -87,10 +87,10 @@ def chosen(path: str, names: Sequence[str], channels: Sequence[str]) -> list[int
                 allowed=", ".join(f"{k} ({name})" for k, name in enumerate(names, 1)),
                 remedy="--channels takes numbers or names (Python: channels=).",
             )  # fmt: skip
-        if index in found:
+        if index in indices:
             raise InputError("the same channel twice", place=Place(path), found=asked)
-        found.append(index)
-    return found
+        indices.append(index)
+    return indices
 
 
 def flat_tops(values: NDArray[np.float64], least_step: float, run: int = 3) -> int | None:

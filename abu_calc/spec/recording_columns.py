@@ -1,4 +1,4 @@
-"""What the name of a column of a recorded motion tells: time or motion, its quantity, its unit."""
+"""Meaning of a column's name in a recorded motion: time or motion, its quantity, its unit."""
 
 import re
 from typing import Final
@@ -44,7 +44,7 @@ class Column:
 
 
 def column_of(name: str) -> Column:
-    """What a name says, "vx_mm_per_s", "a [m/s^2]", "Time (ms)".
+    """Meaning of a column's name, such as "vx_mm_per_s", "a [m/s^2]", "Time (ms)".
 
     >>> column_of("vx_mm_per_s").quantity, column_of("t_s").is_time, column_of("a [g]").unit
     ('velocity', True, 9.80665)

@@ -13,7 +13,7 @@ from abu_calc.spec.recording import Asked, MotionQuantity, Recording, chosen, fl
 from abu_calc.spec.recording_columns import AXIS, Column, column_of
 
 EVEN: Final = 0.05
-"""Of a step, by which times may stray from their grid: more is not the rounding of printed times."""
+"""Share of a step by which times may stray from their grid: more is not the rounding of written times."""
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,10 @@ class Lines:
 
 def csv_recording(path: str, content: bytes, asked: Asked) -> Recording:
     """The recording of a CSV file."""
-    told: list[str] = []
-    table = _table(path, _text(path, content), told)
+    remarks: list[str] = []
+    table = _table(path, _text(path, content), remarks)
     columns = [column_of(name) for name in table.names]
-    time = next((k for k, one in enumerate(columns) if one.is_time), None)
+    time = next((k for k, column in enumerate(columns) if column.is_time), None)
     if time is None:
         raise InputError(
             "no column of time", place=Place(path, table.numbers[0] - 1), found=", ".join(table.names),
@@ -40,17 +40,17 @@ def csv_recording(path: str, content: bytes, asked: Asked) -> Recording:
     rate = _rate(table, time, columns[time])
     simulated = {"x_mm", "y_mm", "ball1_deg"} <= set(table.names)
     picked = _picked(table, columns, time, asked, simulated=simulated)
-    quantity = _quantity(path, [columns[k] for k in picked], asked, told)
+    quantity = _quantity(path, [columns[k] for k in picked], asked, remarks)
     with np.errstate(over="ignore", invalid="ignore"):  # samples that large are refused below
-        axes = [(columns[k].name, table.values[:, k] * _unit(columns[k], quantity, asked, told)) for k in picked]
+        axes = [(columns[k].name, table.values[:, k] * _unit(columns[k], quantity, asked, remarks)) for k in picked]
         clipped = [(name, _clipped(values)) for name, values in axes]
     for name, cut in clipped:
         if cut is not None:
-            told.append(
+            remarks.append(
                 f"{name} stays at its largest value again and again, first on line {table.numbers[cut]}: a recording "
                 "that is clipped reads too low."
             )
-    return recording(path, content, quantity, axes, rate, told, simulated=simulated)
+    return recording(path, content, quantity, axes, rate, remarks, simulated=simulated)
 
 
 def _text(path: str, content: bytes) -> str:
@@ -65,7 +65,7 @@ def _text(path: str, content: bytes) -> str:
         return content.decode("cp1251" if re.search(rb"[\xc0-\xff]{2}", content[:4096]) else "latin-1", "replace")
 
 
-def _table(path: str, text: str, told: list[str]) -> Lines:
+def _table(path: str, text: str, remarks: list[str]) -> Lines:
     """Names and numbers; comments (#) and empty lines left out."""
     rows = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
     first = next((k for k, (_, line) in enumerate(rows) if _numeric(line)), None)
@@ -82,7 +82,7 @@ def _table(path: str, text: str, told: list[str]) -> Lines:
     heads = [[cell.strip().strip('"') for cell in _cells(line, delimiter)] for _, line in rows[:first]]
     if delimiter != "," and "," in rows[first][1]:
         rows = [(number, _pointed(path, number, line) if k >= first else line) for k, (number, line) in enumerate(rows)]
-        told.append("Commas are taken for decimal points.")
+        remarks.append("Commas are taken for decimal points.")
     width = len(_cells(rows[first][1], delimiter))
     for (number, _), head in zip(rows[:first], heads, strict=True):
         if len(head) != width:
@@ -100,13 +100,16 @@ def _table(path: str, text: str, told: list[str]) -> Lines:
 
 
 def _numeric(line: str) -> bool:
-    """Whether the first cell of a line is a number; a comma before a digit may be a decimal point, or end the cell."""
+    """True if the first cell of a line is a number.
+
+    A comma before a digit may be a decimal point, or end the cell.
+    """
     cell = re.split(r"[;\t]|,(?!\d)|\s", line.strip())[0].strip('"')
     return re.fullmatch(r"[-+]?(\d+([.,]\d*)*|[.,]\d+)([eE][-+]?\d+(,.*)?)?", cell) is not None
 
 
 def _delimiter(line: str) -> str | None:
-    """What parts the cells of a row of numbers; None: blanks."""
+    """Delimiter of the cells in a row of numbers; None: blanks."""
     return next((sign for sign in (";", "\t", ",") if sign in line), None)
 
 
@@ -126,9 +129,9 @@ def _values(
     """Numbers, row by row; the first cell that is none is told with its line and column."""
     plain = [line.strip().replace('"', "") for line in lines]
     try:
-        found = np.loadtxt(plain, delimiter=delimiter, ndmin=2, comments=None)
-        if np.isfinite(found).all() and found.shape[1] == len(names):
-            return np.asarray(found, dtype=float)
+        array = np.loadtxt(plain, delimiter=delimiter, ndmin=2, comments=None)
+        if np.isfinite(array).all() and array.shape[1] == len(names):
+            return np.asarray(array, dtype=float)
     except ValueError:
         pass
     for number, line in zip(numbers, plain, strict=True):
@@ -191,7 +194,7 @@ def _gaps(steps: NDArray[np.float64]) -> list[int]:
 
 
 def _uneven(steps: NDArray[np.float64], place: Callable[[int], Place]) -> InputError:
-    """What is wrong with steps of time: a gap, if they are alike but for few, or no fixed rate."""
+    """Fault in the steps of time: a gap, if they are alike but for few, or no fixed rate."""
     usual, gaps = float(np.median(steps)), _gaps(steps)
     if gaps:
         k = gaps[0]
@@ -208,7 +211,7 @@ def _uneven(steps: NDArray[np.float64], place: Callable[[int], Place]) -> InputE
 
 
 def _picked(table: Lines, columns: Sequence[Column], time: int, asked: Asked, *, simulated: bool) -> list[int]:
-    """Which columns: those asked for, else x and y of a trajectory, else all that may be the quantity."""
+    """Columns to read: those asked for, else x and y of a trajectory, else all that may be the quantity."""
     others = [k for k in range(len(columns)) if k != time]
     if asked.channels:
         return [others[k] for k in chosen(table.path, [columns[k].name for k in others], asked.channels)]
@@ -232,33 +235,33 @@ def _picked(table: Lines, columns: Sequence[Column], time: int, asked: Asked, *,
     return wanted or others
 
 
-def _quantity(path: str, columns: Sequence[Column], asked: Asked, told: list[str]) -> MotionQuantity:
-    found = list(dict.fromkeys(one.quantity for one in columns if one.quantity is not None))
-    if asked.quantity is not None and found in ([], [asked.quantity]):
+def _quantity(path: str, columns: Sequence[Column], asked: Asked, remarks: list[str]) -> MotionQuantity:
+    quantities = list(dict.fromkeys(column.quantity for column in columns if column.quantity is not None))
+    if asked.quantity is not None and quantities in ([], [asked.quantity]):
         return asked.quantity
-    if asked.quantity is not None or len(found) > 1:
+    if asked.quantity is not None or len(quantities) > 1:
         raise InputError(
-            "the columns are of several quantities", place=Place(path), found=", ".join(one.name for one in columns),
+            "the columns are of several quantities", place=Place(path), found=", ".join(axis.name for axis in columns),
             remedy="Say which: --quantity acceleration or velocity, --channels (Python: quantity=, channels=).",
         )  # fmt: skip
-    if not found:
-        told.append(
+    if not quantities:
+        remarks.append(
             f'{columns[0].name} is taken for an acceleration; name its unit ("a_m_per_s2", "v [mm/s]"), or say '
             "--quantity velocity."
         )
-    return found[0] if found else "acceleration"
+    return quantities[0] if quantities else "acceleration"
 
 
-def _unit(column: Column, quantity: MotionQuantity, asked: Asked, told: list[str]) -> float:
+def _unit(column: Column, quantity: MotionQuantity, asked: Asked, remarks: list[str]) -> float:
     """SI per unit of a column."""
     if asked.scale is not None:
         if column.unit is not None:
-            told.append(f"The scale takes the place of the unit in {column.name}.")
+            remarks.append(f"The scale takes the place of the unit in {column.name}.")
         return asked.scale
     if column.unit is not None:
         return column.unit
     unit = {"acceleration": "m/s²", "velocity": "m/s", "displacement": "m"}[quantity]
-    told.append(f"{column.name} names no unit and is taken in {unit}; --scale says otherwise.")
+    remarks.append(f"{column.name} names no unit and is taken in {unit}; --scale says otherwise.")
     return 1.0
 
 

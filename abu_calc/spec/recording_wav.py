@@ -22,17 +22,17 @@ def wav_recording(path: str, content: bytes, asked: Asked) -> Recording:
             remedy="Give --scale S: m/s² at full scale (with --quantity velocity m/s); Python: scale=.",
         )  # fmt: skip
     rate, data = _read(path, content)
-    told = []
+    remarks = []
     quantity = asked.quantity or "acceleration"
     if asked.quantity is None:
-        told.append("The samples are taken for accelerations; --quantity velocity says otherwise.")
+        remarks.append("The samples are taken for accelerations; --quantity velocity says otherwise.")
     columns = data.reshape(len(data), -1).T
     names = [f"channel {k}" for k in range(1, len(columns) + 1)]
     picked = chosen(path, names, asked.channels) if asked.channels else list(range(len(columns)))
     if len(picked) > 1:
-        told.append(f"The {len(picked)} channels are taken for axes of one place.")
+        remarks.append(f"The {len(picked)} channels are taken for axes of one place.")
     axes = [(names[k], _full_scale(path, names[k], columns[k], rate) * asked.scale) for k in picked]
-    return recording(path, content, quantity, axes, float(rate), told)
+    return recording(path, content, quantity, axes, float(rate), remarks)
 
 
 def _read(path: str, content: bytes) -> tuple[int, NDArray[Any]]:
@@ -54,16 +54,16 @@ def _full_scale(path: str, name: str, values: NDArray[Any], rate: int) -> NDArra
     """Samples as shares of full scale; refused where they are cut off there, or are no numbers."""
     kind = str(values.dtype)
     zero, full = WHOLE.get(kind, (0.0, 1.0))
-    found = (values.astype(float) - zero) / full
-    bad = np.flatnonzero(~np.isfinite(found))
+    samples = (values.astype(float) - zero) / full
+    bad = np.flatnonzero(~np.isfinite(samples))
     if len(bad):
         raise InputError("a sample is no number", place=Place(path, key=name), found=f"at {bad[0] / rate:.6g} s")
     step = 1 / full if kind in WHOLE else 2.0**-23
     limit = 1 - 1.5 * step if kind in WHOLE else 1.0
-    cut = flat_tops(found, step) if float(np.abs(found).max()) >= limit else None
+    cut = flat_tops(samples, step) if float(np.abs(samples).max()) >= limit else None
     if cut is not None:
         raise InputError(
             "the recording is clipped: the signal stays at full scale, so its levels would be too low",
             place=Place(path, key=name), found=f"first at {cut / rate:.6g} s", remedy="Record again with less gain.",
         )  # fmt: skip
-    return found
+    return samples

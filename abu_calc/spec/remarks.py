@@ -1,5 +1,6 @@
-"""What a file that reads without error must still be asked about: unusual numbers, numbers that do not go together,
-and defaults that are another machine's.
+"""Warnings about a file that reads without error.
+
+They concern unusual numbers, numbers that do not go together, and defaults that are another machine's.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -31,7 +32,7 @@ class Source:
 
     def of(self, path: tuple[Part, ...]) -> str:
         """Line, or option, in brackets; empty where there is neither."""
-        given = [one for one in self.overrides if path[: len(one.path)] == one.path]
+        given = [override for override in self.overrides if path[: len(override.path)] == override.path]
         if given:
             return f" ({given[-1].option.removesuffix(given[-1].key).strip() or 'changed'})"
         from abu_calc.spec.lines import line_of

@@ -75,15 +75,15 @@ def _columns(first: list[str], path: Path, line: int) -> tuple[tuple[int, ...], 
     if _is_number(first[0]):
         return tuple(range(len(COLUMNS))), 1.0, 0
     names = [name.lower() for name in first]
-    found = [[k for k, name in enumerate(names) if _is(name, column)] for column in COLUMNS]
-    if len(names) == len(COLUMNS) and not any(found[1:]):
-        found = [[k] for k in range(len(COLUMNS))]  # names of another language: in the order asked for
-    if any(len(each) != 1 for each in found):
+    matches = [[k for k, name in enumerate(names) if _is(name, column)] for column in COLUMNS]
+    if len(names) == len(COLUMNS) and not any(matches[1:]):
+        matches = [[k] for k in range(len(COLUMNS))]  # names of another language: in the order asked for
+    if any(len(each) != 1 for each in matches):
         raise InputError(
             "columns are not told apart by their names", place=place, found=", ".join(first), allowed=REMEDY
         )
-    time = names[found[0][0]]
-    return tuple(each[0] for each in found), 1e-3 if re.search(r"[_ (\[]ms\b", time) else 1.0, 1
+    time = names[matches[0][0]]
+    return tuple(each[0] for each in matches), 1e-3 if re.search(r"[_ (\[]ms\b", time) else 1.0, 1
 
 
 def _is(name: str, column: str) -> bool:
@@ -109,9 +109,9 @@ def _table(rows: list[tuple[int, str]], separator: str | None, columns: tuple[in
             cells = _split(row, separator)
             wrong = next((k for k in columns if k >= len(cells) or not _is_number(cells[k])), None)
             if wrong is not None:
-                found = cells[wrong] if wrong < len(cells) else f"{len(cells)} columns"
+                entry = cells[wrong] if wrong < len(cells) else f"{len(cells)} columns"
                 raise InputError(
-                    "not a number", place=Place(str(path), line), found=found or "nothing", allowed=REMEDY
+                    "not a number", place=Place(str(path), line), found=entry or "nothing", allowed=REMEDY
                 ) from None
         raise
 
@@ -125,6 +125,6 @@ def _check(table: Array, rows: list[tuple[int, str]], path: Path) -> None:
     back = np.flatnonzero(np.diff(table[:, 0]) <= 0)
     if back.size:
         line, _ = rows[int(back[0]) + 1]
-        found = " after ".join(f"{value:.9g}" for value in table[[back[0] + 1, back[0]], 0])
+        times = " after ".join(f"{value:.9g}" for value in table[[back[0] + 1, back[0]], 0])
         remedy = "write time with more digits, if it stands still"
-        raise InputError("time does not go on", place=Place(str(path), line), found=found, remedy=remedy)
+        raise InputError("time does not go on", place=Place(str(path), line), found=times, remedy=remedy)

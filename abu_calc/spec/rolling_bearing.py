@@ -134,7 +134,7 @@ class RollingBearing(Table):
         return {**super().own_defaults(), **derived}
 
     def _class_is_designated(self) -> bool:
-        """Whether a suffix tells the class; an unknown designation is refused where it is looked up."""
+        """True if a suffix gives the class; an unknown designation is refused where it is looked up."""
         from abu_calc.standards.designations import read_designation  # many files have no bearing
 
         try:

@@ -116,9 +116,9 @@ def refuse_overlap(index: int, race: SceneRace, ball_radius: float) -> None:
     for place, angle in enumerate(angles):
         gap = (angles[(place + 1) % len(angles)] - angle) % math.tau or math.tau * (len(angles) == 1)
         if gap < 2 * half_angle - TOUCHING:
-            one, other = sorted((order[place] + 1, order[(place + 1) % len(angles)] + 1))
+            first_ball, other = sorted((order[place] + 1, order[(place + 1) % len(angles)] + 1))
             raise problem(
-                f"balls {one} and {other} overlap at the start",
+                f"balls {first_ball} and {other} overlap at the start",
                 *("race", index, "start_angles_deg"),
                 found=f"{math.degrees(gap):.6g}° apart",
                 allowed=f"at least {math.degrees(2 * half_angle):.6g}°",

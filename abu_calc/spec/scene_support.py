@@ -1,4 +1,4 @@
-"""What the rotor of a scene hangs on, where that is more than springs in the plane."""
+"""Supports of a scene's rotor beyond springs in the plane."""
 
 from typing import Annotated, ClassVar, Final, Self
 
@@ -129,7 +129,7 @@ class SceneSwingArm(SwingArm):
     )
 
     def unused(self) -> frozenset[str]:
-        """How the wheel is pressed to the work, while it is not."""
+        """Keys of the pressing to the workpiece, while the wheel is not pressed."""
         return frozenset() if self.cutting else frozenset({*GRIP, "wheel_radius_mm"})
 
     @model_validator(mode="after")

@@ -11,7 +11,7 @@ from abu_calc.spec.table import Table
 
 DRAFT: Final = "http://json-schema.org/draft-04/schema#"
 MACHINE: Final = "Machine"
-"""What editors know a whole machine's file by."""
+"""Name by which editors know a whole machine's file."""
 
 _BOUNDS: Final = {"exclusiveMinimum": "minimum", "exclusiveMaximum": "maximum"}
 _DROPPED: Final = ("title", "examples", "$defs")

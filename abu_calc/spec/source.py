@@ -15,7 +15,10 @@ STANDARD_INPUT: Final = "-"
 
 
 def bytes_of(source: str) -> bytes:
-    """What stands there. Raises InputError for what is no file, what cannot be read, and what is too large."""
+    """Bytes of a source.
+
+    Raises InputError if it is no file, cannot be read, or is too large.
+    """
     place = Place(source)
     try:
         raw = _standard_input() if source == STANDARD_INPUT else regular_file(_path(source))
@@ -34,7 +37,10 @@ def _standard_input() -> bytes:
 
 
 def regular_file(path: Path, most: int = LARGEST_FILE) -> bytes:
-    """At most so many of its bytes and one; a pipe or a device, which may never end or begin, is not waited for."""
+    """First `most` bytes of a file and one more.
+
+    A pipe or a device, which may never end or begin, is not waited for.
+    """
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
     with os.fdopen(handle, "rb") as stream:
         if not stat.S_ISREG(os.fstat(handle).st_mode):

@@ -14,15 +14,15 @@ RUNS: Final = 100
 
 def _by_key(value: object) -> object:
     """KEY=… as on the command line, a list of them, as a table by key."""
-    if not isinstance(value, list) or not all(isinstance(one, str) for one in value):
+    if not isinstance(value, list) or not all(isinstance(entry, str) for entry in value):
         return value
-    found = {}
-    for one in value:
-        key, equals, how = one.partition("=")
+    variations = {}
+    for assignment in value:
+        key, equals, how = assignment.partition("=")
         if not equals:
-            raise problem("not KEY=…", found=one, allowed='"wheel.imbalance_g_mm=normal(265, 40)"')
-        found[key.strip()] = how.strip()
-    return found
+            raise problem("not KEY=…", found=assignment, allowed='"wheel.imbalance_g_mm=normal(265, 40)"')
+        variations[key.strip()] = how.strip()
+    return variations
 
 
 def _texts(value: object) -> object:

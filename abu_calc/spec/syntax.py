@@ -1,4 +1,4 @@
-"""What is wrong with the TOML of a file: the parser's messages turned into what to change."""
+"""Faults in the TOML of a file: the parser's messages turned into instructions on what to change."""
 
 import re
 from typing import Final
@@ -10,7 +10,7 @@ from abu_calc.spec.text import key_path, quoted
 _WHERE: Final = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)")
 _NUMBER: Final = r"[+-]?\d[\d_]*(?:\.\d+)?(?:[eE][+-]?\d+)?"
 _DIGITS: Final = re.compile(r"\d(?:_?\d){4300}")
-"""Of a number that Python takes no time for; its error tells no line."""
+"""Number with more digits than Python spends time on; its error gives no line."""
 DECIMAL_COMMA: Final = re.compile(r"([+-]?\d+),(\d+)")
 _WORDS: Final = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
 _NOTHING: Final = ("none", "null", "nil", "-")
@@ -36,7 +36,7 @@ def reworded(text: str, file: str, error: ValueError | RecursionError) -> InputE
         return InputError("the file is nested too deeply", place=Place(file))
     if "integer string conversion" in str(error) and (long := _DIGITS.search(text)):
         line = text.count("\n", 0, long.start()) + 1
-        key = next((key_path(one.path) for one in statements(text) if one.line <= line <= one.last_line), None)
+        key = next((key_path(entry.path) for entry in statements(text) if entry.line <= line <= entry.last_line), None)
         place = Place(file, line, key)
         return InputError("not TOML: a number of thousands of digits", place=place, remedy="write a shorter number")
     message = str(error)
@@ -55,9 +55,9 @@ def reworded(text: str, file: str, error: ValueError | RecursionError) -> InputE
         kind = "table" if twice.header else "key"
         remedy = "merge the two" if kind == "table" else "keep one of the two"
         return InputError(f"the {kind} stands twice, first in line {twice.line}", place=place, remedy=remedy)
-    found, fault, change = _seen(rows[line - 1].strip() if line <= len(rows) else "")
+    excerpt, fault, change = _seen(rows[line - 1].strip() if line <= len(rows) else "")
     plain = _WHERE.sub("", message).strip() or "not TOML"
-    return InputError(f"not TOML: {fault or plain[0].lower() + plain[1:]}", place=place, found=found, remedy=change)
+    return InputError(f"not TOML: {fault or plain[0].lower() + plain[1:]}", place=place, found=excerpt, remedy=change)
 
 
 def _first_of_two(known: list[Statement], line: int) -> Statement | None:
@@ -70,7 +70,7 @@ def _first_of_two(known: list[Statement], line: int) -> Statement | None:
 
 
 def _seen(row: str) -> tuple[str | None, str | None, str | None]:
-    """What a refused line holds, what is wrong with it, and the remedy; each as far as it is known."""
+    """Text of a refused line, its fault, and the action; each as far as it is known."""
     if row.startswith("["):
         return row, None, "a table's name stands alone on its line: [wheel], or [[bearing]] for one of several"
     key, equals, value = (part.strip() for part in row.partition("="))

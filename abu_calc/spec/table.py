@@ -1,4 +1,4 @@
-"""What all tables of a file share: strictness, the defaults in force, the rules between keys."""
+"""Common parts of all tables of a file: strictness, the defaults in force, the rules between keys."""
 
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Final, Self, get_args
@@ -31,7 +31,7 @@ class Table(BaseModel):
     """Keys without a default that a new file should nevertheless show live."""
 
     inline: ClassVar[bool] = False
-    """Whether a new file writes it in one line, `key = { … }`."""
+    """True if a new file writes the table in one line, `key = { … }`."""
 
     example_defaults: ClassVar[frozenset[str]] = frozenset()
     """Keys whose default is an example's, or a guess, and never that of the machine at hand."""
@@ -71,7 +71,10 @@ class Table(BaseModel):
         return tuple(key for key in type(self).model_fields if key in self.example_defaults and key not in silent)
 
     def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:
-        """What is unusual of numbers together, though each may stand alone: a path below this table, words on it."""
+        """Numbers that are unusual together, though each may stand alone.
+
+        Each item is a path below this table, and words on it.
+        """
         return iter(())
 
     def own_defaults(self) -> dict[str, object]:
@@ -96,7 +99,7 @@ class Table(BaseModel):
                 yield (*path, key)
 
     def tables(self, path: tuple[Part, ...] = ()) -> "Iterator[tuple[tuple[Part, ...], Table]]":
-        """This table and those inside it, with their paths."""
+        """Table itself and those inside it, with their paths."""
         yield path, self
         for key in type(self).model_fields:
             value = getattr(self, key)
@@ -126,21 +129,21 @@ def subtable(model: type[Table], key: str) -> type[Table] | None:
 def _table_in(annotation: object) -> type[Table] | None:
     if isinstance(annotation, type) and issubclass(annotation, Table):
         return annotation
-    return next((found for found in map(_table_in, get_args(annotation)) if found), None)
+    return next((table for table in map(_table_in, get_args(annotation)) if table), None)
 
 
 def is_array(model: type[Table], key: str) -> bool:
-    """Whether a key of a model takes an array (of tables, or of numbers)."""
+    """True if a key of a model takes an array (of tables, or of numbers)."""
     return "tuple" in str(model.model_fields[key].annotation)
 
 
 def table_at(model: type[Table], path: tuple[Part, ...]) -> type[Table] | None:
     """The model of the table at a path below `model`."""
-    found: type[Table] | None = model
+    table: type[Table] | None = model
     for part in path:
-        if isinstance(part, str) and found is not None:
-            found = subtable(found, part)
-    return found
+        if isinstance(part, str) and table is not None:
+            table = subtable(table, part)
+    return table
 
 
 def all_tables(model: type[Table], path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], type[Table]]]:
@@ -167,7 +170,7 @@ def one_line(text: str) -> str:
 
 
 Name = Annotated[str, AfterValidator(one_line)]
-"""What people call a thing, as reports print it."""
+"""Name that people give to a thing, as reports show it."""
 
 
 def boxed(value: object) -> object:

@@ -1,4 +1,4 @@
-"""How keys, values and units are printed, the same in every message."""
+"""Text form of keys, values and units, the same in every message."""
 
 import datetime
 import math
@@ -83,5 +83,5 @@ def unit_symbol(key: str) -> str:
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a finite number (true and false are none)."""
+    """True if a value is a finite number (true and false are none)."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and -math.inf < value < math.inf

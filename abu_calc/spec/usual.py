@@ -22,7 +22,7 @@ class Usual(NamedTuple):
     high: float
 
     def holds(self, value: float) -> bool:
-        """Whether a number is nothing to wonder about.
+        """True if a number is zero or within the usual range, so that no question arises.
 
         >>> usual = Usual(1, 1000)
         >>> [usual.holds(value) for value in (0, 0.1, -200, 2000)]

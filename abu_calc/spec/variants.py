@@ -14,7 +14,7 @@ from abu_calc.spec.overrides import Override, apply, parse_override
 from abu_calc.spec.text import Part
 
 VARIED = "vary {}"
-"""What messages call a value that a sweep gave."""
+"""Name in messages of a value that a sweep gave."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Variants(Generic[Model]):
 
     @classmethod
     def of(cls, reading: Reading, model: type[Model]) -> "Variants[Model]":
-        """Of a file that was read."""
+        """Variants of a file that was read."""
         content = reading.document.content
         apply(content, reading.overrides, model)
         return cls({name: table for name, table in content.items() if name not in ("sweep", "expected")}, model)

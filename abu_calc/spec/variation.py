@@ -1,4 +1,7 @@
-"""How a value varies among the members of a sweep: `LOW:HIGH:N`, a list, or a distribution, as it is written."""
+"""Variation of a value among the samples of a sweep: `LOW:HIGH:N`, a list, or a distribution.
+
+The module reads it as it is written.
+"""
 
 import re
 import tomllib
@@ -36,7 +39,7 @@ class Variation:
 
     @property
     def listed(self) -> bool:
-        """Whether its values come each in its turn, so that they count members."""
+        """True if the values come each in its turn, so that they count samples."""
         return self.kind == "values"
 
     @property
@@ -55,7 +58,7 @@ class Variation:
 
 
 def variation(value: object, place: Place) -> Variation:
-    """How a value varies, as text on the command line and in a file, or a list of values.
+    """Variation of a value, given as text on the command line and in a file, or as a list of values.
 
     >>> variation("1:2:3", Place()).values
     (1.0, 1.5, 2.0)
@@ -148,14 +151,14 @@ def _one(part: str, text: str, place: Place) -> object:
         return part
 
 
-def _several(values: tuple[object, ...], place: Place, found: object) -> tuple[object, ...]:
+def _several(values: tuple[object, ...], place: Place, given: object) -> tuple[object, ...]:
     """Values of a list, of which there are some, and finite."""
     for value in values:
         number = plain_number(value)
         if number is not None and not -1e300 < number < 1e300:
             raise InputError("a finite number is expected", place=place, found=found_as(value))
     if not values or len(values) > MOST_VALUES:
-        raise InputError("the list has no values, or too many", place=place, found=found_as(found))
+        raise InputError("the list has no values, or too many", place=place, found=found_as(given))
     return tuple(tuple(value) if isinstance(value, list) else value for value in values)
 
 

@@ -1,7 +1,7 @@
-"""What a key takes, in the words of its description: bounds and defaults put into its description.
+"""Descriptions of keys, with their bounds and defaults put in.
 
-A description writes {range} ("above 0 … 100, usually 1 … 20"), {most} ("100"), {usual} ("usually 1 … 20") and {default}
-where they belong in its sentence.
+A description writes {range} ("above 0 … 100, usually 1 … 20"), {most} ("100"), {usual} ("usually 1 … 20")
+and {default} where they belong in its sentence.
 """
 
 from collections.abc import Iterator
@@ -49,8 +49,8 @@ def _bounds(field: FieldInfo) -> Iterator[tuple[str, float]]:
 
 def _bounds_inside(annotation: object) -> Iterator[tuple[str, float]]:
     if get_origin(annotation) is Annotated:
-        for one in get_args(annotation)[1:]:
-            if isinstance(one, FieldInfo):
-                yield from _bounds(one)
+        for constraint in get_args(annotation)[1:]:
+            if isinstance(constraint, FieldInfo):
+                yield from _bounds(constraint)
     for inner in get_args(annotation):
         yield from _bounds_inside(inner)

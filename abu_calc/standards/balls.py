@@ -7,7 +7,10 @@ from abu_calc.standards.tables import toml_table, unknown
 from abu_calc.units import to_si
 
 STOCK_TOLERANCE = 0.01e-3
-"""How far [m] a diameter may be from the stock size it means: sources round 19.844 mm to 19.84."""
+"""Largest difference [m] between a diameter and the stock size it means.
+
+Sources round 19.844 mm to 19.84.
+"""
 
 _ROUNDING = 1e-9
 

@@ -33,17 +33,19 @@ class Dimensions(NamedTuple):
 
     @property
     def deep_groove(self) -> bool:
-        """Whether the bearing is a deep groove ball bearing: series 60 … 64."""
+        """True if the bearing is a deep groove ball bearing: series 60 … 64."""
         return self.designation.startswith("6")
 
     @property
     def kind(self) -> Kind:
-        """What kind of bearing it is."""
+        """Kind of bearing."""
         return "tapered" if self.type == "tapered" else "ball" if self.deep_groove else "angular-contact"
 
     @property
     def series(self) -> Series:
-        """By the diameter series: 3 medium, 4 heavy, all others light (wide light too, as the handbooks' k has it).
+        """Series by the diameter series: 3 medium, 4 heavy, all others light.
+
+        Wide light is light too, as the handbooks' k has it.
 
         >>> bearing("6305").series, bearing("7516").series, bearing("635").series
         ('medium', 'light', 'medium')

@@ -9,7 +9,7 @@ from abu_calc.units import from_si, to_si
 
 Group = Literal["C2", "CN", "C3", "C4"]
 GROUPS: Final[tuple[Group, ...]] = ("C2", "CN", "C3", "C4")
-"""From tight to loose."""
+"""Clearance groups, from tight to loose."""
 
 
 class Clearance(NamedTuple):
@@ -45,7 +45,7 @@ def radial_clearance(group: str, bore: float) -> Clearance:
 
 @cache
 def _rows() -> dict[str, list[list[float]]]:
-    found: dict[str, list[list[float]]] = {}
+    rows_by_group: dict[str, list[list[float]]] = {}
     for group, *row in csv_rows("radial_clearance"):
-        found.setdefault(group, []).append([*map(float, row)])
-    return found
+        rows_by_group.setdefault(group, []).append([*map(float, row)])
+    return rows_by_group

@@ -1,4 +1,4 @@
-"""What stands behind the basic number of a bearing's designation: seals, clearance, accuracy."""
+"""Suffixes behind the basic number of a bearing's designation: seals, clearance, accuracy."""
 
 import re
 from typing import Final, NamedTuple
@@ -50,7 +50,7 @@ def read_designation(text: str) -> Designation:
         return Designation(bearing(name), None, None)
     _refuse_other_types(name, text)
     for written in (name, spaced):
-        basic = max((one for one in known_names() if written.startswith(one)), key=len, default=None)
+        basic = max((prefix for prefix in known_names() if written.startswith(prefix)), key=len, default=None)
         if basic is not None and not written[len(basic)].isdigit():
             group, accuracy = _suffixes(written[len(basic) :], text, basic)
             return Designation(bearing(basic), group, accuracy)
@@ -60,14 +60,14 @@ def read_designation(text: str) -> Designation:
 def _suffixes(rest: str, text: str, basic: str) -> tuple[str | None, str | None]:
     group = accuracy = None
     while rest := rest.lstrip(_SEPARATORS):
-        found = next(((m, what) for pattern, what in _TOKENS if (m := re.match(pattern, rest))), None)
-        if found is None:
+        token = next(((m, what) for pattern, what in _TOKENS if (m := re.match(pattern, rest))), None)
+        if token is None:
             raise InputError(
                 f"the suffix {rest} of the bearing designation is not known",
                 found=text,
                 remedy=f"The nearest known one is {basic}; seals, C2 … C5 and P6 … P2 may follow it.",
             )
-        match, what = found
+        match, what = token
         rest = rest[match.end() :]
         if what == "class and group":
             accuracy, group = match[1], f"C{match[2]}"
@@ -95,6 +95,6 @@ def _like(name: str) -> str:
     size = f"6{rollers[2]}{rollers[3]}" if rollers else ""
     if size not in known_names() or not rollers or rollers[2] not in "0234":
         return ""
-    found = bearing(size)
-    numbers = " × ".join(f"{1e3 * one:g}" for one in (found.bore, found.outer, found.inner_width))
+    equivalent = bearing(size)
+    numbers = " × ".join(f"{1e3 * length:g}" for length in (equivalent.bore, equivalent.outer, equivalent.inner_width))
     return f" (by ISO 15 {numbers} mm, as {size})"

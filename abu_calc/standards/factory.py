@@ -1,4 +1,4 @@
-"""What makers measured of machines with autobalancers."""
+"""Makers' measurements of machines with autobalancers."""
 
 from abu_calc.frozen import dataclass
 from abu_calc.standards.tables import toml_table
@@ -26,7 +26,7 @@ class FactoryRow:
 
 
 def factory_rows() -> tuple[FactoryRow, ...]:
-    """All that were published with numbers, and the peaks that were named without. Source: Kladiev 1996."""
+    """All measurements published with numbers, and the peaks named without. Source: Kladiev 1996."""
     return tuple(
         FactoryRow(
             row["machine"], row["short"], row["state"], float(row["octave"]), _span(row, "without"),

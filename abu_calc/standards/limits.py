@@ -74,18 +74,18 @@ def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size:
     classes = tuple(dict.fromkeys(row[0] for row in rows))
     if bearing_class not in classes:
         raise unknown(f"accuracy class of a {bearing_type} bearing", bearing_class, classes)
-    found = [_numbers((over, to, "0", lower)) for name, over, to, lower in rows if name == bearing_class]
+    class_rows = [_numbers((over, to, "0", lower)) for name, over, to, lower in rows if name == bearing_class]
     what = f"{'bore' if ring == 'inner' else 'outside diameter'} of a {bearing_type} bearing of class {bearing_class}"
-    return _look_up(found, size, what, "Choose a coarser class, or a bearing in this range.")
+    return _look_up(class_rows, size, what, "Choose a coarser class, or a bearing in this range.")
 
 
 @cache
 def _rows(seat: Seat) -> dict[str, list[_Row]]:
     """The rows of each tolerance class, without its name."""
-    found: dict[str, list[_Row]] = {}
+    rows_by_class: dict[str, list[_Row]] = {}
     for name, *row in csv_rows(_FILES[seat]):
-        found.setdefault(name, []).append(_numbers(tuple(row)))
-    return found
+        rows_by_class.setdefault(name, []).append(_numbers(tuple(row)))
+    return rows_by_class
 
 
 def _numbers(row: tuple[str, ...]) -> _Row:

@@ -75,9 +75,9 @@ def maker_fits(
     return None
 
 
-def _for_split(found: MakerFits) -> MakerFits | None:
-    kept = [name for name in (*found.classes, *found.special) if name.rstrip("0123456789") in _FOR_SPLIT]
-    return MakerFits(tuple(kept), (), found.note) if kept else None
+def _for_split(fits: MakerFits) -> MakerFits | None:
+    kept = [name for name in (*fits.classes, *fits.special) if name.rstrip("0123456789") in _FOR_SPLIT]
+    return MakerFits(tuple(kept), (), fits.note) if kept else None
 
 
 @cache
@@ -88,12 +88,12 @@ def _ratings() -> dict[str, Ratings]:
 
 @cache
 def _rows() -> dict[tuple[str, str, str, str], list[_Row]]:
-    found: dict[tuple[str, str, str, str], list[_Row]] = {}
+    rows_by_key: dict[tuple[str, str, str, str], list[_Row]] = {}
     for seat, accuracy, kind, load, *band, classes, note in csv_rows("maker_fits"):
         above, to, over, to_mm = map(float, band)
         at_hand, _, special = classes.partition("|")
         names = tuple(at_hand.split("/")), tuple(filter(None, special.split("/")))
         row = _Row(above, to, over, to_mm, MakerFits(*names, note))
-        for one in KINDS if kind == "any" else (kind,):
-            found.setdefault((seat, accuracy, one, load), []).append(row)
-    return found
+        for bearing_kind in KINDS if kind == "any" else (kind,):
+            rows_by_key.setdefault((seat, accuracy, bearing_kind, load), []).append(row)
+    return rows_by_key

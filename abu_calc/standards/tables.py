@@ -25,7 +25,7 @@ def csv_rows(name: str) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(line.split(",")) for line in lines if not line.startswith("#"))[1:]
 
 
-def unknown(what: str, found: str, known: Iterable[str], remedy: str | None = None) -> InputError:
+def unknown(what: str, name: str, known: Iterable[str], remedy: str | None = None) -> InputError:
     """The refusal of a name that a table does not have, with the nearest that it has.
 
     >>> print(unknown("balance grade", "g6.3", ["G16", "G6.3"]))
@@ -33,7 +33,7 @@ def unknown(what: str, found: str, known: Iterable[str], remedy: str | None = No
       The nearest known one is G6.3.
     """
     names = list(known)
-    close = difflib.get_close_matches(found, names, n=1, cutoff=0.5)
+    close = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     advice = f"The nearest known one is {close[0]}." if close else remedy
     allowed = ", ".join(names) if len(names) <= 50 else None
-    return InputError(f"unknown {what}", found=found, allowed=allowed, remedy=advice)
+    return InputError(f"unknown {what}", found=name, allowed=allowed, remedy=advice)

@@ -46,14 +46,14 @@ class ThirdOctave:
 @cache
 def octaves() -> tuple[Octave, ...]:
     """The octaves 8 … 1000 Hz with their limits. Sources: IEC 61260-1:2014 (bands), GOST 17770-86 (limits)."""
-    ratio, found = toml_table("octave_bands")["ratio"], []
+    ratio, bands = toml_table("octave_bands")["ratio"], []
     rows = toml_table("vibration_limits")["octaves"]
     lowest = min(velocity for _, _, velocity, _ in rows)
     for nominal, k, velocity, level in rows:
         centre = to_si(1000 * ratio**k, "hz")
         edges = centre / math.sqrt(ratio), centre * math.sqrt(ratio)
-        found.append(Octave(nominal, centre, *edges, Limit(velocity, level), lowest / velocity))
-    return tuple(found)
+        bands.append(Octave(nominal, centre, *edges, Limit(velocity, level), lowest / velocity))
+    return tuple(bands)
 
 
 def octave(frequency: float) -> Octave:
@@ -101,7 +101,7 @@ def third_octaves() -> tuple[ThirdOctave, ...]:
     source="ISO 5349-1:2001, annex A",
 )
 def hand_arm_response(s: Any) -> Any:
-    """Of numbers and of arrays alike.
+    """Response at `s`, for numbers and arrays alike.
 
     >>> round(abs(hand_arm_response(1j * to_si(5800, "rpm"))), 4)
     0.1658

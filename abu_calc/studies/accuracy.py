@@ -1,4 +1,4 @@
-"""What accuracy costs: every way to compute a scene, its error and its time."""
+"""Cost of accuracy: every way to compute a scene, its error and its time."""
 
 from dataclasses import field
 from typing import Annotated, ClassVar, Final, Self
@@ -41,7 +41,7 @@ class MeasuredPoint(Record):
 
     @classmethod
     def of(cls, point: Point) -> Self:
-        """That of a measurement."""
+        """Record of a measurement."""
         return cls(
             rung=point.rung, integrator=point.integrator, tolerance=point.tolerance, error=finite(point.error),
             evaluations=point.evaluations, steps=point.steps, wall_s=finite(point.wall_s), cold_s=finite(point.cold_s),
@@ -51,7 +51,7 @@ class MeasuredPoint(Record):
 
 @record
 class Reference(Record):
-    """What errors are counted from: two methods; how far they are apart, and errors are no surer."""
+    """Reference of the errors: two methods and their disagreement; no error is known better than that."""
 
     integrators: Annotated[tuple[str, ...], Quantity("integrators")]
     tolerances: Annotated[tuple[float, ...], Quantity("tolerances", "", 1)]
@@ -60,7 +60,7 @@ class Reference(Record):
 
     @classmethod
     def of(cls, run: ReferenceRun) -> Self:
-        """That of a study."""
+        """Record of a study's reference."""
         return cls(
             integrators=run.integrators, tolerances=run.tolerances, disagreement=run.disagreement, wall_s=run.wall_s
         )
@@ -106,26 +106,26 @@ def accuracy(
     BUDGET.check(budget_s)
     subject = subject_of(source, scene, start, command="accuracy").lasting(duration_s)
     ledger = subject.ledger(accuracy)
-    found = measured(subject.scene, ledger, quantity, accuracy, budget_s, progress)
+    study = measured(subject.scene, ledger, quantity, accuracy, budget_s, progress)
     return AccuracyResult(
         title=subject.title,
-        checks=(_affordable(found),),
+        checks=(_affordable(study),),
         warnings=subject.warnings,
         model=SceneModel.of(ledger.scene),
         provenance=subject.provenance,
         scene=subject.scene.name,
-        quantity=found.quantity,
-        accuracy=found.accuracy,
-        reference=Reference.of(found.reference),
-        points=tuple(map(MeasuredPoint.of, found.points)),
-        chosen=None if found.chosen is None else MeasuredPoint.of(found.chosen),
-        skipped=found.skipped,
+        quantity=study.quantity,
+        accuracy=study.accuracy,
+        reference=Reference.of(study.reference),
+        points=tuple(map(MeasuredPoint.of, study.points)),
+        chosen=None if study.chosen is None else MeasuredPoint.of(study.chosen),
+        skipped=study.skipped,
     )
 
 
-def _affordable(found: Study) -> Check:
-    best = found.chosen
+def _affordable(study: Study) -> Check:
+    best = study.chosen
     message = "a way to compute was measured whose error is below the accuracy"
     return Check("ABU811", "accuracy affordable", verdict(best is not None), message,
-                 None if best is None else best.error, found.accuracy, None,
+                 None if best is None else best.error, study.accuracy, None,
                  None if best else "More time (--budget, Python: budget_s=), or less accuracy.")  # fmt: skip

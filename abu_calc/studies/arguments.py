@@ -28,7 +28,7 @@ WORDS: Final = {
     "Executor": "an executor of concurrent.futures",
     "Path": "a path",
 }
-"""What an argument of each type takes."""
+"""Values that an argument of each type takes."""
 
 REMEDIES: Final = {
     "Machine": 'abu_calc.read("machine.toml") returns one.',
@@ -67,8 +67,8 @@ def _taken(argument: str, value: object, hint: Any) -> Any:
     if value is None and NoneType in kinds:
         return None
     for kind in kinds:
-        if (found := _as(kind, value)) is not None:
-            return found
+        if (converted := _as(kind, value)) is not None:
+            return converted
     raise InputError(
         "not what this argument takes",
         place=Place(key=argument),
@@ -92,12 +92,12 @@ def _as(kind: Any, value: Any) -> Any:
         return value if isinstance(value, kind) else None
     if isinstance(value, str) or not isinstance(value, Sequence):
         return None
-    found = tuple(_as(inner[0], each) for each in value)
-    return found if None not in found and (origin is Sequence or len(found) == len(inner)) else None
+    elements = tuple(_as(inner[0], each) for each in value)
+    return elements if None not in elements and (origin is Sequence or len(elements) == len(inner)) else None
 
 
 def _huge(number: float) -> bool:
-    """Whether it is an integer beyond all floats."""
+    """True if the number is an integer beyond all floats."""
     return isinstance(number, int) and abs(number) > LARGEST
 
 
@@ -107,7 +107,7 @@ def _name(kind: Any) -> str:
 
 
 def _words(kind: Any) -> str:
-    """What a type is called in a message."""
+    """Name of a type in a message."""
     if get_origin(kind) is tuple:
         return f"({', '.join(map(_words, get_args(kind)))})"
     if get_origin(kind) is Sequence:

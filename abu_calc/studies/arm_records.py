@@ -23,15 +23,16 @@ class ArmChange(Record):
 
     @classmethod
     def of(cls, change: "Change") -> Self:
-        """As the file would have it."""
+        """Record of a change, as the file would have it."""
         return cls(key=f"swing_arm.{change.key}", old=change.old, new=change.new)
 
 
 @record
 class SwingArm(Record):
-    """What stiffness and damping the arm must have at any contact angle; `changes`: tried, with them all checks pass.
+    """Stiffness and damping that the arm must have at any contact angle.
 
-    The arm as given stands beside its bounds. None: it does not stand, or beyond the range of a formula.
+    `changes`: tried changes with which all checks pass. The arm as given stands beside its bounds. None: the
+    arm does not stand, or the value is beyond the range of a formula.
     """
 
     advice: Annotated[str, Quantity("what to change")]
@@ -61,7 +62,7 @@ class SwingArm(Record):
 
     @classmethod
     def of(cls, judged: "ArmJudgement") -> Self:
-        """Of a design on an arm, in user units."""
+        """Record of a design on an arm, in user units."""
         bounds, arm = judged.bounds, judged.bounds.arm
         lifted, angle = bounds.lifted, bounds.pressed_angle
         return cls(
@@ -78,7 +79,7 @@ class SwingArm(Record):
             damping_limit_N_s_per_m=bounds.damping_limit,
             damping_limit_bunched_N_s_per_m=bounds.bunched_limit,
             parametric_growth_rate_per_s=bounds.growth_rate,
-            parametric_contact_angles_deg=tuple(from_si(one, "deg") for one in bounds.parametric_angles),
+            parametric_contact_angles_deg=tuple(from_si(direction, "deg") for direction in bounds.parametric_angles),
             contact_angle_deg=from_si(arm.contact_angle, "deg"),
             touch_angle_deg=from_si(arm.touch_angle, "deg"),
             arm_length_mm=from_si(arm.length, "mm"),
@@ -128,10 +129,10 @@ class ArmMotion(Record):
 
     @classmethod
     def of(cls, moved: "Moved") -> Self:
-        """In user units."""
+        """Record of an arm's motion, in user units."""
         simulated = moved.simulated
-        found = simulated.harmonics if simulated else (math.nan,) * len(moved.perturbation)
-        pairs = zip(moved.perturbation, found, strict=True)
+        amplitudes = simulated.harmonics if simulated else (math.nan,) * len(moved.perturbation)
+        pairs = zip(moved.perturbation, amplitudes, strict=True)
         return cls(
             speed_rpm=from_si(moved.speed, "rpm"),
             modulation=moved.kappa,
@@ -145,10 +146,10 @@ class ArmMotion(Record):
                 ArmHarmonic(
                     order=order,
                     resonance_rpm=from_si(moved.natural / order, "rpm"),
-                    perturbation_um=finite(from_si(moved.length * abs(one), "um")),
+                    perturbation_um=finite(from_si(moved.length * abs(predicted), "um")),
                     simulation_um=finite(from_si(moved.length * abs(other), "um")),
                 )
-                for order, (one, other) in enumerate(pairs, 1)
+                for order, (predicted, other) in enumerate(pairs, 1)
             ),
             tongue=tuple(
                 TongueEdge(

@@ -31,7 +31,7 @@ from abu_calc.studies.result import Provenance, Result
 
 @record
 class BalanceResult(Result):
-    """What to do in both planes, and what the verification run will show."""
+    """Correction to make in both planes, and the vibration that the verification run will show."""
 
     command: ClassVar[str] = "balance"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"turns_from_left"}
@@ -55,7 +55,7 @@ class BalanceResult(Result):
     ]  # fmt: skip
     uncertainty_by_cause: tuple[ErrorShare, ...]
     turns_from_left: str
-    """How the roll turns to one at its left end: for the drawing."""
+    """Sense of rotation of the roll, seen from its left end: for the drawing."""
 
 
 def balance(source: Readings | str | os.PathLike[str]) -> BalanceResult:
@@ -66,21 +66,21 @@ def balance(source: Readings | str | os.PathLike[str]) -> BalanceResult:
     readings = source if isinstance(source, Readings) else read_readings(source)
     file, taken = readings.tables, taken_runs(readings)
     with readings.located():
-        found = find(file, taken)
-    planes = [plane_correction(plane, found) for plane in (0, 1)]
+        balancing = find(file, taken)
+    planes = [plane_correction(plane, balancing) for plane in (0, 1)]
     return BalanceResult(
         title=file.rotor.name,
-        checks=balance_checks(found),
-        warnings=(*readings.warnings, *balance_warnings(file, taken, found, planes)),
+        checks=balance_checks(balancing),
+        warnings=(*readings.warnings, *balance_warnings(file, taken, balancing, planes)),
         provenance=Provenance.of(readings),
-        model=balance_model(found),
-        method=found.solution.method,
+        model=balance_model(balancing),
+        method=balancing.solution.method,
         left=planes[0],
         right=planes[1],
-        residual_check=residual_check(found),
+        residual_check=residual_check(balancing),
         runs=tuple(map(run_readings, taken)),
-        natural_frequencies_hz=natural_hz(found.case),
-        influence_coefficients=complex_rows(found.solution.influences[0]),
-        uncertainty_by_cause=causes(found),
+        natural_frequencies_hz=natural_hz(balancing.case),
+        influence_coefficients=complex_rows(balancing.solution.influences[0]),
+        uncertainty_by_cause=causes(balancing),
         turns_from_left=file.rotor.turns_from_left,
     )

@@ -1,4 +1,4 @@
-"""From a file of readings to numbers in SI: the roll on its rig, its runs, the errors; records evaluated."""
+"""Numbers in SI from a file of readings: the roll on its rig, its runs, the errors; records evaluated."""
 
 import hashlib
 import math
@@ -16,7 +16,7 @@ from abu_calc.spec.rig_record import read_rig_record
 from abu_calc.units import SYMBOLS, from_si, to_si
 
 UNITS: Final = {"displacement": "mm", "velocity": "mm_per_s", "acceleration": "m_per_s2"}
-"""Of amplitudes, by quantity."""
+"""Units of amplitudes, by quantity."""
 PLANES: Final = ("left", "right")
 
 WIDE_PULSE: Final = math.radians(1.0)
@@ -24,8 +24,10 @@ UNSURE: Final = math.radians(0.5)
 DRIFT: Final = 0.02
 CHANGE: Final = 0.05
 SHARE: Final = 0.3
-"""From here on a record is warned of: pulses this wide, angles this unsure, speed or amplitude that drift so far, and
-sensors that show so little of the rotation among what else there is.
+"""Thresholds from which a record is warned of.
+
+Two are in rad: width of the pulse, and uncertainty of the angles. Two are relative: drift of the speed, and
+of the amplitude. `SHARE` is the least share of the rotation in what a sensor shows.
 """
 
 
@@ -77,16 +79,16 @@ def _recorded(
     path, unit = readings.beside(run.file or ""), UNITS[run.quantity]
     samples = read_rig_record(path)
     try:
-        found = recorded_run(samples, run.mark_edge, speed)
+        record = recorded_run(samples, run.mark_edge, speed)
     except InputError as error:
         raise error.at(Place(str(path))) from None
-    tones = (found.left, found.right)
+    tones = (record.left, record.right)
     made = RunOnRig(
-        found.speed, run.quantity, (to_si(tones[0].amplitude, unit), to_si(tones[1].amplitude, unit)),
+        record.speed, run.quantity, (to_si(tones[0].amplitude, unit), to_si(tones[1].amplitude, unit)),
         (tones[0].phase, tones[1].phase), sensor, weights,
-        (to_si(tones[0].noise, unit), to_si(tones[1].noise, unit)), found.unsure,
+        (to_si(tones[0].noise, unit), to_si(tones[1].noise, unit)), record.unsure,
     )  # fmt: skip
-    return Taken(made, found, run.file, hashlib.sha256(path.read_bytes()).hexdigest())
+    return Taken(made, record, run.file, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
 def _weight(rotor: Rotor, trial: Trial) -> Weight:
@@ -98,7 +100,7 @@ def _weight(rotor: Rotor, trial: Trial) -> Weight:
 
 
 def balancing(file: ReadingsFile, runs: tuple[Taken, ...]) -> Balancing:
-    """All that an answer is made of."""
+    """All data that an answer is made of."""
     return Balancing(_roll(file), tuple(taken.run for taken in runs))
 
 
@@ -128,30 +130,30 @@ def deviations(errors: Errors) -> Deviations:
 
 
 def record_warnings(taken: Taken) -> list[str]:
-    """What to know of a record."""
-    found, file = taken.record, taken.file
-    if found is None:
+    """Warnings about a record."""
+    record, file = taken.record, taken.file
+    if record is None:
         return []
     lines = []
-    pulse, edge = math.degrees(found.pulse), found.marks.edge
-    if found.pulse > WIDE_PULSE:
+    pulse, edge = math.degrees(record.pulse), record.marks.edge
+    if record.pulse > WIDE_PULSE:
         other, turn = ("its middle", pulse / 2) if edge == "leading" else ("its leading edge", pulse / 2)
-        shape = "square" if found.marks.square else "rounded"
+        shape = "square" if record.marks.square else "rounded"
         lines.append(
             f"{file}: a pulse of the mark lasts {pulse:.1f}°, {shape}; its {_edge(edge)} is taken for the passage. By "
             f"{other} every angle would be {turn:.1f}° other: run.mark_edge says which."
         )
-    if found.unsure > UNSURE:
+    if record.unsure > UNSURE:
         lines.append(
             f"{file}: the samples go in step with the rotation and tell the passage of the mark to "
-            f"{math.degrees(found.unsure):.1f}° only, and so every angle: sample faster."
+            f"{math.degrees(record.unsure):.1f}° only, and so every angle: sample faster."
         )
-    if abs(found.drift) > DRIFT:
+    if abs(record.drift) > DRIFT:
         lines.append(
-            f"{file}: the speed drifts by {100 * found.drift:+.1f} % over the record; the readings are those of its "
-            f"mean, {from_si(found.speed, 'rpm'):.1f} rpm."
+            f"{file}: the speed drifts by {100 * record.drift:+.1f} % over the record; the readings are those of its "
+            f"mean, {from_si(record.speed, 'rpm'):.1f} rpm."
         )
-    for name, tone in (("left", found.left), ("right", found.right)):
+    for name, tone in (("left", record.left), ("right", record.right)):
         if abs(tone.change) > CHANGE:
             lines.append(
                 f"{file}: amplitude and phase on the {name} change by {100 * tone.change:.0f} % over the record: "

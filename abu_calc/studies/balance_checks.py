@@ -1,4 +1,4 @@
-"""What is asked of readings, rig and roll before a correction is trusted, each with the number that says so."""
+"""Checks of readings, rig and roll before a correction is trusted, each with the number behind it."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -21,75 +21,75 @@ SURE: Final = (0.1, 0.5)
 AGREE: Final = (3.0, 6.0)
 """Misfit of runs in standard deviations."""
 TELLS: Final = (0.3, 0.05)
-"""What a trial mass moves at least, of the largest reading."""
+"""Least effect of a trial mass, as a share of the largest reading: to pass, and not to fail."""
 
 
-def balance_checks(found: Found) -> tuple[Check, ...]:
-    """Those that there are numbers for."""
+def balance_checks(balancing: Found) -> tuple[Check, ...]:
+    """Checks that there are numbers for."""
     return (
-        _planes(found), *_natural_frequencies(found), *_rigid(found), _sure(found), *_permitted(found), *_agree(found),
-        *_trials(found), *_metal(found),
+        _planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing), *_permitted(balancing), *_agree(balancing),
+        *_trials(balancing), *_metal(balancing),
     )  # fmt: skip
 
 
-def _planes(found: Found) -> Check:
-    value = max(map(condition_number, found.solution.influences))
+def _planes(balancing: Found) -> Check:
+    value = max(map(condition_number, balancing.solution.influences))
     return coded(
         "ABU1001", verdict(value <= CONDITION[1], value <= CONDITION[0]),
         "errors of readings may grow by this factor, the condition number", value, CONDITION[0],
     )  # fmt: skip
 
 
-def _natural_frequencies(found: Found) -> Iterator[Check]:
-    nearest = near_resonance(found.case)
+def _natural_frequencies(balancing: Found) -> Iterator[Check]:
+    nearest = near_resonance(balancing.case)
     if nearest is None:
         return
-    value, one = nearest
-    by_data = found.solution.method == "rig data"
+    value, omega = nearest
+    by_data = balancing.solution.method == "rig data"
     grade = verdict(value >= OFF_RESONANCE[1] or not by_data, value >= OFF_RESONANCE[0])
     remedy = None
-    if found.farther is not None and grade != "pass":
-        speed, rest = found.farther
+    if balancing.farther is not None and grade != "pass":
+        speed, rest = balancing.farther
         remedy = (
             f"At {from_si(speed, 'rpm'):.0f} rpm the same errors would leave {100 * rest:.1f} % instead of "
-            f"{100 * found.rest_share:.1f} %."
+            f"{100 * balancing.rest_share:.1f} %."
         )
     yield coded(
-        "ABU1002", grade, f"the speed's distance from the natural frequency of {from_si(one, 'hz'):.2f} Hz, relative",
+        "ABU1002", grade, f"the speed's distance from the natural frequency of {from_si(omega, 'hz'):.2f} Hz, relative",
         value, OFF_RESONANCE[0], remedy=remedy, bound="least",
     )  # fmt: skip
 
 
-def _rigid(found: Found) -> Iterator[Check]:
+def _rigid(balancing: Found) -> Iterator[Check]:
     """A bending speed that is given can fail it; one that is assumed warns."""
-    roll = found.case.roll
-    speed = max(found.service_speed, *(run.speed for run in found.case.runs))
-    if found.bending_speed is not None:
-        value = speed / found.bending_speed
+    roll = balancing.case.roll
+    speed = max(balancing.service_speed, *(run.speed for run in balancing.case.runs))
+    if balancing.bending_speed is not None:
+        value = speed / balancing.bending_speed
         grade = verdict(value <= RIGID[1], value <= RIGID[0])
-        told, limit = f"the highest speed over the roll's bending speed, {_rpm(found.bending_speed)}", RIGID[0]
+        message, limit = f"the highest speed over the roll's bending speed, {_rpm(balancing.bending_speed)}", RIGID[0]
     elif roll is not None:
         bar = bar_bending_speed(roll.M3, roll.length)
         value, limit = speed / bar, RIGID[1]
         grade = verdict(True, value <= limit)
-        told = f"the highest speed over that at which a solid steel bar of its mass and length bends, {_rpm(bar)}"
+        message = f"the highest speed over that at which a solid steel bar of its mass and length bends, {_rpm(bar)}"
     else:
         return
     remedy = None
     if grade != "pass":
         remedy = (
-            "rotor.first_bending_speed_rpm tells better." if found.bending_speed is None
+            "rotor.first_bending_speed_rpm tells better." if balancing.bending_speed is None
             else "A flexible roll takes more planes, at more speeds (ISO 21940-12)."
         )  # fmt: skip
-    yield coded("ABU1003", grade, told, value, limit, remedy=remedy)
+    yield coded("ABU1003", grade, message, value, limit, remedy=remedy)
 
 
 def _rpm(speed: float) -> str:
     return f"{from_si(speed, 'rpm'):.0f} rpm"
 
 
-def _sure(found: Found) -> Check:
-    share = found.rest_share
+def _sure(balancing: Found) -> Check:
+    share = balancing.rest_share
     remedy = None
     if share > SURE[0]:
         remedy = f"A second run after the correction: the same errors would leave {100 * share**2:.1f} %."
@@ -99,13 +99,13 @@ def _sure(found: Found) -> Check:
     )  # fmt: skip
 
 
-def _permitted(found: Found) -> Iterator[Check]:
-    for name, (rest, permitted) in zip(("left plane", "right plane"), found.rest, strict=True):
+def _permitted(balancing: Found) -> Iterator[Check]:
+    for name, (rest, permitted) in zip(("left plane", "right plane"), balancing.rest, strict=True):
         if permitted is None:
             continue
         remedy = None
         if 2 * rest > permitted:
-            after = from_si(rest * found.rest_share, "g_mm")
+            after = from_si(rest * balancing.rest_share, "g_mm")
             remedy = f"A second run after the correction: the same errors would leave {after:.3g} g·mm."
         yield coded(
             "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted),
@@ -114,8 +114,8 @@ def _permitted(found: Found) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def _agree(found: Found) -> Iterator[Check]:
-    value = found.disagreement
+def _agree(balancing: Found) -> Iterator[Check]:
+    value = balancing.disagreement
     if value is None:
         return
     remedy = None
@@ -127,12 +127,12 @@ def _agree(found: Found) -> Iterator[Check]:
     )  # fmt: skip
 
 
-def _trials(found: Found) -> Iterator[Check]:
-    if found.solution.method != "trial masses":
+def _trials(balancing: Found) -> Iterator[Check]:
+    if balancing.solution.method != "trial masses":
         return
-    matrix = found.solution.influences[0]
-    largest = max(abs(one) for run in found.case.runs for one in run.motion)
-    on = [max(abs(run.placed[k]) for run in found.case.runs) for k in (0, 1)]
+    matrix = balancing.solution.influences[0]
+    largest = max(abs(phasor) for run in balancing.case.runs for phasor in run.motion)
+    on = [max(abs(run.placed[k]) for run in balancing.case.runs) for k in (0, 1)]
     value = min(on[k] * max(abs(row[k]) for row in matrix) / largest for k in (0, 1)) if largest else 0.0
     remedy = (
         None if value >= TELLS[0] else f"Trial masses {max(2, round(TELLS[0] / value)) if value else 2} times as heavy."
@@ -143,12 +143,12 @@ def _trials(found: Found) -> Iterator[Check]:
     )  # fmt: skip
 
 
-def _metal(found: Found) -> Iterator[Check]:
-    if found.removable is None:
+def _metal(balancing: Found) -> Iterator[Check]:
+    if balancing.removable is None:
         return
-    value = max(map(removed, found.shares))
+    value = max(map(removed, balancing.shares))
     yield coded(
-        "ABU1008", verdict(value <= found.removable * (1 + 1e-9)), "mass to take off in a plane",
-        from_si(value, "g"), from_si(found.removable, "g"), "g",
-        None if value <= found.removable else "More places, so that mass can be put on opposite.",
+        "ABU1008", verdict(value <= balancing.removable * (1 + 1e-9)), "mass to take off in a plane",
+        from_si(value, "g"), from_si(balancing.removable, "g"), "g",
+        None if value <= balancing.removable else "More places, so that mass can be put on opposite.",
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What readings come to: the solution, how far it may be off, and what that leaves; in SI."""
+"""Results of the readings: the solution, its possible error, and what that leaves; in SI."""
 
 import cmath
 import math
@@ -26,11 +26,11 @@ from abu_calc.studies.balance_case import Taken, balancing, deviations
 from abu_calc.units import to_si
 
 FARTHER: Final = 1.6
-"""Of the highest natural frequency: the speed that is tried where that of the runs is near one."""
+"""Multiple of the highest natural frequency: the speed tried if that of the runs is near one."""
 HOPELESS: Final = 1.0
 """Vibration left, of that before, from which on the correction may do more harm than good: no number is given."""
 Spread = Sequence[Pair]
-"""What one standard deviation of each number, those of the correction among them, changes of both imbalances."""
+"""Changes of both imbalances by one standard deviation of each number, the correction's among them."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Found:
     farther: tuple[float, float] | None
     """A speed farther from the natural frequencies that was tried [rad/s], and what would be left there."""
     printed: tuple[Signed, Signed] | None
-    """What the formula as printed makes of the first run without trial masses."""
+    """Result of the formula as published for the first run without trial masses."""
 
 
 def find(file: ReadingsFile, taken: Sequence[Taken]) -> Found:
@@ -93,7 +93,7 @@ class _Answer:
 
 
 def _answer(case: Balancing, method: Method, sigma: Deviations) -> _Answer:
-    """By this method; by the rig's data where trial masses tell too little and these are known."""
+    """Answer by this method; by the rig's data if trial masses tell too little and these data are known."""
     try:
         solution = solved(case, method)
         by = changes(case, method, sigma)
@@ -136,7 +136,7 @@ def _farther(case: Balancing, solution: Solution, sigma: Deviations) -> tuple[fl
     speed = FARTHER * natural_frequencies(case.roll)[1]
     matrix = influence(case.roll, speed)
     motion = motion_of(matrix, solution.imbalance)
-    amplitudes, phases = [abs(one) for one in motion], [-cmath.phase(one) for one in motion]
+    amplitudes, phases = [abs(phasor) for phasor in motion], [-cmath.phase(phasor) for phasor in motion]
     run = replace(
         case.runs[0], speed=speed, quantity="displacement", sensor=0.0, weights=(),
         amplitudes=(amplitudes[0], amplitudes[1]), phases=(phases[0], phases[1]),
@@ -152,7 +152,10 @@ def _service_speed(file: ReadingsFile, case: Balancing) -> float:
 
 
 def _permitted(file: ReadingsFile, speed: float) -> tuple[float | None, float | None]:
-    """By the grade, shared between the planes by the place of the centre of mass; by halves where that is not known."""
+    """Permitted imbalance of each plane by the grade, shared by the place of the centre of mass.
+
+    If that place is not known, each plane gets half.
+    """
     grade, rotor = file.tolerance.balance_grade, file.rotor
     if grade is None or rotor.mass_kg is None:
         return None, None

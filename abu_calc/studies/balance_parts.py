@@ -29,17 +29,17 @@ def degrees(angle: float) -> float:
     >>> degrees(-math.pi / 2)
     270.0
     """
-    found = math.degrees(angle) % 360.0
-    return 0.0 if found == 360.0 else found
+    angle_deg = math.degrees(angle) % 360.0
+    return 0.0 if angle_deg == 360.0 else angle_deg
 
 
-def plane_correction(plane: int, found: Found) -> PlaneCorrection:
-    """What to do in a plane (0 left, 1 right)."""
-    Q, radius = found.solution.imbalance[plane], found.radii[plane]
-    deltas = [change.imbalance[plane] for change in found.by]
+def plane_correction(plane: int, balancing: Found) -> PlaneCorrection:
+    """Correction in a plane (0 left, 1 right)."""
+    Q, radius = balancing.solution.imbalance[plane], balancing.radii[plane]
+    deltas = [change.imbalance[plane] for change in balancing.by]
     angle = degrees(-cmath.phase(Q))
-    rest, permitted = found.rest[plane]
-    mass, turn = (None, None) if found.printed is None else found.printed[plane]
+    rest, permitted = balancing.rest[plane]
+    mass, turn = (None, None) if balancing.printed is None else balancing.printed[plane]
     return PlaneCorrection(
         mass_g=from_si(abs(Q) / radius, "g"),
         angle_deg=angle,
@@ -48,8 +48,8 @@ def plane_correction(plane: int, found: Found) -> PlaneCorrection:
         remove_at_deg=angle,
         add_at_deg=(angle + 180.0) % 360.0,
         corrections=tuple(
-            Share(action=one.action, mass_g=from_si(one.mass, "g"), angle_deg=degrees(one.angle))
-            for one in found.shares[plane]
+            Share(action=share.action, mass_g=from_si(share.mass, "g"), angle_deg=degrees(share.angle))
+            for share in balancing.shares[plane]
         ),
         imbalance_g_mm=from_si(abs(Q), "g_mm"),
         permitted_g_mm=None if permitted is None else from_si(permitted, "g_mm"),
@@ -61,7 +61,7 @@ def plane_correction(plane: int, found: Found) -> PlaneCorrection:
 
 def run_readings(taken: Taken) -> RunReadings:
     """A run as it was taken."""
-    run, found = taken.run, taken.record
+    run, record = taken.run, taken.record
     unit = UNITS[run.quantity]
     left, right = (
         SensorReading(amplitude=from_si(amplitude, unit), phase_deg=wrapped_deg(phase))
@@ -69,43 +69,43 @@ def run_readings(taken: Taken) -> RunReadings:
     )
     return RunReadings(
         speed_rpm=from_si(run.speed, "rpm"), quantity=run.quantity, unit=unit_of_readings(run.quantity), left=left,
-        right=right, file=taken.file, sha256=taken.sha256, revolutions=None if found is None else found.revolutions,
-        mark_edge=None if found is None else found.marks.edge, trials=len(run.weights),
+        right=right, file=taken.file, sha256=taken.sha256, revolutions=None if record is None else record.revolutions,
+        mark_edge=None if record is None else record.marks.edge, trials=len(run.weights),
     )  # fmt: skip
 
 
-def residual_check(found: Found) -> ResidualCheck:
-    """What the correction leaves."""
-    case, solution = found.case, found.solution
-    largest = max(abs(one) for run in case.runs for one in run.motion)
-    misfit = max(abs(one) for pair in solution.misfits for one in pair)
-    permitted = [limit for _, limit in found.rest if limit is not None]
+def residual_check(balancing: Found) -> ResidualCheck:
+    """Residual after the correction."""
+    case, solution = balancing.case, balancing.solution
+    largest = max(abs(phasor) for run in case.runs for phasor in run.motion)
+    misfit = max(abs(deviation) for pair in solution.misfits for deviation in pair)
+    permitted = [limit for _, limit in balancing.rest if limit is not None]
     return ResidualCheck(
         permitted_g_mm=from_si(sum(permitted), "g_mm") if permitted else None,
-        rest_share=found.rest_share,
+        rest_share=balancing.rest_share,
         reproduced=misfit / largest if largest else 0.0,
-        disagreement=found.disagreement,
-        verification=tuple(_verification(found, run, matrix) for run, matrix in _unlike(case, solution)),
+        disagreement=balancing.disagreement,
+        verification=tuple(_verification(balancing, run, matrix) for run, matrix in _unlike(case, solution)),
     )
 
 
 def _unlike(case: Balancing, solution: Solution) -> list[tuple[RunOnRig, Matrix]]:
     """Runs of other speeds or quantities than those before."""
-    found: list[tuple[RunOnRig, Matrix]] = []
+    kept: list[tuple[RunOnRig, Matrix]] = []
     for run, matrix in zip(case.runs, solution.influences, strict=True):
         alike = [
-            one for one, _ in found if one.quantity == run.quantity and abs(one.speed / run.speed - 1) <= ONE_SPEED
+            peer for peer, _ in kept if peer.quantity == run.quantity and abs(peer.speed / run.speed - 1) <= ONE_SPEED
         ]
         if not alike:
-            found.append((run, matrix))
-    return found
+            kept.append((run, matrix))
+    return kept
 
 
-def _verification(found: Found, run: RunOnRig, matrix: Matrix) -> Verification:
+def _verification(balancing: Found, run: RunOnRig, matrix: Matrix) -> Verification:
     speed, quantity = run.speed, run.quantity
     scale = abs(reading_factor(quantity, speed))
-    before = [from_si(abs(one) * scale, UNITS[quantity]) for one in motion_of(matrix, found.solution.imbalance)]
-    after = [from_si(one * scale, UNITS[quantity]) for one in motions(matrix, found.spread)]
+    before = [from_si(abs(value) * scale, UNITS[quantity]) for value in motion_of(matrix, balancing.solution.imbalance)]
+    after = [from_si(amplitude * scale, UNITS[quantity]) for amplitude in motions(matrix, balancing.spread)]
     return Verification(
         speed_rpm=from_si(speed, "rpm"), quantity=quantity, unit=unit_of_readings(quantity), left_before=before[0],
         right_before=before[1], left_expected=after[0], right_expected=after[1], left_at_most=2 * after[0],
@@ -113,12 +113,12 @@ def _verification(found: Found, run: RunOnRig, matrix: Matrix) -> Verification:
     )  # fmt: skip
 
 
-def causes(found: Found) -> tuple[ErrorShare, ...]:
+def causes(balancing: Found) -> tuple[ErrorShare, ...]:
     """Each cause's part of the imbalance's uncertainty, that of the correction itself behind those of the answer."""
-    Q, groups = found.solution.imbalance, dict[str, list[Pair]]()
-    for change in found.by:
+    Q, groups = balancing.solution.imbalance, dict[str, list[Pair]]()
+    for change in balancing.by:
         groups.setdefault(change.cause, []).append(change.imbalance)
-    groups["correction"] = placing(Q, found.sigma)
+    groups["correction"] = placing(Q, balancing.sigma)
     return tuple(
         ErrorShare(
             cause=cause, left_percent=_percent(Q[0], [left for left, _ in pairs]),
@@ -153,9 +153,9 @@ def complex_rows(matrix: Matrix) -> tuple[tuple[Complex, Complex], tuple[Complex
     return _complex_pair(matrix[0]), _complex_pair(matrix[1])
 
 
-def balance_model(found: Found) -> BalanceModel:
+def balance_model(balancing: Found) -> BalanceModel:
     """The numbers behind it."""
-    case, solution = found.case, found.solution
+    case, solution = balancing.case, balancing.solution
     return BalanceModel(
         method=solution.method,
         speeds_rad_per_s=tuple(run.speed for run in case.runs),
@@ -165,5 +165,5 @@ def balance_model(found: Found) -> BalanceModel:
         influence_m_per_kg_m=complex_rows(solution.influences[0]),
         natural_frequencies_rad_per_s=None if case.roll is None else natural_frequencies(case.roll),
         support_damping_N_s_per_m=None if case.roll is None else support_damping(case.roll),
-        service_speed_rad_per_s=found.service_speed,
+        service_speed_rad_per_s=balancing.service_speed,
     )

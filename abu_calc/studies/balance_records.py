@@ -1,4 +1,4 @@
-"""What a result of balancing in two planes is made of."""
+"""Records of a result of balancing in two planes."""
 
 from typing import Annotated
 
@@ -9,7 +9,7 @@ Complex = tuple[float, float]
 
 @record
 class SensorReading(Record):
-    """What a sensor showed, in the unit of the run's quantity."""
+    """Reading of a sensor, in the unit of the run's quantity."""
 
     amplitude: Annotated[float, Quantity("amplitude", "A_j", 5, "0–peak, in the unit of the run")]
     phase_deg: Annotated[float, Quantity("phase", "ψ_j", 5, "of A·cos(ωt − α), −180 … 180")]
@@ -55,7 +55,7 @@ class PlaneCorrection(Record):
     remove_at_deg: Annotated[float, Quantity("take off at", "", 5, "the heavy spot")]
     add_at_deg: Annotated[float, Quantity("or put on at", "", 5, "opposite")]
     corrections: tuple[Share, ...]
-    """What to do, by the metal and the places there are."""
+    """Corrections to make, by the metal and the places there are."""
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "|Q|", 4)]
     permitted_g_mm: Annotated[float | None, Quantity("permitted imbalance", "U_per", 4)]
     rest_g_mm: Annotated[float, Quantity("imbalance to be expected after it", "", 2, "rms over the errors")]
@@ -80,7 +80,7 @@ class Verification(Record):
 
 @record
 class ResidualCheck(Record):
-    """What the correction leaves, by the errors of readings, rig and correction."""
+    """Residual after the correction, by the errors of readings, rig and correction."""
 
     permitted_g_mm: Annotated[float | None, Quantity("permitted imbalance of the roll", "U_per", 4)]
     rest_share: Annotated[float, Quantity("vibration expected to be left", "", 2, "of that before, rms", percent=True)]
@@ -89,12 +89,12 @@ class ResidualCheck(Record):
     ]
     disagreement: Annotated[float | None, Quantity("misfit in standard deviations", "", 2)]
     verification: tuple[Verification, ...]
-    """For each speed and quantity of the runs."""
+    """Verifications for each speed and quantity of the runs."""
 
 
 @record
 class ErrorShare(Record):
-    """What one cause makes of the uncertainty."""
+    """Share of one cause in the uncertainty."""
 
     cause: Annotated[str, Quantity("cause")]
     left_percent: Annotated[float, Quantity("left", "", 2, "of the left imbalance, one standard deviation, %")]
@@ -103,7 +103,7 @@ class ErrorShare(Record):
 
 @record
 class BalanceModel(Record):
-    """In SI; complex numbers as real and imaginary part, imbalances q·R·e^{−iφ}."""
+    """Numbers of the balancing in SI; complex numbers as real and imaginary part, imbalances q·R·e^{−iφ}."""
 
     method: str
     speeds_rad_per_s: tuple[float, ...]

@@ -1,4 +1,4 @@
-"""What to know of a correction in two planes and of how it was found."""
+"""Warnings about a correction in two planes and about the way it was found."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -17,26 +17,26 @@ RIG_DIFFERS: Final = 0.1
 
 
 def balance_warnings(
-    file: ReadingsFile, taken: Sequence[Taken], found: Found, planes: Sequence[PlaneCorrection]
+    file: ReadingsFile, taken: Sequence[Taken], balancing: Found, planes: Sequence[PlaneCorrection]
 ) -> Iterator[str]:
     """Each a sentence or two."""
-    yield from _printed(found, planes)
-    for one in taken:
-        yield from record_warnings(one)
+    yield from _printed(balancing, planes)
+    for taken_run in taken:
+        yield from record_warnings(taken_run)
     yield from _directions(planes)
     yield from _within_grade(planes)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
-        rpm = from_si(found.service_speed, "rpm")
+        rpm = from_si(balancing.service_speed, "rpm")
         yield f"The grade is asked at the speed of the runs, {rpm:.0f} rpm: tolerance.service_speed_rpm is not given."
-    yield from _rig_and_trials(found)
-    if found.case.roll is None and found.bending_speed is None:
+    yield from _rig_and_trials(balancing)
+    if balancing.case.roll is None and balancing.bending_speed is None:
         yield "Whether the roll bends at these speeds is not known: rotor.first_bending_speed_rpm tells."
 
 
-def _printed(found: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
-    """Where the source's formula as it is printed points with readings that are no displacements."""
-    run = next((run for run in found.case.runs if not run.weights), None)
-    masses, turns = [one.printed_mass_g for one in planes], [one.printed_angle_deg for one in planes]
+def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
+    """Warning about the angles of the formula as published, if the readings are no displacements."""
+    run = next((run for run in balancing.case.runs if not run.weights), None)
+    masses, turns = [plane.printed_mass_g for plane in planes], [plane.printed_angle_deg for plane in planes]
     if run is None or run.quantity == "displacement" or None in masses or None in turns:
         return
     at = [
@@ -56,30 +56,30 @@ def _printed(found: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
 
 
 def _directions(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
-    for name, one in zip(("left", "right"), planes, strict=True):
-        if one.mass_g and one.angle_uncertainty_deg > UNTOLD:
+    for name, plane in zip(("left", "right"), planes, strict=True):
+        if plane.mass_g and plane.angle_uncertainty_deg > UNTOLD:
             yield f"In the {name} plane errors are about as large as the imbalance: its angle is not known."
 
 
 def _within_grade(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
-    if all(one.permitted_g_mm is not None and one.imbalance_g_mm <= one.permitted_g_mm for one in planes):
+    if all(plane.permitted_g_mm is not None and plane.imbalance_g_mm <= plane.permitted_g_mm for plane in planes):
         yield "The roll is within its grade as it is: no correction is needed."
 
 
-def _rig_and_trials(found: Found) -> Iterator[str]:
-    roll = found.case.roll
+def _rig_and_trials(balancing: Found) -> Iterator[str]:
+    roll = balancing.case.roll
     if roll is None:
         return
-    if found.solution.method == "rig data":
-        if any(run.weights for run in found.case.runs):
+    if balancing.solution.method == "rig data":
+        if any(run.weights for run in balancing.case.runs):
             yield (
                 "The trial runs do not suffice for influence coefficients (one without and one in each plane, at one "
                 "speed, with masses that tell): their masses are taken into account, and the rig's data used."
             )
         return
-    measured, told = found.solution.influences[0], influence(roll, found.case.runs[0].speed)
-    largest = max(abs(one) for row in told for one in row)
-    off = max(abs(measured[i][k] - told[i][k]) for i in (0, 1) for k in (0, 1)) / largest
+    measured, calculated = balancing.solution.influences[0], influence(roll, balancing.case.runs[0].speed)
+    largest = max(abs(coefficient) for row in calculated for coefficient in row)
+    off = max(abs(measured[i][k] - calculated[i][k]) for i in (0, 1) for k in (0, 1)) / largest
     if off > RIG_DIFFERS:
         yield (
             f"The influence coefficients measured differ by {100 * off:.0f} % from those by [rig] and [rotor], "

@@ -48,7 +48,7 @@ def check_fit(machine: Machine) -> CheckFitResult:
         warnings=machine.warnings,
         # The other tables of a whole machine play no part here.
         provenance=replace(
-            provenance, defaults=tuple(one for one in provenance.defaults if one[0].startswith("bearing["))
+            provenance, defaults=tuple(default for default in provenance.defaults if default[0].startswith("bearing["))
         ),
         seats=tuple(seat for bearing in judged for seat in seat_results(bearing)),
         judged=judged,

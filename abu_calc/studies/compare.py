@@ -34,7 +34,7 @@ class ComparedFile(Record):
 
 @record
 class CompareResult(Result):
-    """What differs, entry by entry; the checks are those of all, each with the letter of its machine."""
+    """Differences, entry by entry; the checks are those of all, each with the letter of its machine."""
 
     command: ClassVar[str] = "compare"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"alike"}
@@ -76,7 +76,7 @@ def compare(
         checks=tuple(_of(letter, check) for letter, _, result in named for check in result.checks),
         warnings=_warnings({letter: result.warnings for letter, _, result in named}),
         provenance=Provenance.today(),
-        files=tuple(_file(*one) for one in named),
+        files=tuple(_file(*entry) for entry in named),
         differences=tuple(row for row in rows if not row.alike),
         alike=tuple(row for row in rows if row.alike),
     )
@@ -90,7 +90,7 @@ def _judged(machine: Machine, accuracy: float, progress: Progress, workers: int 
 
 
 def _entries(result: SizeResult | CheckFitResult) -> Mapping[str, Any]:
-    """What a design comes to; seats alone stand where those of a design do."""
+    """Entries of a design's result; for bearing seats alone, the seats stand in their place."""
     return {"fits": result.to_dict()} if isinstance(result, CheckFitResult) else result.to_dict()
 
 
@@ -100,7 +100,7 @@ def _file(letter: str, machine: Machine, result: Result) -> ComparedFile:
         file=machine.file,
         title=machine.title,
         sha256=machine.sha256,
-        overrides=as_plain({one.key: one.value for one in machine.overrides}),
+        overrides=as_plain({override.key: override.value for override in machine.overrides}),
         status=result.status,
     )
 

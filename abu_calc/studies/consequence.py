@@ -1,4 +1,4 @@
-"""What becomes of balls in a growing arrangement, as results tell it."""
+"""Outcome of balls in a growing arrangement, as results hold it."""
 
 from typing import Annotated, Final, Self
 
@@ -27,7 +27,7 @@ class ArrangementEnd(Record):
 
     @classmethod
     def of(cls, end: Consequence) -> Self:
-        """From the simulation."""
+        """Record of the simulated outcome."""
         text = f"{RUN}, for {end.duration:.3g} s: {ENDS[end.kind]}"
         if end.growth_rate is not None:
             text += f" (growth rate {end.growth_rate:.3g} 1/s)"

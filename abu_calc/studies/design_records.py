@@ -31,8 +31,8 @@ class StabilityBoundary(Record):
 
 def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundary, ...]:
     """Speeds where stability changes."""
-    return tuple(StabilityBoundary(speed_rpm=from_si(one.speed, "rpm"), stable_above=one.stable_above)
-                 for one in limits)  # fmt: skip
+    return tuple(StabilityBoundary(speed_rpm=from_si(limit.speed, "rpm"), stable_above=limit.stable_above)
+                 for limit in limits)  # fmt: skip
 
 
 @record
@@ -45,7 +45,7 @@ class Mode(Record):
 
 @record
 class Frequency(Record):
-    """Where the working speeds lie, by the simple rule and by the eigenvalues."""
+    """Region of the working speeds, by the simple rule and by the eigenvalues."""
 
     speed_hz: Annotated[float, Quantity("rated speed", "Ω/2π")]
     natural_frequencies_hz: Annotated[tuple[float, ...], Quantity("natural frequencies x, y", "ω/2π")]
@@ -64,18 +64,18 @@ class Frequency(Record):
 
     @classmethod
     def of(cls, design: Design, region: TrueRegion) -> Self:
-        """Of a design."""
-        found, limits = design.frequency, region.boundaries
+        """Record of a design."""
+        frequency, limits = design.frequency, region.boundaries
         return cls(
-            speed_hz=from_si(found.speed, "hz"),
-            natural_frequencies_hz=tuple(from_si(w, "hz") for w in found.natural_frequencies),
-            region=found.region,
-            balancing_possible=found.balancing_possible,
-            finite_mass_gap=found.finite_mass_gap,
+            speed_hz=from_si(frequency.speed, "hz"),
+            natural_frequencies_hz=tuple(from_si(w, "hz") for w in frequency.natural_frequencies),
+            region=frequency.region,
+            balancing_possible=frequency.balancing_possible,
+            finite_mass_gap=frequency.finite_mass_gap,
             stable=region.stable,
             stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
-            modes=tuple(Mode(frequency_hz=from_si(one.frequency, "hz"), damping_ratio=one.damping_ratio)
-                        for one in region.modes),
+            modes=tuple(Mode(frequency_hz=from_si(mode.frequency, "hz"), damping_ratio=mode.damping_ratio)
+                        for mode in region.modes),
             hanging_drag_per_s=finite(region.hanging.largest),
         )  # fmt: skip
 
@@ -111,29 +111,29 @@ class Autobalancer(Record):
     optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
 
     @classmethod
-    def of(cls, table: AutobalancerTable, one: Candidate, race: Track, why_not: str | None = None) -> Self:
-        """Of a candidate and its track; `table`: what the file asks of it."""
+    def of(cls, table: AutobalancerTable, candidate: Candidate, race: Track, why_not: str | None = None) -> Self:
+        """Record of a candidate and its race; `table`: the file's demands on it."""
         groove = race.groove_radius
         return cls(
-            ball_count=one.ball_count,
-            ball_diameter_mm=from_si(one.ball_diameter, "mm"),
-            ball_mass_g=from_si(one.ball_mass, "g"),
-            race_radius_mm=from_si(one.race_radius, "mm"),
-            pitch_radius_mm=from_si(one.pitch_radius, "mm"),
+            ball_count=candidate.ball_count,
+            ball_diameter_mm=from_si(candidate.ball_diameter, "mm"),
+            ball_mass_g=from_si(candidate.ball_mass, "g"),
+            race_radius_mm=from_si(candidate.race_radius, "mm"),
+            pitch_radius_mm=from_si(candidate.pitch_radius, "mm"),
             groove_radius_mm=None if groove is None else from_si(groove, "mm"),
-            capacity_g_mm=from_si(one.capacity, "g_mm"),
-            capacity_ratio=finite(one.capacity_ratio),
-            outer_diameter_mm=from_si(one.housing.outer_diameter, "mm"),
-            width_mm=from_si(one.housing.width, "mm"),
-            mass_g=from_si(one.mass, "g"),
-            mass_fraction=one.mass_fraction,
-            ball_force_N=one.strength.ball_force,
-            contact_pressure_MPa=from_si(one.strength.contact_pressure, "MPa"),
-            hoop_stress_MPa=from_si(one.strength.hoop_stress, "MPa"),
+            capacity_g_mm=from_si(candidate.capacity, "g_mm"),
+            capacity_ratio=finite(candidate.capacity_ratio),
+            outer_diameter_mm=from_si(candidate.housing.outer_diameter, "mm"),
+            width_mm=from_si(candidate.housing.width, "mm"),
+            mass_g=from_si(candidate.mass, "g"),
+            mass_fraction=candidate.mass_fraction,
+            ball_force_N=candidate.strength.ball_force,
+            contact_pressure_MPa=from_si(candidate.strength.contact_pressure, "MPa"),
+            hoop_stress_MPa=from_si(candidate.strength.hoop_stress, "MPa"),
             optimum_drag_per_s=race.optimum_drag,
             slowest_decay_per_s=race.decay_rates[0][1],
             carry_over_rpm=from_si(race.carry_over, "rpm"),
-            residual_um=_um(one.budget.residual),
+            residual_um=_um(candidate.budget.residual),
             corrector=table.corrector,
             ball_material=table.ball_material,
             housing=RULES[table.design].text,
@@ -165,12 +165,12 @@ class AccuracyBudget(Record):
 
     @classmethod
     def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:
-        """Of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
-        one, budget = design.autobalancer, design.autobalancer.budget
+        """Record of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
+        candidate, budget = design.autobalancer, design.autobalancer.budget
         worst = next(each for each in design.worst if each.speed == budget.speed)
         band = None
         if reached is not None:
-            band = friction_band(design.case.friction_arm, one.pitch_radius, one.ball_diameter / 2, reached)
+            band = friction_band(design.case.friction_arm, candidate.pitch_radius, candidate.ball_diameter / 2, reached)
         return cls(
             race_eccentricity_um=_um(budget.race_eccentricity),
             speed_rpm=from_si(budget.speed, "rpm"),
@@ -199,7 +199,7 @@ class SpeedLevel(Record):
 
     @classmethod
     def of(cls, level: LevelAtSpeed) -> Self:
-        """In user units."""
+        """Record in user units."""
         return cls(speed_rpm=from_si(level.speed, "rpm"), level_after_db=level.after)
 
 
@@ -214,7 +214,7 @@ class IdleSpeedLevels(Record):
 
     @classmethod
     def of(cls, design: Design) -> Self | None:
-        """Of a design; None without a motor, or if the motor idles at the rated speed."""
+        """Record of a design; None without a motor, or if the motor idles at the rated speed."""
         possible = design.frequency.balancing_possible
         levels = idle_speed_levels(design.case, design.imbalance.value, design.autobalancer, possible)
         if levels is None or design.case.idle_speed is None:
@@ -268,7 +268,7 @@ class Vibration(Record):
 
     @classmethod
     def of(cls, vibration: Levelled, levels: SpeedLevels | None = None, speed: float | None = None) -> Self:
-        """In the words of the interface; `speed` [rad/s]: the rated one, to tell what instruments show."""
+        """Record in the words of the interface; `speed` [rad/s]: the rated one, for instrument readings."""
         worst = vibration.worst
         return cls(
             level_before_db=worst.before,
@@ -281,15 +281,15 @@ class Vibration(Record):
 
     @classmethod
     def of_loaded(cls, loaded: Loaded, speed: float | None = None) -> Self:
-        """Under load."""
-        found = cls.of(loaded.levels, speed=speed)
+        """Record of the vibration under load."""
+        levels = cls.of(loaded.levels, speed=speed)
         steady = loaded.steady.after if loaded.parts_after else None
-        found = replace(found, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
+        levels = replace(levels, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
         if loaded.hasty is None:
-            return found
+            return levels
         handles = tuple(HandleLevels.of(place, speed, hasty) for place, hasty in
                         zip(loaded.levels.places, loaded.hasty.places, strict=True))  # fmt: skip
-        return replace(found, handles=handles, level_at_once_db=loaded.hasty.worst.after, at_once_stays=loaded.stays)
+        return replace(levels, handles=handles, level_at_once_db=loaded.hasty.worst.after, at_once_stays=loaded.stays)
 
 
 @record

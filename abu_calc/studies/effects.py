@@ -78,7 +78,7 @@ def effects(
     with_effects: Sequence[str] = (),
     without_effects: Sequence[str] = (),
 ) -> EffectsResult:
-    """Which effects of a scene `simulate` takes in at an accuracy, and why. Raises InputError."""
+    """Effects of a scene that `simulate` includes at an accuracy, with the reasons. Raises InputError."""
     ACCURACY.check(accuracy)
     subject = subject_of(source, scene, command="effects")
     ledger = subject.ledger(accuracy, with_effects, without_effects)

@@ -1,4 +1,4 @@
-"""What many starts of one design showed, as results hold it."""
+"""Results of many start cases of one design, as results hold them."""
 
 from collections.abc import Callable
 from operator import attrgetter
@@ -19,7 +19,7 @@ class Spread(Record):
 
     @classmethod
     def of(cls, ensemble: Ensemble, value: Callable[[Outcome], float]) -> Self:
-        """Of one number of each start."""
+        """Spread of one number over all start cases."""
         worst = max(map(value, ensemble.outcomes), default=None)
         return cls(typical=ensemble.typical(map(value, ensemble.rated)), worst=finite(worst))
 
@@ -35,12 +35,12 @@ class WorstMember(Record):
     race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
 
     @classmethod
-    def of(cls, one: Outcome) -> Self:
+    def of(cls, worst: Outcome) -> Self:
         """A start at full speed has no run-up."""
-        speed = None if one.member.speed is None else from_si(one.member.speed, "rpm")
+        speed = None if worst.member.speed is None else from_si(worst.member.speed, "rpm")
         return cls(
-            start=one.member.way, drag_per_s=one.member.drag, run_up_s=one.member.run_up or None, speed_rpm=speed,
-            race_centre_deg=one.member.race_centre_deg,
+            start=worst.member.way, drag_per_s=worst.member.drag, run_up_s=worst.member.run_up or None, speed_rpm=speed,
+            race_centre_deg=worst.member.race_centre_deg,
         )  # fmt: skip
 
 
@@ -87,14 +87,14 @@ class EnsembleResult(Record):
 
     @classmethod
     def of(cls, ensemble: Ensemble) -> Self:
-        """In user units."""
+        """Record in user units."""
         return cls(
             members=ensemble.members,
             balanced=ensemble.balanced,
             hanging=len(ensemble.hanging),
-            settling_time_s=Spread.of(ensemble, lambda one: one.time),
-            level_db=Spread.of(ensemble, lambda one: one.level),
-            residual_um=Spread.of(ensemble, lambda one: from_si(one.residual, "um")),
+            settling_time_s=Spread.of(ensemble, lambda outcome: outcome.time),
+            level_db=Spread.of(ensemble, lambda outcome: outcome.level),
+            residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
             settling_by_start=SettlingOfStart.all_of(ensemble),
         )

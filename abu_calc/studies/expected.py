@@ -10,7 +10,10 @@ DEFAULT_TOLERANCE: Final = 1e-3
 """Relative; tight enough to see a changed formula, loose enough for another platform's rounding."""
 
 SIMULATED_TOLERANCE: Final = 0.02
-"""Of what is simulated: to the accuracy of 0.01 asked for by default, on either side, whatever the integrator."""
+"""Relative tolerance of simulated values.
+
+It allows the accuracy of 0.01 asked for by default on either side, whatever the integrator.
+"""
 
 WORTH_KEEPING: Final = (
     "status",
@@ -32,7 +35,10 @@ WORTH_KEEPING: Final = (
     "right.mass_g",
     "right.angle_deg",
 )
-"""What `--update` writes into a file that expects nothing yet; of seats their fits and interferences."""
+"""Values that `--update` writes into a file without expected values.
+
+Bearing seats have their fits and interferences instead.
+"""
 
 SEAT_KEYS: Final = ("fit", "interference_um.0", "interference_um.1", "recommended_fit")
 
@@ -58,16 +64,16 @@ def compare(
     )
 
 
-def _compared(path: str, value: Any, tolerance: float | None, found: Any) -> ComparedValue:
+def _compared(path: str, value: Any, tolerance: float | None, actual: Any) -> ComparedValue:
     usual = SIMULATED_TOLERANCE if path.startswith("simulation.") else DEFAULT_TOLERANCE
     allowed = usual if tolerance is None else tolerance
-    if isinstance(value, list) and isinstance(found, list) and len(value) == len(found):
-        pairs = [_deviation(a, b) for a, b in zip(value, found, strict=True)]
+    if isinstance(value, list) and isinstance(actual, list) and len(value) == len(actual):
+        pairs = [_deviation(a, b) for a, b in zip(value, actual, strict=True)]
         deviation = None if None in pairs else max((each for each in pairs if each is not None), default=0.0)
     else:
-        deviation = _deviation(value, found)
-    passed = value == found if deviation is None else deviation <= allowed
-    return ComparedValue(path=path, expected=value, found=found, tolerance=allowed, deviation=deviation, passed=passed)
+        deviation = _deviation(value, actual)
+    passed = value == actual if deviation is None else deviation <= allowed
+    return ComparedValue(path=path, expected=value, found=actual, tolerance=allowed, deviation=deviation, passed=passed)
 
 
 def current(paths: tuple[str, ...], entries: Mapping[str, object]) -> dict[str, Any]:
@@ -75,13 +81,14 @@ def current(paths: tuple[str, ...], entries: Mapping[str, object]) -> dict[str, 
     if not paths:
         seats = range(len(value_at(entries, "fits") or ()))
         paths = (*WORTH_KEEPING, *(f"fits.{index}.{key}" for index in seats for key in SEAT_KEYS))
-    found = {path: value_at(entries, path) for path in paths}
-    return {path: _rounded(value) for path, value in found.items() if value is not None}
+    values = {path: value_at(entries, path) for path in paths}
+    return {path: _rounded(value) for path, value in values.items() if value is not None}
 
 
 def value_at(entries: Mapping[str, object], path: str) -> Any:
-    """What stands at a path in entries of a result, `autobalancer.ball_count`, `fits.0.fit`, as JSON has it; None where
-    nothing does.
+    """Value at a path in entries of a result, as JSON has it; None if there is none.
+
+    Paths are `autobalancer.ball_count` or `fits.0.fit`, for example.
     """
     value: object = entries
     for part in path.split("."):
@@ -96,12 +103,12 @@ def value_at(entries: Mapping[str, object], path: str) -> Any:
     return as_plain(value)
 
 
-def _deviation(expected: Any, found: Any) -> float | None:
-    if isinstance(expected, bool) or isinstance(found, bool):
+def _deviation(expected: Any, actual: Any) -> float | None:
+    if isinstance(expected, bool) or isinstance(actual, bool):
         return None
-    if not isinstance(expected, (int, float)) or not isinstance(found, (int, float)):
+    if not isinstance(expected, (int, float)) or not isinstance(actual, (int, float)):
         return None
-    return math.fabs(found - expected) / max(math.fabs(expected), 1e-12)
+    return math.fabs(actual - expected) / max(math.fabs(expected), 1e-12)
 
 
 def _rounded(value: Any) -> Any:

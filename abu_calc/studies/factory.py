@@ -110,18 +110,18 @@ def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: 
     many = design.ensemble
     if many is None:
         return _Predicted(design.vibration.level_before_db, design.vibration.level_after_db)
-    told = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
-    return _Predicted(design.vibration.level_before_db, many.level_db.typical, max(told, default=None))
+    known_levels = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
+    return _Predicted(design.vibration.level_before_db, many.level_db.typical, max(known_levels, default=None))
 
 
 def _octaves(machine: Machine, start: str, progress: Progress) -> dict[float, float]:
     """Levels [dB] by octave [Hz] of the machine at its work, pressed with its balls there."""
-    found = levels(machine, "grinding", start=start, progress=progress)
-    return {one.nominal_hz: one.level_db for one in found.octaves if one.level_db is not None}
+    spectrum = levels(machine, "grinding", start=start, progress=progress)
+    return {band.nominal_hz: band.level_db for band in spectrum.octaves if band.level_db is not None}
 
 
-def _row(row: FactoryRow, found: _Predicted) -> FactoryLevel:
-    both = found.without is not None and found.fitted is not None
+def _row(row: FactoryRow, forecast: _Predicted) -> FactoryLevel:
+    both = forecast.without is not None and forecast.fitted is not None
     measured = row.lowered
     if measured is None and row.without is not None and row.fitted is not None:
         measured = max(0.0, row.without[0] - row.fitted[1]), row.without[1] - row.fitted[0]
@@ -131,29 +131,29 @@ def _row(row: FactoryRow, found: _Predicted) -> FactoryLevel:
         state=row.state,
         octave_hz=row.octave,
         without_measured_db=row.without,
-        without_predicted_db=found.without,
+        without_predicted_db=forecast.without,
         with_measured_db=row.fitted,
-        with_predicted_db=found.fitted,
-        with_predicted_worst_db=found.worst,
+        with_predicted_db=forecast.fitted,
+        with_predicted_worst_db=forecast.worst,
         lowered_measured_db=measured,
-        lowered_predicted_db=(found.without or 0.0) - (found.fitted or 0.0) if both else None,
-        outside_db=_outside(row, found),
-        louder_octave_hz=None if found.louder is None else found.louder[0],
-        louder_octave_db=None if found.louder is None else found.louder[1],
+        lowered_predicted_db=(forecast.without or 0.0) - (forecast.fitted or 0.0) if both else None,
+        outside_db=_outside(row, forecast),
+        louder_octave_hz=None if forecast.louder is None else forecast.louder[0],
+        louder_octave_db=None if forecast.louder is None else forecast.louder[1],
         named=row.peak,
         word=row.word,
     )
 
 
-def _outside(row: FactoryRow, found: _Predicted) -> float | None:
-    """By how much the prediction leaves the span that was measured [dB]; None where they do not speak of the same."""
-    if found.fitted is None:
+def _outside(row: FactoryRow, forecast: _Predicted) -> float | None:
+    """Distance of the prediction from the measured span [dB]; None if they do not concern the same."""
+    if forecast.fitted is None:
         return None
     if row.fitted is not None:
-        return _gap(row.fitted, found.fitted, found.worst or found.fitted)
-    if row.lowered is None or found.without is None:
+        return _gap(row.fitted, forecast.fitted, forecast.worst or forecast.fitted)
+    if row.lowered is None or forecast.without is None:
         return None
-    return _gap(row.lowered, found.without - (found.worst or found.fitted), found.without - found.fitted)
+    return _gap(row.lowered, forecast.without - (forecast.worst or forecast.fitted), forecast.without - forecast.fitted)
 
 
 def _gap(measured: Span, least: float, most: float) -> float:

@@ -115,7 +115,7 @@ class GrindingResult(Result):
     simulation_without: Simulated | None
     agreement: Comparison | None
     orbits: tuple[Orbit, ...] = field(compare=False, repr=False)
-    """How the axis goes round without autobalancer, with fixed and with free balls."""
+    """Orbits of the axis without autobalancer, with fixed and with free balls."""
 
 
 @checked
@@ -192,22 +192,22 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
 
 
 def _always(work: Work, loads: Loads | None) -> bool:
-    """Whether the autobalancer lowers the level in every start case."""
+    """Sentence that tells if the autobalancer lowers the level in every start case."""
     return bool(work.always) and (loads is None or bool(loads.lowered("settled") and loads.lowered("at once")))
 
 
 def _remedies(work: Work, accuracy: float, progress: Progress) -> tuple[analysis.Remedy, ...]:
-    """What lowers the level in every start case."""
+    """Changes that lower the level in every start case."""
     return analysis.remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
 
 
 def _orbits(work: Work, still: Steady) -> Iterator[Orbit]:
-    """Those that are known."""
+    """Orbits that are known."""
     sides = (("without", work.without.steady, work.without.run), ("balls fixed", still, None),
              ("with", work.fitted.steady, work.fitted.run))  # fmt: skip
     for name, steady, run in sides:
-        if (found := Orbit.steady(name, steady)) is not None:
-            yield found
+        if (orbit := Orbit.steady(name, steady)) is not None:
+            yield orbit
         if run is not None:
             yield Orbit.through(name, run.path)
 
@@ -236,14 +236,14 @@ def _cutting_power(design: Design) -> float:
 def _printed(work: Work) -> Printed | None:
     """The source's formula beside the general one; None where it does not speak of such a machine."""
     design, steady, balls = work.design, work.fitted.steady, work.fitted.steady.balls
-    one, case = design.autobalancer, design.case
+    autobalancer, case = design.autobalancer, design.case
     if not contact_presses(case) or balls is None:
         return None
-    mass, ratio = case.body.effective_mass(one.mass), one.requirement.plane_ratio
+    mass, ratio = case.body.effective_mass(autobalancer.mass), autobalancer.requirement.plane_ratio
     natural = natural_frequency(case.suspension, 0, mass)
     printed = ratio * printed_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
-    share = abs(printed) / (2 * one.ball_mass * one.pitch_radius)
-    half = math.acos(share) if one.ball_count == 2 and share <= 1 else None
+    share = abs(printed) / (2 * autobalancer.ball_mass * autobalancer.pitch_radius)
+    half = math.acos(share) if autobalancer.ball_count == 2 and share <= 1 else None
     place = cmath.phase(printed)
     return Printed(
         resultant_g_mm=from_si(abs(printed), "g_mm"),
@@ -262,15 +262,15 @@ def _profile(work: Work) -> tuple[ProfilePoint, ...] | None:
 
 
 def _warnings(work: Work) -> list[str]:
-    design, found = work.design, list(work.design.warnings)
+    design, notes = work.design, list(work.design.warnings)
     for side in (work.without, work.fitted, work.at_once):
-        found += (f"{text[0].upper()}{text[1:]}" for text in (side.run.warnings if side.run else ()))
+        notes += (f"{text[0].upper()}{text[1:]}" for text in (side.run.warnings if side.run else ()))
         if side.failure and side.steady.amplitude is not None and not side.pulls:
-            found.append(f"The level is that of the closed form: no trustworthy simulation, {side.failure}.")
+            notes.append(f"The level is that of the closed form: no trustworthy simulation, {side.failure}.")
     if design.case.race_offset:
-        found.append(
+        notes.append(
             "The race is off the wheel's plane: closed forms take the wheel's plane, the simulation that of the race."
         )
     if work.fitted.parts and contact_presses(design.case):
-        found.append("Wheel and work part: ball places, axis and reaction are those of a wheel that does not.")
-    return list(dict.fromkeys(found))
+        notes.append("Wheel and work part: ball places, axis and reaction are those of a wheel that does not.")
+    return list(dict.fromkeys(notes))

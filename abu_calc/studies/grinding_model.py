@@ -39,11 +39,11 @@ class GrindingModel(Record):
 
     @classmethod
     def of(cls, work: Work) -> Self:
-        """That of a design at work."""
+        """Model of a design pressed to the workpiece."""
         design, steady = work.design, work.fitted.steady
-        case, one, contact = design.case, design.autobalancer, design.case.contact
-        mass = case.body.effective_mass(one.mass)
-        stiffness = contact_of(case, one.mass).dynamic_stiffness
+        case, autobalancer, contact = design.case, design.autobalancer, design.case.contact
+        mass = case.body.effective_mass(autobalancer.mass)
+        stiffness = contact_of(case, autobalancer.mass).dynamic_stiffness
         held = [each + mass * case.speed**2 for each in stiffness]
         return cls(
             system_mass_kg=design.system_mass,
@@ -60,11 +60,11 @@ class GrindingModel(Record):
             press_force_N=contact.press_force if contact else 0.0,
             cutting_coefficient=contact.cutting_coefficient if contact else 0.0,
             rotation_sense=contact.sense if contact else 0,
-            ball_count=one.ball_count,
-            ball_mass_kg=one.ball_mass,
-            ball_radius_m=one.ball_diameter / 2,
-            pitch_radius_m=one.pitch_radius,
-            capacity_kg_m=one.capacity,
+            ball_count=autobalancer.ball_count,
+            ball_mass_kg=autobalancer.ball_mass,
+            ball_radius_m=autobalancer.ball_diameter / 2,
+            pitch_radius_m=autobalancer.pitch_radius,
+            capacity_kg_m=autobalancer.capacity,
             inertia_factor=case.inertia_factor,
             drag_per_s=case.drag,
             slow_stiffness_per_s2=None if steady.balls is None else (

@@ -20,7 +20,7 @@ from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, wrapped_deg
 
 SIDES: Final = 60
-"""Of the polygon that stands for an ellipse."""
+"""Sides of the polygon that stands for an ellipse."""
 
 
 @record
@@ -32,15 +32,17 @@ class AxisMotion(Record):
 
     @classmethod
     def of(cls, axis: tuple[complex, complex] | None) -> Self:
-        """That of phasors."""
+        """Amplitudes of a motion given by its phasors."""
         x, y = (None, None) if axis is None else (from_si(abs(each), "mm") for each in axis)
         return cls(x_amplitude_mm=x, y_amplitude_mm=y)
 
 
 @dataclass(frozen=True, eq=False)
 class Orbit:
-    """How the axis goes round once: points from its mean place [µm], x along the work, y away from it; `name` says with
-    which balls. `simulated`: with every effect that counts, else as if wheel and work never parted.
+    """Orbit of the axis over one turn: points from its mean place [µm].
+
+    x is along the workpiece, y away from it. `name` says with which balls. `simulated`: with every effect that
+    counts, else as if wheel and workpiece never lost contact.
     """
 
     name: str
@@ -57,7 +59,7 @@ class Orbit:
 
     @classmethod
     def through(cls, name: str, path: NDArray[np.float64], *, simulated: bool = True) -> Self:
-        """That of places x, y [m]."""
+        """Orbit through places x, y [m]."""
         points = (from_si(1.0, "um") * path).T.tolist()
         return cls(name, simulated, tuple((x, y) for x, y in points))
 
@@ -75,7 +77,7 @@ class Reaction(Record):
 
     @classmethod
     def of(cls, case: Case, steady: Steady) -> Self:
-        """That of a steady motion."""
+        """Reaction of a steady motion."""
         force, press = steady.reaction, case.contact.press_force if case.contact else 0.0
         limit, known = largest_runout(case, steady), force is not None and abs(force) > 0
         return cls(
@@ -90,7 +92,7 @@ class Reaction(Record):
 
 @record
 class Printed(Record):
-    """What the source's formula asks of the balls, where it puts two, and how wrong that is here."""
+    """Demand on the balls by the source's formula as published, its places of two, and its error here."""
 
     resultant_g_mm: Annotated[float, Quantity("imbalance of the balls, printed formula", "|V|")]
     resultant_angle_deg: Annotated[float, Quantity("its angle", "arg V")]
@@ -119,19 +121,19 @@ class FrictionBand(Record):
     shaken_um: Annotated[float | None, Quantity("simulated: left with it", "", 3)]
 
     @classmethod
-    def of(cls, found: Friction, run: Shaken | None) -> Self:
-        """In user units."""
-        whirl, unshaken = found.whirl, None if run is None else run.unshaken
+    def of(cls, friction: Friction, run: Shaken | None) -> Self:
+        """Record in user units."""
+        whirl, unshaken = friction.whirl, None if run is None else run.unshaken
         left = None if run is None else run.shaken
         return cls(
-            typical_um=from_si(found.typical, "um"),
-            worst_um=from_si(found.worst, "um") if math.isfinite(found.worst) else None,
-            threshold_um=from_si(found.threshold, "um"),
-            axial_um=from_si(found.axial, "um"),
-            axial_shakes=found.axial > found.threshold > 0,
+            typical_um=from_si(friction.typical, "um"),
+            worst_um=from_si(friction.worst, "um") if math.isfinite(friction.worst) else None,
+            threshold_um=from_si(friction.threshold, "um"),
+            axial_um=from_si(friction.axial, "um"),
+            axial_shakes=friction.axial > friction.threshold > 0,
             whirl_um=None if whirl is None else from_si(whirl, "um"),
-            whirl_shakes=found.creep is not None,
-            creep_s=found.creep,
+            whirl_shakes=friction.creep is not None,
+            creep_s=friction.creep,
             simulated_way=None if run is None else run.way,
             simulated_um=None if run is None else from_si(run.amplitude, "um"),
             simulated_given=None if run is None else run.given,
@@ -150,12 +152,12 @@ class HodographPoint(Record):
     fitted: AxisMotion
 
     @classmethod
-    def of(cls, one: AtAngle) -> Self:
-        """In user units."""
+    def of(cls, point: AtAngle) -> Self:
+        """Record in user units."""
         return cls(
-            runout_angle_deg=math.degrees(one.angle),
-            without=AxisMotion.of(one.without),
-            fitted=AxisMotion.of(one.fitted),
+            runout_angle_deg=math.degrees(point.angle),
+            without=AxisMotion.of(point.without),
+            fitted=AxisMotion.of(point.fitted),
         )
 
 
@@ -171,12 +173,12 @@ class ResponsePoint(Record):
     balls: Annotated[str | None, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
 
     @classmethod
-    def of(cls, one: AtSpeed) -> Self:
-        """In user units."""
-        bare, free = one.without, one.fitted
+    def of(cls, point: AtSpeed) -> Self:
+        """Record in user units."""
+        bare, free = point.without, point.fitted
         force = [None if each is None or each.reaction is None else abs(each.reaction) for each in (bare, free)]
         return cls(
-            speed_rpm=from_si(one.speed, "rpm"),
+            speed_rpm=from_si(point.speed, "rpm"),
             without=AxisMotion.of(bare.axis if bare else None),
             fitted=AxisMotion.of(free.axis if free else None),
             force_without_N=force[0],
@@ -203,7 +205,7 @@ class Simulated(Record):
 
     @classmethod
     def of(cls, run: Working) -> Self:
-        """In user units."""
+        """Record in user units."""
         presses = len(run.force) > 0
         return cls(
             x_amplitude_mm=from_si(run.x, "mm"),
@@ -222,7 +224,7 @@ class Simulated(Record):
 
 @record
 class Comparison(Record):
-    """How far the simulation of the contact alone is from the closed form, relative."""
+    """Difference between the simulation of the contact alone and the closed form, relative."""
 
     axis: Annotated[float | None, Quantity("axis", "", 3)]
     reaction: Annotated[float | None, Quantity("variable force", "", 3)]
@@ -230,14 +232,14 @@ class Comparison(Record):
     from_idle: Annotated[bool, Quantity("balls get there from where they stand at idle")]
 
     @classmethod
-    def of(cls, found: Agreement) -> Self:
+    def of(cls, errors: Agreement) -> Self:
         """The same numbers."""
-        return cls(axis=found.axis, reaction=found.reaction, imbalance=found.imbalance, from_idle=found.reached)
+        return cls(axis=errors.axis, reaction=errors.reaction, imbalance=errors.imbalance, from_idle=errors.reached)
 
 
 @record
 class TriedRemedy(Record):
-    """What was tried and lowers the level under load, and the levels it gave."""
+    """Change that was tried and lowers the level under load, and the levels it gave."""
 
     runout_mm: Annotated[float | None, Quantity("runout", "ε")]
     contact_stiffness_N_per_m: Annotated[float | None, Quantity("contact stiffness", "c_n")]
@@ -246,14 +248,14 @@ class TriedRemedy(Record):
     level_after_db: Annotated[float | None, Quantity("level with it")]
 
     @classmethod
-    def of(cls, found: Remedy) -> Self:
-        """In user units."""
+    def of(cls, remedy: Remedy) -> Self:
+        """Record in user units."""
         return cls(
-            runout_mm=from_si(found.value, "mm") if found.what == "runout" else None,
-            contact_stiffness_N_per_m=found.value if found.what == "stiffness" else None,
-            press_force_N=found.value if found.what == "press" else None,
-            level_before_db=found.levels.before,
-            level_after_db=found.levels.after,
+            runout_mm=from_si(remedy.value, "mm") if remedy.what == "runout" else None,
+            contact_stiffness_N_per_m=remedy.value if remedy.what == "stiffness" else None,
+            press_force_N=remedy.value if remedy.what == "press" else None,
+            level_before_db=remedy.levels.before,
+            level_after_db=remedy.levels.after,
         )
 
 
@@ -273,11 +275,11 @@ class ProfilePoint(Record):
     def round(
         cls, press: float, free: Steady, bare: Steady, run: Mapping[float, float], alone: Mapping[float, float]
     ) -> tuple["ProfilePoint", ...]:
-        """Round the wheel, in 24 points; simulated ones by the nearest of theirs."""
+        """Force profile round the wheel, in 24 points; simulated values are those of the nearest angle."""
         angles = [2 * math.pi * step / 24 for step in range(24)]
 
-        def steady(one: Steady, angle: float) -> float | None:
-            return None if one.pressure is None else press + (one.pressure * cmath.exp(-1j * angle)).real
+        def steady(state: Steady, angle: float) -> float | None:
+            return None if state.pressure is None else press + (state.pressure * cmath.exp(-1j * angle)).real
 
         return tuple(
             cls(wheel_angle_deg=math.degrees(angle), with_N=steady(free, angle), without_N=steady(bare, angle),
@@ -286,7 +288,7 @@ class ProfilePoint(Record):
         )  # fmt: skip
 
 
-def _nearest(found: Mapping[float, float], angle: float) -> float | None:
-    if not found:
+def _nearest(forces: Mapping[float, float], angle: float) -> float | None:
+    if not forces:
         return None
-    return found[min(found, key=lambda one: abs(math.remainder(one - angle, 2 * math.pi)))]
+    return forces[min(forces, key=lambda sample_angle: abs(math.remainder(sample_angle - angle, 2 * math.pi)))]

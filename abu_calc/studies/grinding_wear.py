@@ -1,4 +1,4 @@
-"""How the wheel of a machine at its work wears, in user units."""
+"""Wear of the wheel of a machine at its workpiece, in user units."""
 
 import cmath
 import math
@@ -16,7 +16,7 @@ from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.units import from_si, to_si, wrapped_deg
 
 USABLE = 0.2
-"""Of the wheel's radius, taken as the depth that may be worn off where the file does not say."""
+"""Share of the wheel's radius taken as the depth that may be worn off, if the file gives none."""
 CLAIMED = 32.0, 48.0
 """Minutes a wheel lasts without and with the autobalancer of the MSh-230, Kladiev 1996."""
 
@@ -34,7 +34,7 @@ class WearStage(Record):
 
     @classmethod
     def of(cls, stage: Stage, pace: float | None) -> Self:
-        """That of a stage; `pace` in minutes per metre."""
+        """Record of a stage; `pace` in minutes per metre."""
         return cls(
             depth_um=from_si(stage.depth, "um"),
             time_min=None if pace is None else pace * stage.depth,
@@ -47,7 +47,7 @@ class WearStage(Record):
 
 @record
 class WearCourse(Record):
-    """How the wheel wears: the rate of its runout is below zero where wear centres it."""
+    """Wear of the wheel: the rate of its runout is below zero if wear centres it."""
 
     centres: Annotated[bool, Quantity("wear centres the wheel")]
     runout_rate: Annotated[
@@ -93,7 +93,10 @@ def press_of(design: Design) -> float:
 
 
 def wear_course(work: Work, steady: Steady) -> WearCourse | None:
-    """By the steady force round the wheel, as if wheel and work never parted; None where there is none."""
+    """Wear by the steady force round the wheel, as if wheel and workpiece never lost contact.
+
+    None if there is no such force.
+    """
     design = work.design
     if not contact_presses(design.case) or steady.imbalance is None:
         return None
@@ -122,7 +125,7 @@ def bouncing_course(design: Design, side: Side) -> WearCourse | None:
 
 
 def claim(work: Work) -> Claim | None:
-    """What it would take for the wheel to live as much longer as the source has it."""
+    """Conditions under which the wheel would last as much longer as the source claims."""
     if not contact_presses(work.design.case):
         return None
     press, (before, after) = press_of(work.design), CLAIMED

@@ -1,4 +1,4 @@
-"""Whether balls may hang beside the balanced state, as results tell it: bounds with the margin of the drag."""
+"""Stalling of balls beside the balanced state, as results hold it: bounds with the drag rate's margin."""
 
 from typing import Annotated, Self
 
@@ -8,7 +8,7 @@ from abu_calc.studies.quantity import Quantity, Record, record
 from abu_calc.studies.simulated_scene import finite
 
 STATES = ("at a resonance", "above a heavily damped resonance", "at rest under gravity")
-"""Where balls hang, in the order of the bounds."""
+"""Stalled states of balls, in the order of the bounds."""
 
 
 @record
@@ -31,18 +31,18 @@ class Hanging(Record):
 
     @classmethod
     def of(cls, scene: Scene, half_angle: float) -> Self | None:
-        """Of a scene with balls; `half_angle` [rad] of touching ones, 0 without size."""
+        """Record of a scene with balls; `half_angle` [rad] of touching ones, 0 without size."""
         if not scene.ball_masses:
             return None
-        found = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
-        drags = zip(STATES, (found.resonance, found.damped, found.gravity), strict=True)
+        bounds = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
+        drags = zip(STATES, (bounds.resonance, bounds.damped, bounds.gravity), strict=True)
         return cls(
-            drag_per_s=found.drag,
-            hanging_drag_per_s=finite(found.largest),
-            doubt=found.doubt(),
-            bounds=tuple(_bound(found, state, drag) for state, drag in drags if drag > 0),
+            drag_per_s=bounds.drag,
+            hanging_drag_per_s=finite(bounds.largest),
+            doubt=bounds.doubt(),
+            bounds=tuple(_bound(bounds, state, drag) for state, drag in drags if drag > 0),
         )
 
 
-def _bound(found: HangingBounds, state: str, drag: float) -> HangingBound:
-    return HangingBound(state=state, drag_per_s=finite(drag), margin=found.margin(drag))
+def _bound(bounds: HangingBounds, state: str, drag: float) -> HangingBound:
+    return HangingBound(state=state, drag_per_s=finite(drag), margin=bounds.margin(drag))

@@ -24,7 +24,7 @@ class OctaveLevel(Record):
 
     @classmethod
     def of(cls, band: Band) -> Self:
-        """In user units."""
+        """Record in user units."""
         octave, velocity = band.octave, band.velocity
         return cls(
             nominal_hz=float(octave.nominal),
@@ -51,7 +51,7 @@ class AxisLevel(Record):
 
     @classmethod
     def of(cls, axis: AxisLevels) -> Self:
-        """In user units."""
+        """Record in user units."""
         return cls(
             name=axis.name,
             level_db=level(axis.velocity),
@@ -93,7 +93,10 @@ class PlaceLevel(Record):
         cls, place: PlaceLevels, minutes: float | None, before: float | None = None,
         loads: tuple[float, float] | None = None,
     ) -> Self:  # fmt: skip
-        """In user units; `minutes` of a day, level `before` [dB], `loads` [N] without and with the autobalancer."""
+        """Record in user units; `minutes` of a day, level `before` [dB].
+
+        `loads` [N]: without and with the autobalancer.
+        """
         velocity, moved, total = place.velocity, place.louder("displacement"), place.total
         count = len(place.axes[0].bands)
         return cls(

@@ -46,7 +46,7 @@ FOLDED: Final = 1e-3
 """Share of the power near half the sampling rate, above which faster motion may have been folded into the octaves."""
 USUAL_DB: Final = (60, 140)
 UNSTEADY_DB: Final = 2.0
-"""Of two halves of a record, by which they may differ unremarked."""
+"""Largest difference between two halves of a record that gives no remark [dB]."""
 
 
 @record
@@ -145,7 +145,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
 
 
 def _start(recorded: Recording, from_s: float | None) -> float:
-    """Where means begin [s]: of a simulated run as in `abu simulate`, with its last twentieth."""
+    """Time at which means begin [s]: of a simulated run as in `abu simulate`, with its last twentieth."""
     if from_s is None:
         return LAST * recorded.duration if recorded.simulated else 0.0
     replace(START, high=recorded.duration).check(from_s)
@@ -153,7 +153,7 @@ def _start(recorded: Recording, from_s: float | None) -> float:
 
 
 def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
-    """What a reader must know of a record."""
+    """Remarks on a record that a reader must know."""
     if recorded.simulated and signals[0].whole:
         yield "A trajectory of a simulation: means are taken from the last twentieth on, as abu simulate takes them."
     folded = max(map(folded_share, signals))
@@ -171,11 +171,11 @@ def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
             )
 
 
-def _unusual(found: float | None) -> Iterator[str]:
+def _unusual(level_db: float | None) -> Iterator[str]:
     """A level that hardly any machine has."""
-    if found is not None and not USUAL_DB[0] <= found <= USUAL_DB[1]:
+    if level_db is not None and not USUAL_DB[0] <= level_db <= USUAL_DB[1]:
         yield (
-            f"{found:.0f} dB is unusual, {USUAL_DB[0]} … {USUAL_DB[1]} dB is usual: are unit and scale of the file "
+            f"{level_db:.0f} dB is unusual, {USUAL_DB[0]} … {USUAL_DB[1]} dB is usual: are unit and scale of the file "
             "what they should be?"
         )
 
@@ -190,7 +190,7 @@ def _of_motion(
     run = integrated(ledger.scene, accuracy - ledger.spared, times, progress=progress)
     at_axis = axis_place_levels(run, times, "axis")
     places = (at_axis,) if design is None else held_levels(design, at_axis)
-    records = tuple(PlaceLevel.of(one, minutes) for one in places)
+    records = tuple(PlaceLevel.of(place, minutes) for place in places)
     measured = None
     if design is not None:
         records = _with_design(design, places, minutes, idle=subject.scene.name == "idle")
@@ -215,10 +215,10 @@ def _of_motion(
 def _with_design(
     design: Design, places: Sequence[PlaceLevels], minutes: float | None, *, idle: bool
 ) -> tuple[PlaceLevel, ...]:
-    """Beside the levels those without autobalancer, idle, and what the hands carry."""
+    """Levels, with those without autobalancer, idle, and the loads of the hands beside them."""
     before = {place.name: place.levels.before for place in design.idle.places} if idle else {}
-    loads = {one.name: (one.without, one.fitted) for one in held_loads(design) or ()}
-    return tuple(PlaceLevel.of(one, minutes, before.get(one.name), loads.get(one.name)) for one in places)
+    loads = {load.name: (load.without, load.fitted) for load in held_loads(design) or ()}
+    return tuple(PlaceLevel.of(place, minutes, before.get(place.name), loads.get(place.name)) for place in places)
 
 
 def _measured(design: Design, at_axis: PlaceLevels, *, idle: bool) -> MeasuredAfter | None:
@@ -226,14 +226,14 @@ def _measured(design: Design, at_axis: PlaceLevels, *, idle: bool) -> MeasuredAf
     table = design.case.table.measured_after
     if table is None or table.shown is None:
         return None
-    found = level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity)
+    level_db = level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity)
     if idle:
-        return MeasuredAfter.of(compared(design.case, found))
-    return MeasuredAfter.of(compared_design(design), found)
+        return MeasuredAfter.of(compared(design.case, level_db))
+    return MeasuredAfter.of(compared_design(design), level_db)
 
 
 def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
-    """What the levels lack."""
+    """Remarks on what the levels lack."""
     if design is None:
         return
     yield f"One start is simulated: {start}. Others may leave more: abu size runs many."
@@ -251,7 +251,7 @@ def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
 
 def _result(title: str, places: tuple[PlaceLevel, ...], **others: Any) -> LevelsResult:
     """The loudest place stands at the top."""
-    loudest = max(places, key=lambda one: one.level_db or -math.inf)
+    loudest = max(places, key=lambda place: place.level_db or -math.inf)
     others = {"scene": None, "measured_after": None} | others
     same = (
         *("level_db", "velocity_rms_mm_per_s", "octaves", "corrected_level_db", "weighted_acceleration_m_per_s2"),

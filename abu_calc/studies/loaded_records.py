@@ -1,4 +1,4 @@
-"""What the start cases of grinding showed, as results hold it, and whether the level under load is a lower bound."""
+"""Outcomes of the start cases of grinding as results hold them, and the mark of a level that is a lower bound."""
 
 from typing import Annotated, Self
 
@@ -74,7 +74,7 @@ class LoadedStarts(Record):
 
 @record
 class LevelBound(Record):
-    """Whether the level under load is a lower bound, what sets it in the model, and what the model lacks."""
+    """Mark of a level under load that is a lower bound: what sets it in the model, and what the model lacks."""
 
     lower_bound: Annotated[bool, Quantity("the level is a lower bound")]
     total_m_per_s2: Annotated[float | None, Quantity("weighted vibration total of the level", "a_hv", 3)]

@@ -1,4 +1,4 @@
-"""How a scene moved, at equally spaced times."""
+"""Motion of a scene, at equally spaced times."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
@@ -39,7 +39,7 @@ class Motion:
 
     @classmethod
     def of(cls, run: Simulation, times: NDArray[np.float64]) -> Self:
-        """That of a run which was sampled at these times."""
+        """Motion of a run, sampled at these times."""
         scene, states = run.scene, run.trajectory.at(times)
         size, balls = len(scene.support.names), len(scene.ball_masses)
         x, y = from_si(1.0, "mm") * axis_place(scene, states)
@@ -54,7 +54,7 @@ class Motion:
 
 
 def _further(scene: Scene, times: Array, states: Array) -> Iterator[tuple[str, Array]]:
-    """What a scene has beside axis and balls."""
+    """Columns of a scene beside axis and balls."""
     support, balls, q = scene.support, len(scene.ball_masses), states[: len(scene.support.names)]
     tilt, turned = support.tilt(q), support.turned(q)
     if tilt is not None:
@@ -74,7 +74,7 @@ def _further(scene: Scene, times: Array, states: Array) -> Iterator[tuple[str, A
 
 
 def equally_spaced(scene: Scene, samples: int | None) -> NDArray[np.float64]:
-    """So many times [s] of a run, both ends included; none where none are asked for."""
+    """Times [s] of a run, equally spaced, both ends included; none if none are asked for."""
     if samples is None:
         return np.empty(0)
     fitting = MOST_NUMBERS // (1000 * scene.state_count) * 1000

@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 
 class Quantity(NamedTuple):
-    """What a field is called where it is shown, its symbol and significant digits, and what it means."""
+    """Name of a field as shown, its symbol and significant digits, and its meaning."""
 
     label: str
     symbol: str = ""
@@ -131,13 +131,13 @@ def hints(kind: type[Record]) -> Mapping[str, Any]:
 
 
 def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
-    """What the fields of a record say of themselves; those that hold records say nothing."""
+    """Quantities of a record's fields; fields that hold records have none."""
     if kind not in _QUANTITIES:
         beside = {name: get_args(hint)[1:] for name, hint in hints(kind).items()}
-        found = (
-            (name, next((each for each in one if isinstance(each, Quantity)), None)) for name, one in beside.items()
+        pairs = (
+            (name, next((each for each in notes if isinstance(each, Quantity)), None)) for name, notes in beside.items()
         )
-        _QUANTITIES[kind] = {name: quantity for name, quantity in found if quantity is not None}
+        _QUANTITIES[kind] = {name: quantity for name, quantity in pairs if quantity is not None}
     return _QUANTITIES[kind]
 
 

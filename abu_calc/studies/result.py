@@ -1,4 +1,4 @@
-"""What all results share: the verdict, what to know, and what is needed to repeat them."""
+"""Common parts of all results: the verdict, the warnings, and the data needed to repeat them."""
 
 import datetime
 import importlib
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 FIGURES: Final = "abu_calc.report.figures.of_result"
-"""Who draws results: a room above this one, asked for by its name when somebody wants a figure, as a plugin is."""
+"""Module that draws results, in a layer above this one.
+
+It is imported by its name when somebody wants a figure, as a plugin is.
+"""
 
 NOTHING: Final = Record()
 """A model of results that stand on no equations."""
@@ -24,7 +27,7 @@ NOTHING: Final = Record()
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a result comes from: the file as named, its hash, entries replaced, defaults in force, when, by what.
+    """Provenance of a result: file as named, its hash, entries replaced, defaults in force, version, date.
 
     `file` None: the input was no file.
     """
@@ -38,7 +41,7 @@ class Provenance:
 
     @classmethod
     def of(cls, reading: "Reading") -> "Provenance":
-        """That of a file that was read."""
+        """Provenance of a file that was read."""
         replaced = {override.key: override.value for override in reading.overrides}
         return cls.today(reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used)
 
@@ -47,12 +50,12 @@ class Provenance:
         cls, file: str | None = None, sha256: str | None = None, overrides: tuple[tuple[str, object], ...] = (),
         defaults: tuple[tuple[str, object], ...] = (),
     ) -> "Provenance":  # fmt: skip
-        """Of this day and this version."""
+        """Provenance of this day and this version."""
         return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat())
 
     @property
     def input(self) -> dict[str, Any] | None:
-        """What the JSON document has of the input; null where that was no file."""
+        """Input as the JSON document has it; null if that was no file."""
         if self.file is None:
             return None
         return {
@@ -65,7 +68,7 @@ class Provenance:
 
 @record
 class Result(Record):
-    """What a study answers: its own fields, in user units, the checks that judge them, and where they come from."""
+    """Answer of a study: its own fields, in user units, the checks that judge them, and their provenance."""
 
     command: ClassVar[str]
     left_out: ClassVar[frozenset[str]] = frozenset({"title", "checks", "warnings", "model", "provenance"})
@@ -86,8 +89,8 @@ class Result(Record):
     @property
     def figures(self) -> tuple[str, ...]:
         """Names of the figures that this result has, for `figure`."""
-        found: tuple[str, ...] = importlib.import_module(FIGURES).names(self)
-        return found
+        names: tuple[str, ...] = importlib.import_module(FIGURES).names(self)
+        return names
 
     def figure(self, name: str) -> "Figure":
         """A figure of this result as one of matplotlib, to be shown, changed or saved; units stand on its axes.

@@ -17,7 +17,7 @@ from abu_calc.units import from_si, level_from_velocity
 
 Array = NDArray[np.float64]
 Level = Callable[[float], float]
-"""Of a velocity of the axis, rms [m/s], the level [dB] that is looked at."""
+"""Level [dB] that is looked at, as a function of a velocity of the axis, rms [m/s]."""
 
 MOST: Final = 500
 """Samples that a picture needs."""
@@ -47,7 +47,10 @@ class RotorView:
 
     @classmethod
     def of(cls, scene: Scene, run: Trajectory, level: Level = level_from_velocity, most: int = MOST) -> Self | None:
-        """Of a run, in at most so many samples; of too long a one its beginning, None where that is not held."""
+        """View of a run, in at most `most` samples.
+
+        If the run is too long, its beginning is shown; None if that is not held.
+        """
         held = _held(run, settling_times(scene), beginning(scene))
         if held is None:
             return None
@@ -89,13 +92,13 @@ def _held(trajectory: Trajectory, *choices: Array) -> tuple[Array, Array] | None
 
 
 def _angles(scene: Scene, states: Array) -> Array:
-    """Of the balls in the rotor [rad]."""
+    """Angles of the balls in the rotor [rad]."""
     first = 2 * len(scene.support.names)
     return np.asarray(states[first : first + len(scene.ball_masses)])
 
 
 def _levels(squares: Array, level: Level) -> Array:
-    """Of mean squares of both velocities; nothing moves at less than a picometre per second."""
+    """Levels of the mean squares of both velocities; nothing moves at less than a picometre per second."""
     velocities = np.sqrt(np.maximum(squares.max(axis=0), 1e-24))
     return np.array([level(velocity) for velocity in velocities.tolist()])
 
@@ -105,5 +108,5 @@ def _over_a_turn(values: Array, times: Array, turn: Array) -> Array:
     steps = np.diff(times) * (values[:, 1:] + values[:, :-1]) / 2
     sums = np.concatenate((np.zeros((len(values), 1)), np.cumsum(steps, axis=1)), axis=1)
     first, last = (np.interp(turn + half, turn, times) for half in (-np.pi, np.pi))
-    found = [(np.interp(last, times, row) - np.interp(first, times, row)) / (last - first) for row in sums]
-    return np.array(found)
+    means = [(np.interp(last, times, row) - np.interp(first, times, row)) / (last - first) for row in sums]
+    return np.array(means)

@@ -24,7 +24,7 @@ class RaceModel(Record):
 
     @classmethod
     def of(cls, race: Race) -> Self:
-        """That of a race."""
+        """Model of a race."""
         return cls(
             pitch_radius_m=race.pitch_radius,
             plane_offset_m=race.plane_offset,
@@ -58,7 +58,7 @@ class SceneModel(Record):
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
-        """That of a scene."""
+        """Model of a scene."""
         return cls(
             states=assemble(scene).states,
             support=scene.support.model(),

@@ -34,17 +34,20 @@ class SeatModel(Record):
     roughness_m: float | None
     tightest_pressure_Pa: float
     starting_pressure_Pa: float
-    """At the least interference, what it loses before the shaft turns taken off."""
+    """Pressure at the least interference, less the losses before the shaft turns [Pa]."""
     raceway_rate: float
     around_expansion_per_K: float | None
-    """Of the inner ring, or of the housing; null with those below where no temperature is given."""
+    """Expansion rate of the inner ring, or of the housing [1/K].
+
+    It is null, with the fields below, if no temperature is given.
+    """
     around_rise_K: float | None
     inside_expansion_per_K: float | None
     inside_rise_K: float | None
 
     @classmethod
     def of(cls, seat: SeatFit, bearing: Bearing) -> Self:
-        """Of a seat of a bearing."""
+        """Model of a seat of a bearing."""
         roughness = (bearing.shaft if seat.seat == "shaft" else bearing.housing).roughness
         around, inside = warm_parts(bearing, seat.seat) or ((None, None), (None, None))
         joint = seat.joint
@@ -87,12 +90,12 @@ class SeatModel(Record):
 
     @property
     def mean_interference_um(self) -> float:
-        """Of the middles of both tolerances."""
+        """Interference of the middles of both tolerances [µm]."""
         return um(self.mean_interference_m)
 
     @property
     def half_tolerances_um(self) -> Pair:
-        """Of the male and the female part."""
+        """Half tolerances of the male and the female part [µm]."""
         return um_pair(self.half_tolerances_m)
 
     @property
@@ -102,22 +105,22 @@ class SeatModel(Record):
 
     @property
     def diameter_mm(self) -> float:
-        """Of the seat."""
+        """Diameter of the seat [mm]."""
         return from_si(self.diameter_m, "mm")
 
     @property
     def width_mm(self) -> float:
-        """Of the ring."""
+        """Width of the ring [mm]."""
         return from_si(self.width_m, "mm")
 
     @property
     def length_mm(self) -> float | None:
-        """Of the seat, chamfers taken off."""
+        """Length of the seat [mm], chamfers subtracted."""
         return None if self.length_m is None else from_si(self.length_m, "mm")
 
     @property
     def load_in_kilonewtons(self) -> float | None:
-        """Of the bearing."""
+        """Radial load of the bearing [kN]."""
         return None if self.radial_load_N is None else from_si(self.radial_load_N, "kN")
 
     @property
@@ -127,7 +130,7 @@ class SeatModel(Record):
 
     @property
     def tightest_pressure_in_megapascals(self) -> float:
-        """At the largest interference."""
+        """Pressure at the largest interference [MPa]."""
         return from_si(self.tightest_pressure_Pa, "MPa")
 
 
@@ -137,7 +140,7 @@ class BearingModel(Record):
 
     bore_m: float
     inner_ring_diameter_m: float
-    """Of the inner ring as a plain tube."""
+    """Diameter of the inner ring as a plain tube [m]."""
     shaft_bore_m: float
     speed_rad_per_s: float | None
     seat_friction: float
@@ -145,35 +148,35 @@ class BearingModel(Record):
     housing: SeatModel
 
     @classmethod
-    def of(cls, found: BearingSeats) -> Self:
-        """Of a bearing that was judged."""
-        bearing = found.bearing
+    def of(cls, seats: BearingSeats) -> Self:
+        """Model of a bearing that was judged."""
+        bearing = seats.bearing
         return cls(
             bore_m=bearing.inner.diameter,
             inner_ring_diameter_m=inner_ring_diameter(bearing.inner.diameter, bearing.outer.diameter),
             shaft_bore_m=bearing.shaft.other or 0.0,
             speed_rad_per_s=bearing.service.speed,
             seat_friction=bearing.service.seat_friction,
-            shaft=SeatModel.of(found.shaft, bearing),
-            housing=SeatModel.of(found.housing, bearing),
+            shaft=SeatModel.of(seats.shaft, bearing),
+            housing=SeatModel.of(seats.housing, bearing),
         )
 
     @property
     def bore_mm(self) -> float:
-        """Of the bearing."""
+        """Bore of the bearing [mm]."""
         return from_si(self.bore_m, "mm")
 
     @property
     def inner_ring_diameter_mm(self) -> float:
-        """Of the inner ring as a plain tube."""
+        """Diameter of the inner ring as a plain tube [mm]."""
         return from_si(self.inner_ring_diameter_m, "mm")
 
     @property
     def shaft_bore_mm(self) -> float:
-        """Of a hollow shaft; 0 where it is solid."""
+        """Bore of a hollow shaft [mm]; 0 if it is solid."""
         return from_si(self.shaft_bore_m, "mm")
 
 
 def bearing_models(result: "CheckFitResult") -> tuple[BearingModel, ...]:
-    """What the seats of every bearing were judged with."""
+    """Models with which the seats of every bearing were judged."""
     return tuple(map(BearingModel.of, result.judged))

@@ -37,7 +37,7 @@ def um_or_none(length: float | None) -> float | None:
 
 @record
 class Loss(Record):
-    """What takes from the interference: the load by both rules, of which the larger counts, then the losses given."""
+    """Loss of interference: the load by both rules, of which the larger counts, then the losses given."""
 
     name: Annotated[str, Quantity("by")]
     amount_um: Annotated[float, Quantity("taken from the interference")]
@@ -46,7 +46,7 @@ class Loss(Record):
 
     @classmethod
     def of(cls, item: "Item") -> Self:
-        """Of an entry of the ledger."""
+        """Record of an entry in the list of losses."""
         loss = item.loss
         return cls(name=loss.name, amount_um=um(loss.value), formula=loss.formula, counted=item.counted)
 
@@ -60,10 +60,10 @@ class AdmissibleFit(Record):
     clearance_probability: Annotated[float, Quantity("probability of clearance", "", 3)]
 
     @classmethod
-    def of(cls, one: "Admissible") -> Self:
-        """Of a class that passes."""
+    def of(cls, fit: "Admissible") -> Self:
+        """Record of a tolerance class that passes."""
         return cls(
-            fit=one.fit, interference_um=um_pair(one.interference), clearance_probability=one.clearance_probability
+            fit=fit.fit, interference_um=um_pair(fit.interference), clearance_probability=fit.clearance_probability
         )
 
 
@@ -75,9 +75,9 @@ class RejectedFit(Record):
     why: Annotated[str, Quantity("why not")]
 
     @classmethod
-    def of(cls, one: "Rejected") -> Self:
-        """Of a class that fails."""
-        return cls(fit=one.fit, why=one.why)
+    def of(cls, fit: "Rejected") -> Self:
+        """Record of a tolerance class that fails."""
+        return cls(fit=fit.fit, why=fit.why)
 
 
 @record
@@ -92,7 +92,7 @@ class SortingGroup(Record):
 
     @classmethod
     def of(cls, group: "Group", seat: Seat) -> Self:
-        """Of a group of a seat."""
+        """Record of a group of a seat."""
         part, ring = (group.male, group.female) if seat == "shaft" else (group.female, group.male)
         return cls(
             number=group.number,
@@ -105,7 +105,7 @@ class SortingGroup(Record):
 
 @record
 class Repair(Record):
-    """What a seat whose limits are measured has left, and what a repair must restore."""
+    """Interference left in a seat whose limits are measured, and the limits that a repair must restore."""
 
     grip_left_um: Annotated[Pair, Quantity("grip left", "", 4, "losses taken off")]
     restore_fit: Annotated[str, Quantity("field to restore")]
@@ -115,21 +115,21 @@ class Repair(Record):
     next_bearing: Annotated[str | None, Quantity("bearing of the next size")]
 
     @classmethod
-    def of(cls, found: "SeatRepair") -> Self:
-        """In user units."""
+    def of(cls, repair: "SeatRepair") -> Self:
+        """Record in user units."""
         return cls(
-            grip_left_um=um_pair(found.grip_left),
-            restore_fit=found.restore,
-            restore_limits_um=um_pair(found.limits),
-            bonding_gap_um=um(found.gap),
-            next_seat_mm=None if found.next_seat is None else round(from_si(found.next_seat, "mm"), 6),
-            next_bearing=found.next_bearing,
+            grip_left_um=um_pair(repair.grip_left),
+            restore_fit=repair.restore,
+            restore_limits_um=um_pair(repair.limits),
+            bonding_gap_um=um(repair.gap),
+            next_seat_mm=None if repair.next_seat is None else round(from_si(repair.next_seat, "mm"), 6),
+            next_bearing=repair.next_bearing,
         )
 
 
 @record
 class Creep(Record):
-    """Whether the ring creeps on its seat under its load, and whether it holds when the machine starts."""
+    """Creep of the ring on its seat under its load, and its hold when the machine starts."""
 
     ring_load: Annotated[RingLoad, Quantity("how the load meets the ring")]
     verdict: Annotated[str, Quantity("verdict", "", 4, "holds (smallest), may creep (mean), creeps, …")]
@@ -142,22 +142,22 @@ class Creep(Record):
 
     @classmethod
     def of(cls, seat: "SeatFit") -> Self:
-        """Of a seat."""
-        found = seat.creep
-        least, probable = found.least_torque, found.probable_torque
+        """Record of a seat."""
+        creep = seat.creep
+        least, probable = creep.least_torque, creep.probable_torque
         return cls(
             ring_load=seat.joint.ring.load,
-            verdict=found.verdict,
-            why=found.why,
-            probability=found.probability,
+            verdict=creep.verdict,
+            why=creep.why,
+            probability=creep.probability,
             friction_moment_N_m=None if least is None or probable is None else (least, probable),
-            holds_at_start=found.holds_at_start,
+            holds_at_start=creep.holds_at_start,
         )
 
 
 @record
 class Requirements(Record):
-    """What the drawing of the seat must ask for."""
+    """Requirements that the drawing of the seat must state."""
 
     field: Annotated[str, Quantity("field")]
     limits_um: Annotated[Pair, Quantity("limits of the field")]
@@ -171,7 +171,7 @@ class Requirements(Record):
 
     @classmethod
     def of(cls, asked: "SeatRequirements") -> Self:
-        """In user units."""
+        """Record in user units."""
         return cls(
             field=asked.field,
             limits_um=um_pair(asked.limits),
@@ -200,7 +200,7 @@ class Clearance(Record):
 
     @classmethod
     def of(cls, left: "ClearanceLeft") -> Self:
-        """In user units."""
+        """Record in user units."""
         return cls(
             group=left.group,
             initial_um=um_pair(left.initial),

@@ -82,7 +82,7 @@ class SeatResult(Record):
 
     @property
     def needs_no_grip(self) -> bool:
-        """Whether the load of the ring is fixed in direction."""
+        """True if the load of the ring is fixed in direction."""
         return self.creep.ring_load == "stationary"
 
     @property
@@ -97,7 +97,7 @@ class SeatResult(Record):
 
     @classmethod
     def of(cls, seat: "SeatFit", bearing: "BearingSeats", clearance: Clearance | None) -> Self:
-        """In user units, of a seat of a bearing; `clearance`: what is left in it."""
+        """Record of a seat of a bearing, in user units; `clearance`: the clearance left in the bearing."""
         intensity, sorted_out, maker = seat.load_intensity, seat.selection, seat.joint.maker
         ring = seat.joint.ring
         return cls(

@@ -37,7 +37,7 @@ class SectionPart(Record):
 
     @classmethod
     def of(cls, part: "Part") -> Self:
-        """In user units."""
+        """Record in user units."""
         return cls(
             name=part.name,
             material=part.material,
@@ -73,29 +73,29 @@ class Section(Record):
 
     @classmethod
     def of(cls, design: "Design") -> Self:
-        """Of a design."""
-        found = section(design.case, design.autobalancer)
-        limits = bore_limits(2 * found.bore_radius)
+        """Record of a design."""
+        cut = section(design.case, design.autobalancer)
+        limits = bore_limits(2 * cut.bore_radius)
         return cls(
             design=design.case.autobalancer.design,
-            bore_diameter_mm=_mm(2 * found.bore_radius),
+            bore_diameter_mm=_mm(2 * cut.bore_radius),
             bore_class=BORE,
             bore_limits_um=None if limits is None else (_um(limits.lower), _um(limits.upper)),
-            hub_diameter_mm=_mm(2 * found.hub_radius),
-            race_diameter_mm=_mm(2 * found.race_radius),
+            hub_diameter_mm=_mm(2 * cut.hub_radius),
+            race_diameter_mm=_mm(2 * cut.race_radius),
             race_tolerance_mm=_mm(RACE_TOLERANCE),
-            shoulder_diameter_mm=_mm(2 * found.shoulder_radius),
+            shoulder_diameter_mm=_mm(2 * cut.shoulder_radius),
             groove_tolerance_mm=_mm(GROOVE_TOLERANCE),
-            ring_diameter_mm=_mm(2 * found.ring_radius),
-            wall_mm=_mm(found.ring_radius - found.race_radius),
-            web_mm=_mm(found.web),
-            inner_width_mm=_mm(found.inner_width),
+            ring_diameter_mm=_mm(2 * cut.ring_radius),
+            wall_mm=_mm(cut.ring_radius - cut.race_radius),
+            web_mm=_mm(cut.web),
+            inner_width_mm=_mm(cut.inner_width),
             runout_um=_um(2 * design.case.race_eccentricity),
             circularity_um=_um(OVALITY),
             roughness_Ra_um=_um(ROUGHNESS),
             hardness=HARDNESS,
             case_depth_mm=_mm(CASE_DEPTH),
-            parts=tuple(map(SectionPart.of, found.parts)),
+            parts=tuple(map(SectionPart.of, cut.parts)),
         )
 
 

@@ -21,16 +21,16 @@ class Readings(Record):
 
     @classmethod
     def of(cls, level: float | None, speed: float) -> Self | None:
-        """Of a level [dB] at a speed [rad/s]; None of none."""
+        """Readings of a level [dB] at a speed [rad/s]; None without a level."""
         if level is None:
             return None
-        found = readings(velocity_from_level(level), speed)
+        reading = readings(velocity_from_level(level), speed)
         return cls(
-            velocity_mm_per_s=from_si(found.velocity, "mm_per_s"),
-            displacement_um=from_si(found.displacement, "um"),
-            acceleration_m_per_s2=found.acceleration,
-            weighted_m_per_s2=found.weighted,
-            total_m_per_s2=found.total,
+            velocity_mm_per_s=from_si(reading.velocity, "mm_per_s"),
+            displacement_um=from_si(reading.displacement, "um"),
+            acceleration_m_per_s2=reading.acceleration,
+            weighted_m_per_s2=reading.weighted,
+            total_m_per_s2=reading.total,
         )
 
 
@@ -51,7 +51,10 @@ class HandleLevels(Record):
 
     @classmethod
     def of(cls, place: Place, speed: float | None = None, hasty: Place | None = None) -> Self:
-        """Of one place; with the speed [rad/s] also as instruments show it; `hasty`: the same when pressed at once."""
+        """Levels of one place; with the speed [rad/s] also as instruments show them.
+
+        `hasty`: the same place, pressed at once.
+        """
         levels = place.levels
         return cls(
             name=place.name,
@@ -67,9 +70,9 @@ class HandleLevels(Record):
 
 @record
 class MeasuredAfter(Record):
-    """What was measured with the autobalancer, idle, beside what is predicted of the same place.
+    """Measurement with the autobalancer, idle, beside the prediction for the same place.
 
-    `predicted_loaded_db`: what is predicted there under load, in reports of the machine at its work.
+    `predicted_loaded_db`: the prediction there under load, in reports of the machine at its workpiece.
     """
 
     optional: ClassVar[frozenset[str]] = frozenset({"predicted_loaded_db"})
@@ -84,18 +87,18 @@ class MeasuredAfter(Record):
     predicted_loaded_db: Annotated[float | None, Quantity("predicted under load", "L")] = None
 
     @classmethod
-    def of(cls, one: Compared | None, loaded: float | None = None) -> Self | None:
+    def of(cls, comparison: Compared | None, loaded: float | None = None) -> Self | None:
         """None without a measured value; `loaded`: level [dB] that is predicted under load."""
-        if one is None:
+        if comparison is None:
             return None
-        predicted = one.predicted
+        predicted = comparison.predicted
         return cls(
-            place=one.place,
-            measured=in_words(one.shown),
-            measured_level_db=level_from_velocity(one.measured),
+            place=comparison.place,
+            measured=in_words(comparison.shown),
+            measured_level_db=level_from_velocity(comparison.measured),
             predicted_level_db=level_from_velocity(predicted) if predicted else None,
-            difference_db=one.difference,
-            predicted_value=as_shown(one.shown, predicted, one.speed) if predicted else None,
-            unit=UNITS[one.shown.key],
+            difference_db=comparison.difference,
+            predicted_value=as_shown(comparison.shown, predicted, comparison.speed) if predicted else None,
+            unit=UNITS[comparison.shown.key],
             predicted_loaded_db=loaded,
         )

@@ -18,7 +18,7 @@ ROUNDING: Final = 1e-9
 """Computed numbers that are closer, relative to the larger, are the same: they differ by rounding alone."""
 
 OF_THE_RUN: Final = frozenset({"cost", "error_estimate"})
-"""What a result has that says how it was computed, and nothing of the machine."""
+"""Entries of a result that say how it was computed, and nothing of the machine."""
 
 
 @record
@@ -32,49 +32,49 @@ class Difference(Record):
 
     @property
     def alike(self) -> bool:
-        """Whether all have the same."""
+        """True if all machines have the same value."""
         return all(_alike(self.values[0], other, exact=self.part == "file") for other in self.values[1:])
 
 
 def of_files(machines: Sequence[Machine]) -> Iterator[Difference]:
-    """What the files say, and the defaults in force where they say nothing; what they expect is left out."""
+    """Entries of the files, with the defaults in force for missing ones; expected values are left out."""
     return _rows("file", [_in_force(machine.tables) for machine in machines])
 
 
 def of_designs(entries: Sequence[Mapping[str, Any]]) -> Iterator[Difference]:
-    """What the designs come to, at the paths of their results."""
-    return _rows("design", [{path: (value, _unit(path)) for path, value in _leaves(one)} for one in entries])
+    """Results of the designs, at the paths of their results."""
+    return _rows("design", [{path: (value, _unit(path)) for path, value in _leaves(design)} for design in entries])
 
 
 def of_checks(checks: Sequence[Sequence[Check]]) -> Iterator[Difference]:
     """Status, value and limit of every check, by its code; where there are several of one code, by its name too."""
-    repeated = {code for one in checks for code in _repeated(check.code for check in one)}
-    return _rows("check", [_graded(one, repeated) for one in checks])
+    repeated = {code for column in checks for code in _repeated(check.code for check in column)}
+    return _rows("check", [_graded(column, repeated) for column in checks])
 
 
 def _rows(part: Part, columns: Sequence[Values]) -> Iterator[Difference]:
     paths = dict.fromkeys(path for column in columns for path in column)
     for path in paths:
-        found = [column.get(path, (None, "")) for column in columns]
-        unit = next((unit for _, unit in found if unit), "")
-        yield Difference(part=part, path=path, unit=unit, values=tuple(as_plain(value) for value, _ in found))
+        cells = [column.get(path, (None, "")) for column in columns]
+        unit = next((unit for _, unit in cells if unit), "")
+        yield Difference(part=part, path=path, unit=unit, values=tuple(as_plain(value) for value, _ in cells))
 
 
 def _in_force(tables: Table) -> Values:
-    found = {}
+    entries = {}
     for path, table in tables.tables():
         silent = table.unused() - table.model_fields_set
         for key in type(table).model_fields:
             value = getattr(table, key)
             if key not in silent and _is_entry(value) and "expected" not in (*path[:1], key):
-                found[key_path((*path, key))] = value, unit_of(key)
-    return found
+                entries[key_path((*path, key))] = value, unit_of(key)
+    return entries
 
 
 def _is_entry(value: object) -> bool:
-    """Whether something stands there, and no further table."""
+    """True if there is a value, and no further table."""
     inner = value if isinstance(value, tuple) else (value,)
-    return value is not None and value != () and not any(isinstance(one, Table) for one in inner)
+    return value is not None and value != () and not any(isinstance(element, Table) for element in inner)
 
 
 def _leaves(entries: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
@@ -82,7 +82,7 @@ def _leaves(entries: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _unit(path: str) -> str:
-    """That of the last step which names one: `interference_um.0` is in µm."""
+    """Unit of the last step which names one: `interference_um.0` is in µm."""
     return next((unit for unit in map(unit_of, reversed(path.split("."))) if unit), "")
 
 
@@ -94,21 +94,21 @@ def _repeated(codes: Iterable[str]) -> set[str]:
 
 
 def _graded(checks: Sequence[Check], repeated: set[str]) -> Values:
-    found: dict[str, tuple[Any, str]] = {}
+    grades: dict[str, tuple[Any, str]] = {}
     for check in checks:
         name = f"{check.code} {check.name}" if check.code in repeated else check.code
         for key in ("status", "value", "limit"):
-            found[key_path(("checks", name, key))] = getattr(check, key), "" if key == "status" else check.unit or ""
-    return found
+            grades[key_path(("checks", name, key))] = getattr(check, key), "" if key == "status" else check.unit or ""
+    return grades
 
 
-def _alike(one: Any, other: Any, *, exact: bool) -> bool:
+def _alike(first: Any, other: Any, *, exact: bool) -> bool:
     """The same; a number alone is a list of it, as files may say either."""
-    if isinstance(one, list) != isinstance(other, list):
-        one, other = (one, [other] * len(one)) if isinstance(one, list) else ([one] * len(other), other)
-    if isinstance(one, list):
-        same = (_alike(a, b, exact=exact) for a, b in zip(one, other, strict=False))
-        return len(one) == len(other) and all(same)
-    if exact or not (is_number(one) and is_number(other)):
-        return isinstance(one, bool) is isinstance(other, bool) and bool(one == other)
-    return bool(abs(one - other) <= ROUNDING * max(abs(one), abs(other)))
+    if isinstance(first, list) != isinstance(other, list):
+        first, other = (first, [other] * len(first)) if isinstance(first, list) else ([first] * len(other), other)
+    if isinstance(first, list):
+        same = (_alike(a, b, exact=exact) for a, b in zip(first, other, strict=False))
+        return len(first) == len(other) and all(same)
+    if exact or not (is_number(first) and is_number(other)):
+        return isinstance(first, bool) is isinstance(other, bool) and bool(first == other)
+    return bool(abs(first - other) <= ROUNDING * max(abs(first), abs(other)))

@@ -43,15 +43,15 @@ class SimulateResult(SimulatedScene, Result):
 
     model: SceneModel
     level_at: Annotated[str, Quantity("place of the level")]
-    """Where on the axis `level_db` holds."""
+    """Place on the axis at which `level_db` holds."""
     handles: tuple[SimulatedLevel, ...] | None
     """Levels where a machine is held, background included; None for what has no places to hold."""
     measured_after: MeasuredAfter | None
-    """Of a machine that idles: what was measured, beside what this run says."""
+    """Measurement of an idling machine, beside the result of this run."""
     description: str
     """Support, races and balls, in a sentence."""
     start: str
-    """How it starts, in words."""
+    """Start case in words."""
     motion: Motion | None = field(compare=False, repr=False)
     """Axis and balls at the times asked for; None where none were."""
     view: RotorView | None = field(compare=False, repr=False)
@@ -143,7 +143,7 @@ def _at_rated_speed(subject: Subject) -> tuple[str, ...]:
 
 
 def _view(subject: Subject, run: Simulation) -> RotorView | None:
-    """With levels as the limits of a machine's file are for."""
+    """View of a run, with the levels that the limits of a machine's file are for."""
     if subject.design is None:
         return RotorView.of(run.scene, run.trajectory)
     return RotorView.of(run.scene, run.trajectory, loudest(subject.design, run.response))

@@ -20,7 +20,7 @@ def finite(value: float | None) -> float | None:
 
 @record
 class End(Record):
-    """Where a run ended; ball angles in (−180, 180], in the order of the file."""
+    """Final state of a run; ball angles in (−180, 180], in the order of the file."""
 
     optional: ClassVar[frozenset[str]] = frozenset(
         {"tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad", "bearing_amplitudes_mm"}
@@ -46,7 +46,7 @@ class End(Record):
 
     @classmethod
     def of(cls, final: FinalState, bearings: tuple[float, ...]) -> Self:
-        """In user units."""
+        """Record in user units."""
         about_y, about_minus_x = final.tilt or (0.0, 0.0)
         return cls(
             t_s=final.t,
@@ -97,7 +97,7 @@ class Cost(Record):
 
     @classmethod
     def of(cls, cost: RunCost) -> Self:
-        """That of a simulation."""
+        """Cost of a simulation."""
         return cls(
             integrator=cost.integrator, tolerance=cost.tolerance, evaluations=cost.evaluations, steps=cost.steps,
             events=cost.events, wall_s=cost.wall_s, why=cost.why,
@@ -106,7 +106,7 @@ class Cost(Record):
 
 @record
 class Envelope(Record):
-    """What the averaged slow motion was good for."""
+    """Usability of the averaged slow motion: its error estimate, and why it was taken or not."""
 
     error_estimate: Annotated[float | None, Quantity("error estimate of the averages", "", 2)]
     why: Annotated[str, Quantity("why it was taken, or not")]
@@ -124,7 +124,7 @@ class Audit(Record):
 
     @classmethod
     def of(cls, run: AuditRun) -> Self:
-        """That of an audit."""
+        """Record of an audit."""
         return cls(
             difference=run.difference, promise=run.promise, effects=run.effects, evaluations=run.evaluations,
             wall_s=run.wall_s,
@@ -189,7 +189,7 @@ class SimulatedScene(Record):
         settling_estimates: tuple[SettlingEstimate, ...] | None = None,
         audit: AuditRun | None = None,
     ) -> Self:
-        """In user units."""
+        """Record in user units."""
         response = simulation.response
         bearings = tuple(from_si(value, "mm") for value in response.bearing_amplitudes)
         return cls(

@@ -122,7 +122,7 @@ def size(
     arm, moved = _arm(design, failures, accuracy, progress)
     stays = _on_work(design, runs, accuracy, progress)
     answered = tried.ensemble is not None and bool(tried.ensemble.given)
-    lost = (not_simulated(one.scene, one.reason, answered=answered, mean=_mean(one, work)) for one in failures)
+    lost = (not_simulated(fault.scene, fault.reason, answered=answered, mean=_mean(fault, work)) for fault in failures)
     remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
     need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
     bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
@@ -153,8 +153,8 @@ def size(
         autobalancer=Autobalancer.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),
         alternatives=tuple(
-            Autobalancer.of(design.case.autobalancer, one, race, why)
-            for (one, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
+            Autobalancer.of(design.case.autobalancer, runner_up, race, why)
+            for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
         ),
         accuracy_budget=AccuracyBudget.of(design, reached),
         vibration=replace(
@@ -186,31 +186,31 @@ def size(
 
 
 def _checks(tried: Proven, arm: "ArmJudgement | None") -> Iterator[Check]:
-    """Those of the sizing, the level by its worst start and the arm's as it was judged."""
-    held = {one.code: one for one in arm.checks} if arm else {}
-    for one in tried.design.checks:
-        if one.code == "ABU401":
-            yield with_searched(level_check(one, tried.ensemble, tried.remedy), tried.searched, tried.design)
+    """Checks of the sizing, the level by its worst start case and the arm's checks as they were judged."""
+    held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
+    for check in tried.design.checks:
+        if check.code == "ABU401":
+            yield with_searched(level_check(check, tried.ensemble, tried.remedy), tried.searched, tried.design)
         else:
-            yield held.pop(one.code, one)
+            yield held.pop(check.code, check)
     yield from held.values()
 
 
 def _view(design: Design, runs: Sequence[Run], scene: str) -> RotorView | None:
-    """With levels as the limit of the file is for."""
+    """View of a scene's run, with the levels that the limit of the file is for."""
     run = next((run.simulation for run in runs if run.ledger.scene.name == scene), None)
     return None if run is None else RotorView.of(run.scene, run.trajectory, loudest(design, run.response))
 
 
 def _grinding(runs: Sequence[Run], failures: Sequence[Failure]) -> Run | Failure | None:
-    """What came of the scene of grinding."""
-    found: list[Run | Failure] = [run for run in runs if run.ledger.scene.name == "grinding"]
-    found += [failure for failure in failures if failure.scene == "grinding"]
-    return next(iter(found), None)
+    """Run of the grinding scene, or its failure; None if there is neither."""
+    outcomes: list[Run | Failure] = [run for run in runs if run.ledger.scene.name == "grinding"]
+    outcomes += [failure for failure in failures if failure.scene == "grinding"]
+    return next(iter(outcomes), None)
 
 
 def _mean(failure: Failure, work: Work | Failure | None) -> str | None:
-    """What the scene of grinding comes to on average, where it is chaotic and that is known."""
+    """Average result of the grinding scene; None unless it is chaotic and the average is known."""
     if failure.scene != "grinding" or not isinstance(work, Work) or not work.at_once.scatter:
         return None
     return f"chaotic bouncing, {work.level_at_once:.1f} ± {work.at_once.scatter:.1f} dB on average"
@@ -227,7 +227,7 @@ def _pressed(
 
 
 def _under_load(work: Work | Failure | None, loads: Loads | None, bound: LowerBound | None) -> Iterator[str]:
-    """What a reader must know of the levels under load."""
+    """Warnings about the levels under load that a reader must know."""
     if bound is not None and bound.sentence:
         yield bound.sentence
     if loads is not None:
@@ -284,7 +284,7 @@ def _arm(
     from abu_calc.scenes.from_design import scene_of_design
 
     judged = judge_arm(design, progress)
-    if judged is not None and judged.may_pass and any(one.scene.startswith("swing-arm") for one in failures):
+    if judged is not None and judged.may_pass and any(failure.scene.startswith("swing-arm") for failure in failures):
         from abu_calc.analysis.arm_scenes import damping_to_simulate
 
         more = damping_to_simulate(design, judged, accuracy, progress)
@@ -299,7 +299,10 @@ def _arm(
 
 
 def _on_work(design: Design, runs: Sequence[Run], accuracy: float, progress: Progress) -> tuple[Check, ...]:
-    """Whether the disk of a swing arm stays on its work; nothing of machines without one, or that does not press."""
+    """Check that the disk of a swing arm stays on its workpiece.
+
+    There is none for machines without an arm, or with one that does not press.
+    """
     bounds = design.swing_arm
     if bounds is None or any(check.status != "pass" for check in bounds.checks if check.code in ("ABU503", "ABU504")):
         return ()

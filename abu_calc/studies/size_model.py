@@ -12,7 +12,7 @@ from abu_calc.units import from_si
 
 @record
 class SizeModel(Record):
-    """What the steps of sizing worked with, a few numbers in user units too; complex ones as (real, imaginary)."""
+    """Numbers behind the steps of sizing, a few in user units too; complex ones as (real, imaginary)."""
 
     speed_rad_per_s: float
     speed_range_rad_per_s: tuple[float, float]
@@ -39,9 +39,9 @@ class SizeModel(Record):
 
     @classmethod
     def of(cls, design: Design, runs: Sequence[Run]) -> Self:
-        """That of a design and its simulations."""
-        case, one = design.case, design.autobalancer
-        need, reactions = one.requirement, (case.suspension.reaction(axis, case.speed) for axis in (0, 1))
+        """Model of a design and its simulations."""
+        case, autobalancer = design.case, design.autobalancer
+        need, reactions = autobalancer.requirement, (case.suspension.reaction(axis, case.speed) for axis in (0, 1))
         return cls(
             speed_rad_per_s=case.speed,
             speed_range_rad_per_s=case.speed_range,
@@ -56,12 +56,12 @@ class SizeModel(Record):
             eccentricity_part_kg_m=need.eccentricity_part,
             eccentricity_part_g_mm=from_si(need.eccentricity_part, "g_mm"),
             plane_ratio=need.plane_ratio,
-            ball_radius_mm=from_si(one.ball_diameter / 2, "mm"),
+            ball_radius_mm=from_si(autobalancer.ball_diameter / 2, "mm"),
             inertia_factor=case.inertia_factor,
             drag_per_s=case.drag,
             ball_stiffness_per_s2=design.track.ball_stiffness,
-            resting_angles_rad=one.budget.resting_angles,
-            permitted_pressure_Pa=one.strength.permitted_pressure,
+            resting_angles_rad=autobalancer.budget.resting_angles,
+            permitted_pressure_Pa=autobalancer.strength.permitted_pressure,
             candidates=design.choice.examined,
             imbalance_source=design.imbalance.source,
             scenes={run.ledger.scene.name: SceneModel.of(run.ledger.scene) for run in runs},

@@ -1,4 +1,4 @@
-"""Whether the balanced state of a scene is stable, and at which speeds that changes."""
+"""Stability of the balanced state of a scene, and the speeds at which it changes."""
 
 from typing import Annotated, ClassVar, Final, NamedTuple
 
@@ -26,17 +26,20 @@ from abu_calc.studies.subject import Source, Subject, subject_of
 from abu_calc.units import from_si, to_si, wrapped_deg
 
 SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
-"""Those of a machine with a balanced state; a run-up passes through all speeds, and a wheel at work is held."""
+"""Scenes of a machine with a balanced state.
+
+A run-up passes through all speeds, and a wheel at the workpiece is held.
+"""
 
 FASTEST_RPM: Final = 1e6
 SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
 """The range of speeds that can be asked for, in words."""
 
 SLOWEST, FASTEST = 0.1, 2.0
-"""Of the scene's own speed: where crossings are looked for unless a range is given."""
+"""Range in which crossings are looked for unless one is given, in multiples of the scene's own speed."""
 
 SPEEDS_SHOWN: Final = 81
-"""Over a range of speeds, at which the growth rate is told."""
+"""Number of speeds over a range at which the growth rate is given."""
 
 Pairs = tuple[tuple[float, float], ...]
 
@@ -52,7 +55,7 @@ class Crossing(Record):
 
 @record
 class GrowthAt(Record):
-    """How fast the slowest-dying disturbance grows, or below zero dies out, at a speed."""
+    """Growth rate of the slowest-dying disturbance at a speed; below zero it dies out."""
 
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
     growth_rate_per_s: Annotated[float, Quantity("growth rate of a disturbance", "max Re λ")]
@@ -87,9 +90,9 @@ class StabilityResult(Result):
     swing_arm: SwingArm | None = None
     arm_motion: ArmMotion | None = None
     growth_by_speed: tuple[GrowthAt, ...] | None = None
-    """Over the speeds asked for, of the arrangement that is worst at each."""
+    """Growth rates over the speeds asked for, of the arrangement that is worst at each."""
     consequence: ArrangementEnd | None = None
-    """Of balls in the worst arrangement, where it grows and others do not."""
+    """Outcome of balls in the worst arrangement, if it grows and others do not."""
     searched_rpm: tuple[float, float] | None
     """The range of speeds that boundaries were looked for in."""
 
@@ -112,61 +115,61 @@ def stability(
     _check_speeds(speeds_rpm)
     subject, way = (
         subject_of(source, scene, command="stability"),
-        next(one for one in ARRANGEMENTS if one == arrangement),
+        next(name for name in ARRANGEMENTS if name == arrangement),
     )
     if crossings and speeds_rpm is None:
         rated = from_si(subject.scene.speed, "rpm")
         speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
     pressed = grinds(subject.scene)
     progress("balanced state")
-    found = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
+    judgement = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
     # What cannot be judged at one speed cannot at others.
     if speeds_rpm:
         progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
-    limits = _limits(subject, speeds_rpm, way) if speeds_rpm and found.reason is None else None
+    limits = _limits(subject, speeds_rpm, way) if speeds_rpm and judgement.reason is None else None
     arm = _on_arm(subject, progress)
     return StabilityResult(
         title=subject.title,
-        checks=(_check(found, way, pressed=pressed),),
-        warnings=(*subject.warnings, *stability_warnings(found, subject.scene, way), *arm.warnings),
+        checks=(_check(judgement, way, pressed=pressed),),
+        warnings=(*subject.warnings, *stability_warnings(judgement, subject.scene, way), *arm.warnings),
         model=SceneModel.of(subject.scene),
         provenance=subject.provenance,
-        speed_rpm=from_si(found.speed, "rpm"),
-        state=found.state,
-        stable=found.stable,
-        growth_rate_per_s=finite(found.growth_rate),
-        eigenvalues=_pairs(found.eigenvalues),
-        floquet_multipliers=_pairs(found.multipliers),
+        speed_rpm=from_si(judgement.speed, "rpm"),
+        state=judgement.state,
+        stable=judgement.stable,
+        growth_rate_per_s=finite(judgement.growth_rate),
+        eigenvalues=_pairs(judgement.eigenvalues),
+        floquet_multipliers=_pairs(judgement.multipliers),
         critical_damping_N_s_per_m=critical_damping(subject.scene),
-        resting_angles_deg=None if found.angles is None else tuple(map(wrapped_deg, found.angles)),
+        resting_angles_deg=None if judgement.angles is None else tuple(map(wrapped_deg, judgement.angles)),
         arrangement=arrangement,
-        arrangements_judged=found.arrangements,
+        arrangements_judged=judgement.arrangements,
         hanging=Hanging.of(subject.scene, subject.half_angle),
-        effects_left_out=found.left_out,
+        effects_left_out=judgement.left_out,
         boundaries_rpm=None if limits is None else stability_boundaries(limits),
         crossings_rpm=_crossings(subject, speeds_rpm, way) if crossings and speeds_rpm and limits is not None else None,
         arm_advice=arm.advice,
         swing_arm=arm.bounds,
         arm_motion=arm.motion,
         growth_by_speed=None if limits is None or speeds_rpm is None else _growth(subject, speeds_rpm, limits, way),
-        consequence=_consequence(subject, found, way, progress),
+        consequence=_consequence(subject, judgement, way, progress),
         searched_rpm=speeds_rpm,
     )
 
 
-def _consequence(subject: Subject, found: Stability, way: Arrangement, progress: Progress) -> ArrangementEnd | None:
-    """Where the worst arrangement grows and others do not, on an anisotropic support."""
-    if way != "worst" or found.stable is not False or found.multipliers is None:
+def _consequence(subject: Subject, judgement: Stability, way: Arrangement, progress: Progress) -> ArrangementEnd | None:
+    """Outcome of the worst arrangement if it grows and others do not, on an anisotropic support."""
+    if way != "worst" or judgement.stable is not False or judgement.multipliers is None:
         return None
     from abu_calc.analysis.disturbed import consequence
 
     progress("the worst arrangement, disturbed")
-    end = consequence(subject.scene, found, subject.half_angle)
+    end = consequence(subject.scene, judgement, subject.half_angle)
     return None if end is None else ArrangementEnd.of(end)
 
 
 class ArmAnswer(NamedTuple):
-    """What is said of a swing arm; nothing of other supports."""
+    """Statements on a swing arm; empty for other supports."""
 
     advice: str | None = None
     bounds: SwingArm | None = None
@@ -175,7 +178,7 @@ class ArmAnswer(NamedTuple):
 
 
 def _on_arm(subject: Subject, progress: Progress) -> ArmAnswer:
-    """Of a machine the bounds and what to change; of every arm its motion with its imbalance."""
+    """Motion of an arm with its imbalance; for a machine also the bounds and what to change."""
     if subject.scene.support.standing_arm(subject.scene.balls) is None:
         return ArmAnswer()
     from abu_calc.analysis.arm import judge_arm
@@ -194,8 +197,8 @@ def _on_arm(subject: Subject, progress: Progress) -> ArmAnswer:
 def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
     if speeds_rpm is None or 0 < speeds_rpm[0] < speeds_rpm[1] <= FASTEST_RPM:
         return
-    found = ":".join(f"{speed:g}" for speed in speeds_rpm)
-    raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=found, allowed=SPEEDS)
+    speed_range = ":".join(f"{speed:g}" for speed in speeds_rpm)
+    raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=speed_range, allowed=SPEEDS)
 
 
 def _limits(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Boundary, ...]:
@@ -209,7 +212,7 @@ def _growth(
     """Evenly over the range, and where stability changes."""
     low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
     even = (low + (high - low) * step / (SPEEDS_SHOWN - 1) for step in range(SPEEDS_SHOWN))
-    speeds = sorted({*even, *(one.speed for one in limits)})
+    speeds = sorted({*even, *(boundary.speed for boundary in limits)})
     return tuple(
         GrowthAt(speed_rpm=from_si(speed, "rpm"), growth_rate_per_s=rate)
         for speed, rate in growth_over(subject.scene, speeds, subject.half_angle, way)
@@ -219,13 +222,20 @@ def _growth(
 def _crossings(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Crossing, ...]:
     low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
     return tuple(
-        Crossing(speed_rpm=from_si(one.speed, "rpm"), growing_below=one.growing_below, growing_above=one.growing_above)
-        for one in crossings_of(subject.scene, low, high, subject.half_angle, way)
+        Crossing(
+            speed_rpm=from_si(crossing.speed, "rpm"),
+            growing_below=crossing.growing_below,
+            growing_above=crossing.growing_above,
+        )
+        for crossing in crossings_of(subject.scene, low, high, subject.half_angle, way)
     )
 
 
 def grinds(scene: Scene) -> bool:
-    """Whether the scene presses a wheel to work in the plane: its balanced state is not that of an idle machine."""
+    """True if the scene presses a wheel to the workpiece in the plane.
+
+    Its balanced state is not that of an idle machine.
+    """
     return any(isinstance(effect, GrindingContact) and effect.contact != "face" for effect in scene.effects)
 
 
@@ -242,24 +252,24 @@ def _pairs(values: tuple[complex, ...] | None) -> Pairs | None:
     return None if values is None else tuple((value.real, value.imag) for value in values)
 
 
-def _check(found: Stability, way: Arrangement, *, pressed: bool) -> Check:
+def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
     name = ("ABU802", "stability of the balanced state")
-    if found.reason is not None:
+    if judgement.reason is not None:
         remedy = "A second race in another plane, or bearings alike along x and y." if way != "start" else None
         if pressed:
             remedy = "`abu simulate` shows it at work; without grinding_contact in its file the idle state is judged."
-        return Check(*name, "not-done", found.reason, unit="1/s", remedy=remedy)
-    if found.angles is None:
+        return Check(*name, "not-done", judgement.reason, unit="1/s", remedy=remedy)
+    if judgement.angles is None:
         return Check(
             *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
             remedy="Heavier or more balls, a larger race, or a better balanced rotor.",
         )  # fmt: skip
     message = "every small disturbance of the balanced state dies out"
-    if not found.stable:
+    if not judgement.stable:
         message = "not every small disturbance dies out, although the balls could balance here"
     remedy = (
         None
-        if found.stable
+        if judgement.stable
         else "Leave the forbidden speeds (--speeds finds them, Python: speeds_rpm=), or change drag and damping."
     )
-    return Check(*name, verdict(bool(found.stable)), message, finite(found.growth_rate), 0.0, "1/s", remedy)
+    return Check(*name, verdict(bool(judgement.stable)), message, finite(judgement.growth_rate), 0.0, "1/s", remedy)

@@ -1,4 +1,4 @@
-"""What to know of how the stability of a balanced state was found."""
+"""Warnings about how the stability of a balanced state was found."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -11,54 +11,54 @@ BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})
 """Effects that leave the balanced state as it is, to the first order."""
 
 
-def stability_warnings(found: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
+def stability_warnings(judgement: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
     """Each a sentence or two."""
-    yield from _state_judged(found, scene)
-    if found.multipliers is not None:
+    yield from _state_judged(judgement, scene)
+    if judgement.multipliers is not None:
         yield (
             "What is felt of the support changes as the rotor turns: Floquet multipliers of one revolution stand in "
             "place of eigenvalues."
         )
-    if found.angles is not None:
-        yield from _arrangements(found, scene, way)
-    others = [name for name in found.left_out if name not in BALANCED_TO_FIRST_ORDER]
+    if judgement.angles is not None:
+        yield from _arrangements(judgement, scene, way)
+    others = [name for name in judgement.left_out if name not in BALANCED_TO_FIRST_ORDER]
     if others:
         yield f"Left out of the linear motion, at steady speed: {', '.join(others)}."
 
 
-def _state_judged(found: Stability, scene: Scene) -> Iterator[str]:
-    """Where it is not the balls opposite the imbalance, the axis still."""
-    if found.reason:
-        yield f"No eigenvalues: {found.reason}."
-    elif found.state is None:
+def _state_judged(judgement: Stability, scene: Scene) -> Iterator[str]:
+    """Warnings about a judged state other than balls opposite the imbalance with a still axis."""
+    if judgement.reason:
+        yield f"No eigenvalues: {judgement.reason}."
+    elif judgement.state is None:
         yield "No eigenvalues: there is no balanced state at this speed."
-    if found.state == "race still":
+    if judgement.state == "race still":
         yield (
             "The race is not in the plane of the imbalance: its balls hold the race itself still, the axis keeps "
             "moving elsewhere. That state is judged."
         )
-    if found.state == "arm alone":
+    if judgement.state == "arm alone":
         why = "the balls cannot carry the imbalance" if scene.ball_masses else "there are no balls"
         yield f"Judged is the forced motion of the arm alone with its imbalance: {why}."
 
 
-def _arrangements(found: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
-    """Of many that balance, which was judged."""
+def _arrangements(judgement: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
+    """Warning about the arrangement that was judged, of many that balance."""
     counts = [len(race.ball_masses) for race in scene.races]
     most = max(counts, default=0)
     if most <= 2:
         return
-    told = {
+    phrase = {
         "fan": "the one spread about the light side with even gaps between equal balls: others may be less stable",
         "start": "the one to which balls go from their start angles, heavily damped and without size",
-        "worst": f"the least stable of {found.arrangements} that stand for all, the even fan among them",
+        "worst": f"the least stable of {judgement.arrangements} that stand for all, the even fan among them",
     }[way]
-    if way == "worst" and found.multipliers is not None and found.state == "balanced":
-        told = f"the least stable that a search found, {found.arrangements} of them compared"
-    if way == "worst" and found.state == "race still":
-        told = "the one with even gaps: others are not known where the axis moves"
+    if way == "worst" and judgement.multipliers is not None and judgement.state == "balanced":
+        phrase = f"the least stable that a search found, {judgement.arrangements} of them compared"
+    if way == "worst" and judgement.state == "race still":
+        phrase = "the one with even gaps: others are not known where the axis moves"
     yield (
-        f"{most} balls of a race can balance in many arrangements; judged is {told}. The neutral motions from one to "
+        f"{most} balls of a race can balance in many arrangements; judged is {phrase}. The neutral motions from one to "
         "another do not count."
     )
     if way == "worst" and (

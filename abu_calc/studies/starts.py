@@ -10,7 +10,7 @@ from abu_calc.sizing.design import Design
 from abu_calc.studies.rotor_view import RotorView
 
 SAMPLES: Final = 250
-"""Of each, so that a page with all of them stays small."""
+"""Samples of each start case, so few that a page with all of them stays small."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class StartView:
 
 @dataclass(frozen=True)
 class Starts:
-    """Of an ensemble; `of`: design, ensemble and accuracy, None where there is no ensemble."""
+    """Start cases of an ensemble; `of`: design, ensemble and accuracy, None if there is no ensemble."""
 
     of: tuple[Design, Ensemble, float] | None
 
@@ -43,17 +43,17 @@ class Starts:
         if self.of is None:
             return ()
         design, ensemble, accuracy = self.of
-        found = (_view(design, one) for one in starts_again(design, ensemble, accuracy))
-        return tuple(one for one in found if one is not None)
+        views = (_view(design, start) for start in starts_again(design, ensemble, accuracy))
+        return tuple(view for view in views if view is not None)
 
 
-def _view(design: Design, one: Again) -> StartView | None:
-    view = RotorView.of(one.scene, one.trajectory, levels_of(design, one.scene), SAMPLES)
+def _view(design: Design, start: Again) -> StartView | None:
+    view = RotorView.of(start.scene, start.trajectory, levels_of(design, start.scene), SAMPLES)
     if view is None:
         return None
-    outcome = one.outcome
+    outcome = start.outcome
     return StartView(
-        why=one.why,
+        why=start.why,
         start=outcome.member.name,
         drag_per_s=outcome.member.drag,
         settling_time_s=outcome.settling if outcome.balanced else None,

@@ -1,6 +1,7 @@
-"""What a study of a scene works on: a scene of a machine that is sized, that of a scene file, or one made in a script.
+"""Subject of a scene's study: a scene of a sized machine, of a scene file, or made in a script.
 
-All keep every effect there is data for: which of them are simulated is decided by their weights, see `Subject.ledger`.
+All keep every effect there is data for. The estimated influence of the effects decides which of them are
+simulated, see `Subject.ledger`.
 """
 
 from collections.abc import Sequence
@@ -50,7 +51,7 @@ class Subject:
 
     @property
     def provenance(self) -> Provenance:
-        """Where a result about it comes from."""
+        """Provenance of a result about it."""
         return Provenance.today() if self.reading is None else Provenance.of(self.reading)
 
     def located(self) -> AbstractContextManager[None]:
@@ -58,7 +59,7 @@ class Subject:
         return nullcontext() if self.reading is None else self.reading.located()
 
     def lasting(self, duration_s: float | None) -> "Subject":
-        """With another duration, if one is given; refused where it is longer than can be integrated."""
+        """Subject with another duration, if one is given; refused if it is longer than can be integrated."""
         if duration_s is not None:
             return replace(self, scene=lasting(self.scene, duration_s, "duration_s"))
         with self.located():
@@ -75,9 +76,9 @@ def subject_of(
     source: Source, scene: str | None = None, start: str | None = None, *, race_centre_deg: float | None = None,
     command: str = "simulate",
 ) -> Subject:  # fmt: skip
-    """What a source is about; which scene (by default `idle`) and how the balls start are asked of machines only.
+    """Subject of a source; only machines take a scene (by default `idle`) and a start case of the balls.
 
-    `race_centre_deg`: angle of the race's centre from the imbalance, of machines only, by default 180.
+    `race_centre_deg`: angle of the race's centre from the imbalance, for machines only, by default 180.
     `command`: the study that asks, as its command is called.
     """
     one_of("scene", scene, SCENES)

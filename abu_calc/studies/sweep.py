@@ -146,14 +146,14 @@ def _ask_of(
 
 
 def _columns(study: Study) -> tuple[tuple[Column, ...], frozenset[str]]:
-    """Of the store, and which of them hold text."""
-    varied = tuple(Column(one.key, "varies: " + one.variation.text) for one in study.sample.factors)
-    texts = {one.key for one in study.sample.factors if any(isinstance(v, str) for v in one.variation.values)}
+    """Columns of the store, and the names of those that hold text."""
+    varied = tuple(Column(factor.key, "varies: " + factor.variation.text) for factor in study.sample.factors)
+    texts = {factor.key for factor in study.sample.factors if any(isinstance(v, str) for v in factor.variation.values)}
     return (MEMBER, SEED, *varied, *QUANTITIES[study.what], *FLAGS[study.what], REASON), frozenset(texts)
 
 
 def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
-    """What the members hang on, and nothing else: the machine, what varies, seeds, versions."""
+    """Identity of the samples, and nothing else: the machine, the variations, seeds, versions."""
     study, sample = plan.study, plan.study.sample
     return {
         "what": study.what,
@@ -162,8 +162,8 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
         "seed": sample.seed,
         "scheme": sample.scheme,
         "accuracy": accuracy,
-        "vary": {one.key: one.variation.text for one in sample.factors},
-        "order": [one.key for one in sample.factors],
+        "vary": {factor.key: factor.variation.text for factor in sample.factors},
+        "order": [factor.key for factor in sample.factors],
         "file": plan.content,
         "versions": software(),
     }
@@ -206,9 +206,9 @@ def _answered(
     by_name, unexplained = answers.sensitivities(store, sample, study.what)
     first = next(iter(by_name), None)
     ranked = by_name[first] if first else ()
-    drawn = sample.scheme if any(not one.variation.listed for one in sample.factors) else "listed values"
+    drawn = sample.scheme if any(not factor.variation.listed for factor in sample.factors) else "listed values"
     halves = worth.halves(store, sample, study.what, ranked)
-    idle = [one.row.key for one in reversed(halves) if one.idle]
+    idle = [split.row.key for split in reversed(halves) if split.idle]
     tried = loosened(study, store, idle, again)
     quantities = answers.spreads(store, study.what)
     tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
@@ -221,7 +221,7 @@ def _answered(
         runs=store.runs,
         seed=sample.seed,
         sampling=drawn,
-        varied=tuple(Varied(key=one.key, how=one.variation.text) for one in sample.factors),
+        varied=tuple(Varied(key=factor.key, how=factor.variation.text) for factor in sample.factors),
         failed=failed,
         quantities=quantities,
         distributions=answers.distributions(store, study.what, _limits(plan)),
@@ -253,8 +253,8 @@ def _numbers(failed: Failed, late: int, runs: int) -> Check:
         return coded("ABU821", "not-done", message, 100 * share, 100 * FEW, "%", MORE)
     message = "every member gave numbers"
     if failed.members:
-        one = failed.reasons[0]
-        message = f"{failed.members} of {runs} members gave none, {one.members} of them: {one.reason}"
+        failure = failed.reasons[0]
+        message = f"{failed.members} of {runs} members gave none, {failure.members} of them: {failure.reason}"
     status = "pass" if not failed.members else "warn" if share <= FEW else "not-done"
     remedy = "Look at the reasons; narrow distributions that reach values no machine has." if failed.members else None
     return coded("ABU821", status, message, 100 * share, 100 * FEW, "%", remedy)  # type: ignore[arg-type]
@@ -282,7 +282,7 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
 
 
 def _limits(plan: Plan) -> dict[str, float]:
-    """Of the numbers that the file limits."""
+    """Limits on the numbers that the file limits."""
     if plan.design is None:
         return {}
     limits = plan.design.case.table.limits
@@ -291,21 +291,21 @@ def _limits(plan: Plan) -> dict[str, float]:
 
 
 def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:
-    """What the answers rest on, where that is little."""
-    found = []
+    """Warnings about answers that rest on little."""
+    notes = []
     failing = [check.code for check in plan.design.checks if check.status == "fail"] if plan.design else []
     if failing:
-        found.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
+        notes.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
     rows = plan.study.sample.base
     if 0 < rows < ROUGH:
-        found.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
+        notes.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
     if plan.study.what != "design":
         never = store.ask(
             "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
             (store.drawn,),
         )[0][0]
         if never and quantities["settling_time_s"].mean is None:
-            found.append(
+            notes.append(
                 f"{never} members never settle: they count as later than all others, and settling has no mean."
             )
-    return found
+    return notes

@@ -1,4 +1,7 @@
-"""Whether a file can be computed with: what its own commands would refuse, seconds later, is refused at once."""
+"""Early refusal of files that cannot be computed with.
+
+A file that its own commands would refuse, seconds later, is refused at once.
+"""
 
 from abu_calc.errors import NotTrustworthyError
 from abu_calc.spec.document import Reading

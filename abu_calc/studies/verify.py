@@ -25,7 +25,7 @@ class VerifiedFile(Record):
 
     @property
     def failed(self) -> tuple[ComparedValue, ...]:
-        """Those that differ."""
+        """Values that differ."""
         return tuple(each for each in self.values if not each.passed)
 
 
@@ -56,7 +56,7 @@ def verify(machines: Sequence[Reading], progress: Progress = silent) -> VerifyRe
 
 
 def present_values(machine: Reading) -> dict[str, Any]:
-    """What the file should expect now: at its own paths, or a choice where it has none."""
+    """Values that the file should expect now: at its own paths, or a choice if it has none."""
     return current(tuple(expected_values(expectations(machine))), recompute(machine))
 
 
@@ -72,8 +72,8 @@ def recompute(machine: Reading) -> Mapping[str, object]:
     if isinstance(machine, Readings):
         from abu_calc.studies.balance import balance
 
-        found = balance(machine)
-        return {"status": found.status, **{name: getattr(found, name) for name in found.entries()}}
+        balancing = balance(machine)
+        return {"status": balancing.status, **{name: getattr(balancing, name) for name in balancing.entries()}}
     if not isinstance(machine, Machine):
         return {}
     if isinstance(machine.tables, BearingFile) or machine.tables.autobalancer is None:

@@ -24,13 +24,13 @@ AROUND: Final = 120
 """Places of the third group round the race."""
 
 SPACINGS: Final = 3
-"""From balls of a group that touch to those of the fan."""
+"""Spacings of a group's balls that are tried, from touching to evenly spread."""
 
 STEPS: Final = 4000
-"""Of the slow motion to an arrangement."""
+"""Steps of the slow motion to an arrangement."""
 
 PACE: Final = 0.5
-"""Of one of them; from 2/3 on it could overshoot."""
+"""Pace of one of these steps; from 2/3 on it could overshoot."""
 
 CLOSED: Final = 1e-13
 """Relative; what is left of the balls' sum by rounding."""
@@ -52,10 +52,10 @@ def rests(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "wor
         return (fan,)
     choices = [_choices(race, own, needed_gap(scene, race, half_angle)) for race, own in by_race(scene, fan.angles)]
     count = max((len(choice) for choice in choices), default=1)
-    found = [
+    states = [
         Rest(tuple(angle for choice in choices for angle in choice[min(k, len(choice) - 1)])) for k in range(count)
     ]
-    return (fan, *(rest for rest in found if rest.angles != fan.angles))
+    return (fan, *(rest for rest in states if rest.angles != fan.angles))
 
 
 def likeness(masses: Sequence[float], angles: Sequence[float]) -> float:
@@ -89,7 +89,7 @@ def spread(masses: Array, resultant: complex, gap: float, fan_gap: float) -> lis
         return []
     chi = np.abs(np.exp(2j * angles) @ masses) / masses.sum()
     wanted = np.linspace(chi.min(), chi.max(), HANDFUL)
-    nearest = [int(np.abs(chi - one).argmin()) for one in wanted]
+    nearest = [int(np.abs(chi - target).argmin()) for target in wanted]
     picked = {round(float(chi[k]), 6): k for k in nearest}
     return [tuple(angles[k].tolist()) for k in picked.values()]
 
@@ -113,13 +113,13 @@ def _grouped(masses: Array, resultant: complex, spacing: float, around: int) -> 
         sums = [complex(masses[a:b] @ np.exp(1j * own)) for (a, b), own in zip(pairwise(ends), offsets, strict=True)]
         third = np.linspace(0, 2 * math.pi, around, endpoint=False) if sizes[2] else np.zeros(1)
         rest = resultant - sums[2] * np.exp(1j * third)
-        length, one, two = np.abs(rest), abs(sums[0]), abs(sums[1])
-        closes = (length <= one + two) & (length >= abs(one - two))
+        length, first_side, two = np.abs(rest), abs(sums[0]), abs(sums[1])
+        closes = (length <= first_side + two) & (length >= abs(first_side - two))
         length, third, rest = length[closes], third[closes], rest[closes]
         # Of no length: opposite groups that are alike, in any direction.
-        ratio = (length**2 + one**2 - two**2, length**2 + two**2 - one**2)
+        ratio = (length**2 + first_side**2 - two**2, length**2 + two**2 - first_side**2)
         with np.errstate(divide="ignore", invalid="ignore"):
-            cosines = [np.nan_to_num(r / (2 * length * side)) for r, side in zip(ratio, (one, two), strict=True)]
+            cosines = [np.nan_to_num(r / (2 * length * side)) for r, side in zip(ratio, (first_side, two), strict=True)]
         inner = [np.arccos(np.clip(cosine, -1, 1)) for cosine in cosines]
         middles = (
             np.angle(rest) + inner[0] - np.angle(sums[0]),
@@ -140,14 +140,15 @@ def _sizes(masses: Array) -> Iterator[tuple[int, int, int]]:
 
 
 def _from_start(scene: Scene, fan: Rest, half_angle: float) -> Rest:
-    """Where balls without size go from their start angles by the averaged, heavily damped motion.
+    """Arrangement to which balls without size go from their start angles.
 
-    Down the slope of |Σ m R_p e^{iθ} − V|²/2 in each race, V its share as in the fan. Raises NotKnownError where the
-    way does not end in such a state, or balls end one in another.
+    The motion is averaged and heavily damped: down the slope of |Σ m R_p e^{iθ} − V|²/2 in each race, V its
+    share as for evenly spread balls. Raises NotKnownError if the path does not end in such a state, or
+    balls end one in another.
     """
     if fan.motion:
         raise NotKnownError("the axis keeps moving: only the even fan is known there, --arrangement fan judges it")
-    found: list[float] = []
+    all_angles: list[float] = []
     for race, own in by_race(scene, fan.angles):
         masses, start = np.array(race.ball_masses), np.array(race.start_angles)
         angles = _downhill(masses / max(masses.sum(), 1e-300), start, np.array(own)) if len(own) else start
@@ -156,8 +157,8 @@ def _from_start(scene: Scene, fan: Rest, half_angle: float) -> Rest:
                 "from these start angles balls without size do not come to an arrangement that balances; "
                 "--arrangement worst judges them all"
             )
-        found += angles.tolist()
-    return Rest(tuple(math.remainder(angle, 2 * math.pi) for angle in found))
+        all_angles += angles.tolist()
+    return Rest(tuple(math.remainder(angle, 2 * math.pi) for angle in all_angles))
 
 
 def _downhill(shares: Array, start: Array, fan: Array) -> Array | None:

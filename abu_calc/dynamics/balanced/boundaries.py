@@ -16,7 +16,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.frozen import dataclass
 
 ROUNDS: Final = 6
-"""How often arrangements that are worse at a boundary are added."""
+"""Most rounds in which arrangements that are worse at a boundary are added."""
 
 
 @dataclass(frozen=True)
@@ -62,22 +62,22 @@ def growth_over(
         return tuple((speed, search.growth(speed)) for speed in speeds)
     rates = ((speed, (excess(speed) - MARGIN) * speed) for speed in speeds)
     nowhere = 1.0 - MARGIN
-    return tuple(one for one in rates if still or one[1] != nowhere * one[0])
+    return tuple(point for point in rates if still or point[1] != nowhere * point[0])
 
 
 def _excess_of_scene(
     scene: Scene, half_angle: float, arrangement: Arrangement
 ) -> tuple[Callable[[float], float] | None, tuple[Motion, ...], Search | None]:
-    """Of a speed: the largest growth rate per radian beyond what is taken for none; the motions about a still axis, and
-    a search for worse ones.
+    """Function of a speed: the largest growth rate per radian beyond the margin that counts as none.
 
-    Without a state of rest at a speed 1; none where nothing is looked for.
+    Returned with it: the motions about a still axis, and a search for worse ones. At a speed without a
+    state of rest the function is 1. None, without motions, if there is nothing to search for.
     """
-    state, found = judged(scene, half_angle, arrangement)
+    state, motions = judged(scene, half_angle, arrangement)
     if state == "arm alone" and scene.ball_masses:
         return None, (), None
-    moves = bool(found[0].motion) if found else bool(scene.ball_masses) and not still_axis(scene)
-    if not found and not moves:
+    moves = bool(motions[0].motion) if motions else bool(scene.ball_masses) and not still_axis(scene)
+    if not motions and not moves:
         return None, (), None
     if moves:
 
@@ -86,7 +86,7 @@ def _excess_of_scene(
             return excess_of(there, speed) if there else 1.0
 
         return excess, (), None
-    still, search = quick(found), searched(found, half_angle)
+    still, search = quick(motions), searched(motions, half_angle)
     if search and not search.in_plane:
         still = search.added(still, (scene.speed,))
     return lambda speed: excess_of(still, speed), still, search
@@ -143,9 +143,9 @@ def _found(zeros: Sequence[tuple[float, bool]]) -> tuple[Boundary, ...]:
 def quick(motions: Sequence[BalancedMotion]) -> tuple[Motion, ...]:
     """The same motions by their two modes where these are all; of many on an anisotropic support, the first, the most
     even and the least even ones."""
-    found = tuple(two_modes(motion) or motion for motion in motions)
-    isotropic = all(motion.isotropic for motion in found)
-    return found if isotropic or len(found) <= 3 else (found[0], found[1], found[-1])
+    reduced = tuple(two_modes(motion) or motion for motion in motions)
+    isotropic = all(motion.isotropic for motion in reduced)
+    return reduced if isotropic or len(reduced) <= 3 else (reduced[0], reduced[1], reduced[-1])
 
 
 def excess_of(motions: Sequence[Motion], speed: float) -> float:

@@ -51,10 +51,10 @@ def crossings_of(
     moves or nothing rests. Raises as `boundaries`.
     """
     check_range(low, high)
-    found = judged(scene, half_angle, arrangement)[1]
-    if not found or found[0].motion:
+    motions = judged(scene, half_angle, arrangement)[1]
+    if not motions or motions[0].motion:
         return ()
-    least_stable, search = worst(found, scene.speed), searched(found, half_angle)
+    least_stable, search = worst(motions, scene.speed), searched(motions, half_angle)
     if search:
         least_stable = worst((least_stable, search.worst(scene.speed)), scene.speed)
     motion: Motion = two_modes(least_stable) or least_stable
@@ -65,7 +65,7 @@ def crossings_of(
     exact = solvable(motion)
     candidates = between(crossings(motion), low, high) if exact else grid_of(scene, low, high, GRID, MANY)
     points = [(speed, growing(speed)) for speed in candidates]
-    return tuple(one for a, b in pairwise(points) for one in _halved(growing, a, b))
+    return tuple(crossing for a, b in pairwise(points) for crossing in _halved(growing, a, b))
 
 
 def _halved(growing: Callable[[float], int], low: tuple[float, int], high: tuple[float, int]) -> Iterator[Crossing]:
@@ -82,7 +82,7 @@ def _halved(growing: Callable[[float], int], low: tuple[float, int], high: tuple
 
 
 def solvable(motion: Motion) -> bool:
-    """Whether all crossings can be solved for in a moment."""
+    """True if all crossings can be solved for in a moment."""
     return motion.isotropic and motion.states <= MOST_STATES
 
 
@@ -94,8 +94,8 @@ def crossings(motion: Motion) -> list[float]:
     stability cannot change; most of them change nothing.
     """
     parts = motion.polynomial()
-    found = [*_singular(parts), *_singular(np.array([_bialternate(part) for part in parts]))]
-    return sorted(x * motion.unit for x in found)
+    roots = [*_singular(parts), *_singular(np.array([_bialternate(part) for part in parts]))]
+    return sorted(x * motion.unit for x in roots)
 
 
 def _bialternate(A: Array) -> Array:

@@ -154,7 +154,9 @@ GOLDEN: Final = (math.sqrt(5) - 1) / 2
 
 
 def largest(function: Callable[[float], float], points: Sequence[float], sections: int) -> float:
-    """Where a function of one variable is largest: golden sections about the best of ascending points.
+    """Place of the largest value of a function of one variable.
+
+    It is found by golden sections about the best of ascending points.
 
     >>> round(largest(lambda x: -((x - 0.3) ** 2), (0.0, 0.5, 1.0), 20), 4)
     0.3

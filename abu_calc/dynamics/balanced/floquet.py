@@ -15,10 +15,10 @@ Matrices = Callable[[Array], Array]
 
 FIRST_STEPS, MOST_STEPS = 32, 16384
 SERIES: Final = tuple(tuple(1 / math.factorial(4 * k + order) for order in range(4)) for k in range(4))
-"""Of e^A to the degree 15, in powers of A⁴: 2^−16/16! is less than rounding."""
+"""Coefficients of e^A to the degree 15, in powers of A⁴: 2^−16/16! is less than rounding."""
 
 ALIKE: Final = 0.95
-"""Of the norms of a row and a column: another unit that leaves more of them is not worth it."""
+"""Share of the norms of a row and a column; another unit that leaves more of them is not worth it."""
 
 LARGEST_UNIT: Final = 2.0**900
 """Beyond, numbers may leave the range of a computer's."""
@@ -37,14 +37,14 @@ def multipliers(matrices: Matrices, end: float, after: Array) -> NDArray[np.comp
     >>> float(multipliers(lambda t: -t[:, None, None], 2.0, np.eye(1))[0].real.round(9))
     0.135335283
     """
-    steps, found = FIRST_STEPS, magnus(matrices, end, FIRST_STEPS)
+    steps, matrix = FIRST_STEPS, magnus(matrices, end, FIRST_STEPS)
     while steps < MOST_STEPS:
-        steps, before, found = 2 * steps, found, magnus(matrices, end, 2 * steps)
-        if not (np.isfinite(found).all() and np.isfinite(before).all()):
+        steps, before, matrix = 2 * steps, matrix, magnus(matrices, end, 2 * steps)
+        if not (np.isfinite(matrix).all() and np.isfinite(before).all()):
             continue
-        if abs(_growth(after @ before) - _growth(after @ found)) <= SETTLED or _distance(before, found) <= SETTLED:
-            return np.asarray(np.linalg.eigvals(after @ found), dtype=complex)
-    reason = "its map over a period does not settle" if np.isfinite(found).all() else "it grows beyond any number"
+        if abs(_growth(after @ before) - _growth(after @ matrix)) <= SETTLED or _distance(before, matrix) <= SETTLED:
+            return np.asarray(np.linalg.eigvals(after @ matrix), dtype=complex)
+    reason = "its map over a period does not settle" if np.isfinite(matrix).all() else "it grows beyond any number"
     raise NotTrustworthyError(
         f"the linear motion cannot be judged: {reason}\n"
         "  ask for a speed nearer to the natural frequencies, or for less drag"
@@ -65,8 +65,8 @@ def magnus(matrices: Matrices, end: float, steps: int) -> Array:
 def _over(matrices: Matrices, middles: Array, step: float) -> Array:
     """The map over steps with these middles, a power of two of them: few enough that a processor's cache holds them."""
     apart = step * np.sqrt(3) / 6
-    one, two = np.split(matrices(np.concatenate([middles - apart, middles + apart])), 2)
-    maps = _exponentials(step / 2 * (one + two) - step * apart / 2 * (one @ two - two @ one))
+    first, two = np.split(matrices(np.concatenate([middles - apart, middles + apart])), 2)
+    maps = _exponentials(step / 2 * (first + two) - step * apart / 2 * (first @ two - two @ first))
     while len(maps) > 1:
         maps = maps[1::2] @ maps[::2]
     return np.asarray(maps[0], dtype=float)
@@ -93,16 +93,16 @@ def _exponentials(stack: Array) -> Array:
     return np.asarray(total, dtype=float)
 
 
-def _growth(found: Array) -> float:
+def _growth(matrix: Array) -> float:
     """Logarithm of a map's largest multiplier; of what has died out to nothing, that of the smallest number."""
-    return float(np.log(max(np.abs(np.linalg.eigvals(found)).max(initial=0.0), np.finfo(float).tiny)))
+    return float(np.log(max(np.abs(np.linalg.eigvals(matrix)).max(initial=0.0), np.finfo(float).tiny)))
 
 
-def _distance(one: Array, other: Array) -> float:
+def _distance(matrix: Array, other: Array) -> float:
     """Largest difference of two maps relative to their size, in units that balance rows and columns."""
     units = balancing_units(other)
     size = float(np.abs(other * units / units[:, None]).max(initial=0.0))
-    return float(np.abs((one - other) * units / units[:, None]).max()) / size if size else 0.0
+    return float(np.abs((matrix - other) * units / units[:, None]).max()) / size if size else 0.0
 
 
 def balancing_units(matrix: Array) -> Array:

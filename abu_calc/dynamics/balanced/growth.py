@@ -9,15 +9,15 @@ MARGIN: Final = 1e-9
 """Growth per radian of rotation that is taken for none: below, rounding decides."""
 
 UNDECIDED: Final = 10 * MARGIN
-"""Within this of none, balls that stand all but on one line are taken to stand on it."""
+"""Growth per radian below which balls that stand almost on one line count as standing on it."""
 
 
 class Linear(Protocol):
-    """What is asked of a linear motion: see `BalancedMotion` and `TwoModes`."""
+    """Interface of a linear motion: see `BalancedMotion` and `TwoModes`."""
 
     @property
     def on_one_line(self) -> Self:
-        """With balls that are all but on one line taken as if they were."""
+        """Motion with balls that are almost on one line treated as if they were."""
         ...
 
     def growth(self, speed: float) -> float:

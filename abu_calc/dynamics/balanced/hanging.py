@@ -1,4 +1,4 @@
-"""Whether balls may hang in a scene: the closed bounds of `formulas.hanging` on any linear support."""
+"""Bounds on stalling in a scene: the closed bounds of `formulas.hanging` on any linear support."""
 
 import math
 from typing import Final
@@ -24,7 +24,7 @@ UNDAMPED: Final = 1e-9
 """Damping ratio that is none."""
 
 SPEEDS: Final = 5
-"""Of a range, looked at."""
+"""Number of speeds of a range that are examined."""
 
 GRID, ZOOM, TIMES = 160, 33, 4
 """Frequencies looked at first, again between the neighbours of the best one, and how often."""
@@ -46,11 +46,11 @@ class HangingBounds:
 
     @property
     def largest(self) -> float:
-        """Above it none of them stands."""
+        """Largest of the bounds [1/s]: at a higher drag rate no balls stall."""
         return max(self.resonance, self.damped, self.gravity)
 
     def doubt(self, drag: float | None = None) -> bool:
-        """Whether balls may hang at a drag, by default the race's own: then a slow run-up must tell."""
+        """True if balls may stall at a drag rate, by default the race's own: then a slow run-up must decide."""
         return (self.drag if drag is None else drag) <= self.largest
 
     def margin(self, bound: float) -> float:
@@ -61,38 +61,38 @@ class HangingBounds:
 def hanging_bounds(
     scene: Scene, half_angle: float = 0.0, speeds: tuple[float, float] | None = None, *, horizontal: bool = False
 ) -> HangingBounds:
-    """Those of a scene, the worst of the speeds [rad/s], by default of its own.
+    """Bounds on stalling in a scene, at the worst of the speeds [rad/s], by default at its own.
 
-    `half_angle` β of touching balls, 0 without size; `horizontal`: whether weight acts in the plane. Range: balls that
-    go round alike in all races, small motions of the support.
+    `half_angle` β of touching balls, 0 without size; `horizontal`: True if weight acts in the plane. Range:
+    balls that go round alike in all races, small motions of the support.
     """
     low, high = speeds or (scene.speed, scene.speed)
     races = [race for race in scene.races if race.ball_masses]
     grid = dict.fromkeys(np.geomspace(low, high, SPEEDS).tolist() if high > low else (low,))
-    found = [_bounds(scene, race, half_angle, speed, weight=horizontal) for race in races for speed in grid]
+    bounds = [_bounds(scene, race, half_angle, speed, weight=horizontal) for race in races for speed in grid]
     none = HangingBounds(0.0, 0.0, 0.0, 0.0, 0.0)
-    return max(found, key=lambda one: one.largest / max(one.drag, 1e-300), default=none)
+    return max(bounds, key=lambda bound: bound.largest / max(bound.drag, 1e-300), default=none)
 
 
 def _bounds(scene: Scene, race: Race, half_angle: float, speed: float, *, weight: bool) -> HangingBounds:
-    """At one speed of the rotor, of one race."""
+    """Bounds at one speed of the rotor, for one race."""
     support = scene.support.small_motion(speed).carrying(scene.balls)
     rates = np.asarray(np.linalg.eigvals(support.motion), dtype=complex)
     natural = _natural(support, rates, speed)
-    found = _at_a_resonance(_driven(scene, race, half_angle), support, rates, natural, speed)
+    resonance = _at_a_resonance(_driven(scene, race, half_angle), support, rates, natural, speed)
     sizes = np.abs(rates)
     heavy = sizes[(sizes > 0) & (sizes < speed) & (-rates.real >= HEAVY * sizes)]
     damped = _above_one(scene, race, support, (float(heavy.min()), speed)) if len(heavy) else 0.0
     gravity = gravity_drag(race.pitch_radius, speed) if weight else 0.0
-    return HangingBounds(found[0], damped, gravity, found[1], race.drag)
+    return HangingBounds(resonance[0], damped, gravity, resonance[1], race.drag)
 
 
 def _natural(support: SmallMotion, rates: Complex, speed: float) -> list[float]:
     """Natural frequencies below the speed, with and without what damps and turns, ascending."""
     squares = np.linalg.eigvals(np.linalg.solve(support.mass, support.stiffness)).real
     swinging = np.abs(rates[rates.imag > UNDAMPED * np.abs(rates)])
-    found = np.concatenate([np.sqrt(np.maximum(squares, 0.0)), swinging])
-    return sorted(float(one) for one in found if 0 < one < speed)
+    frequencies = np.concatenate([np.sqrt(np.maximum(squares, 0.0)), swinging])
+    return sorted(float(frequency) for frequency in frequencies if 0 < frequency < speed)
 
 
 Driven = tuple[float, list[tuple[float, float]]]
@@ -102,10 +102,10 @@ Driven = tuple[float, list[tuple[float, float]]]
 def _driven(scene: Scene, race: Race, half_angle: float) -> Driven:
     """Balls of other radii R brake by R over the race's own."""
     each = []
-    for one in scene.races:
-        count, alike = len(one.ball_masses), len(set(one.ball_masses)) == 1
-        share = side_by_side(count, needed_gap(scene, one, half_angle) / 2 if alike else 0.0)
-        each.append((one.plane_offset, share**2 * one.static_moment / race.pitch_radius))
+    for scene_race in scene.races:
+        count, alike = len(scene_race.ball_masses), len(set(scene_race.ball_masses)) == 1
+        share = side_by_side(count, needed_gap(scene, scene_race, half_angle) / 2 if alike else 0.0)
+        each.append((scene_race.plane_offset, share**2 * scene_race.static_moment / race.pitch_radius))
     return race.plane_offset, each
 
 
@@ -147,12 +147,12 @@ def _above_one(scene: Scene, race: Race, support: SmallMotion, span: tuple[float
     ways = np.kron((1.0, race.plane_offset), np.eye(2))[:, : len(support.frame)]
     h = np.einsum("ai,tij,aj->ta", ways, _receptances(support, frequencies), ways)
     free = np.einsum("ai,ij,aj->a", ways, support.frame @ np.linalg.solve(support.mass, support.frame.T), ways)
-    balls = sum(one.static_moment for one in scene.races) / race.pitch_radius
-    found = [0.0]
+    balls = sum(scene_race.static_moment for scene_race in scene.races) / race.pitch_radius
+    drags = [0.0]
     for axis in np.flatnonzero(free > 0):
         rate = float((free[axis] * (1 / h[:, axis]).imag / frequencies).max())
-        found.append(damped_drag(rate, balls * float(free[axis]), race.inertia_factor))
-    return max(found)
+        drags.append(damped_drag(rate, balls * float(free[axis]), race.inertia_factor))
+    return max(drags)
 
 
 def _receptances(support: SmallMotion, frequencies: Array) -> Complex:

@@ -61,17 +61,17 @@ class BalancedMotion:
 
     @property
     def on_one_line(self) -> Self:
-        """With balls that are all but in one line taken as if they were; itself where there are none.
+        """Motion with balls that are almost in one line treated as if they were; itself if there are none.
 
-        Itself too where they are all in one place: along the line they then leave the balance, and nothing of the first
-        order brings them back.
+        The same motion is returned if the balls are all in one place: along the line they then leave the
+        balance, and nothing of the first order brings them back.
         """
         wider = replace(self, span=WIDE_SPAN)
         return self if self.in_one_place or wider.states == self.states else wider
 
     @property
     def in_one_place(self) -> bool:
-        """Whether the balls of a race that has several carry all they can."""
+        """True if the balls of a race with several balls carry all they can."""
         first = 0
         for race in self.scene.races:
             theta, masses = np.array(self.angles[first : first + len(race.ball_masses)]), np.array(race.ball_masses)
@@ -82,23 +82,24 @@ class BalancedMotion:
 
     @cached_property
     def coupled(self) -> tuple[Array, ...]:
-        """Of each race, columns: motions of its balls that are not free of the support.
+        """Columns for each race: motions of its balls that are coupled to the support.
 
-        Free are those that leave Σ m e^{iθ} as it is, and where the support turns Σ m too: each has the rates 0 and
-        −h₀/J. Where the axis moves none is taken as free: balls then also move along the spindle, each as it stands.
+        Motions are free if they leave Σ m e^{iθ} as it is, and Σ m too if the support turns: each has the rates
+        0 and −h₀/J. If the axis moves, no motion counts as free: balls then also move along the spindle, each
+        from its own place.
         """
-        found, first = [], 0
+        bases, first = [], 0
         for race in self.scene.races:
             masses = np.array(race.ball_masses)
             theta = np.array(self.angles[first : first + len(masses)])
             rows = [-masses * np.sin(theta), masses * np.cos(theta), *([masses] if self.on_arm else [])]
-            found.append(np.eye(len(masses)) if self.motion else span_of(np.array(rows), self.span))
+            bases.append(np.eye(len(masses)) if self.motion else span_of(np.array(rows), self.span))
             first += len(masses)
-        return tuple(found)
+        return tuple(bases)
 
     @cached_property
     def basis(self) -> Array:
-        """Those of all races."""
+        """Coupled motions of all races."""
         return diagonal(*self.coupled)
 
     @cached_property
@@ -117,17 +118,17 @@ class BalancedMotion:
 
     @property
     def neutral(self) -> int:
-        """How many directions of the balls are neutral: n − 2 of the n of a race, unless they are in one line."""
+        """Number of neutral directions of the balls: n − 2 of the n of a race, unless they are in one line."""
         return len(self.angles) - int(self.held.shape[1])
 
     @property
     def states(self) -> int:
-        """How many states A has."""
+        """Number of states of A."""
         return 2 * self._size + int(self.held.shape[1]) + int(self.basis.shape[1])
 
     @property
     def isotropic(self) -> bool:
-        """Whether A is constant, seen from the rotor."""
+        """True if A is constant, seen from the rotor."""
         return len(self._own) == 1
 
     def polynomial(self) -> Array:
@@ -175,7 +176,7 @@ class BalancedMotion:
         return growth_of(self.multipliers(speed), speed)
 
     def growing(self, speed: float, least: float) -> int:
-        """How many eigenvalues or multipliers grow by more than `least` [1/s]."""
+        """Number of eigenvalues or multipliers that grow by more than `least` [1/s]."""
         values = self.eigenvalues(speed)
         if values is not None:
             return sum(value.real > least for value in values)
@@ -201,17 +202,20 @@ class BalancedMotion:
 
     @property
     def on_arm(self) -> bool:
-        """Whether the support turns with the rotor's axis, as a swing arm does."""
+        """True if the support turns with the rotor's axis, as a swing arm does."""
         return self.scene.support.turns
 
     @property
     def _turned(self) -> bool:
-        """Whether the support is seen from the rotor."""
+        """True if the support is seen from the rotor."""
         return not self.on_arm and self._size % 2 == 0
 
     @property
     def _half_turn(self) -> Array:
-        """What stands upside down after half a turn, unless it turns with the rotor."""
+        """Signs of the states after half a turn, as a diagonal matrix.
+
+        States of the support stand upside down (−1), unless it turns with the rotor.
+        """
         signs = np.ones(self.states)
         if not self.on_arm and not self._turned:
             signs[: 2 * self._size] = -1
@@ -225,8 +229,8 @@ class BalancedMotion:
     @cached_property
     def _own(self) -> Complex:
         """[harmonic, row, column] of A times the speed at the scene's own."""
-        (found,) = self._resolved((1.0,))
-        return np.asarray(found, dtype=complex)
+        (harmonics,) = self._resolved((1.0,))
+        return np.asarray(harmonics, dtype=complex)
 
     @cached_property
     def _parts(self) -> Complex:
@@ -296,5 +300,5 @@ def growth_of(multipliers: tuple[complex, ...], speed: float) -> float:
 
 
 def _inverse_powers() -> Array:
-    """From values at SPEEDS to the coefficients of 1, x, x²."""
+    """Matrix from values at SPEEDS to the coefficients of 1, x, x²."""
     return np.asarray(np.linalg.inv(np.vander(SPEEDS, increasing=True)), dtype=float)

@@ -1,4 +1,4 @@
-"""Where balls can rest so that they balance, however many and however unequal they are."""
+"""Resting places at which balls balance, however many and however unequal they are."""
 
 import cmath
 import math
@@ -20,7 +20,7 @@ TOUCHING = 1e-9
 """Balls that overlap by less than this [rad] touch."""
 
 MOST_STEPS = 20
-"""Of Newton's method, which doubles the digits with each."""
+"""Most steps of Newton's method, which doubles the digits with each."""
 
 SLACK = 1e-12
 """A polygon that lacks less than this share of its longest side is closed."""
@@ -38,19 +38,19 @@ class Rest:
 
 
 def resting_state(scene: Scene, half_angle: float = 0.0) -> Rest | None:
-    """Where the balls of a scene are at rest about races whose centres are still; None where they cannot be.
+    """State of rest of a scene's balls about races whose centres are still; None if there is none.
 
-    Everywhere Σ m R_p e^{iθ} of a plane is what `needed_resultants` asks for. One ball can only carry its own moment
-    m R_p, two have one arrangement, of more n − 2 angles are free: the one given is that of sides of a polygon in a
-    circle, so equal balls are spread evenly about the light side. `half_angle` β [rad]: touching neighbours are 2β
-    apart, 0 for balls without size. Raises NotKnownError where no formula gives it.
+    Everywhere Σ m R_p e^{iθ} of a plane is what `needed_resultants` gives. One ball can only carry its own
+    moment m R_p, two have one arrangement, of more n − 2 angles are free: the one given is that of sides of
+    a polygon in a circle, so equal balls are spread evenly about the light side. `half_angle` β [rad]:
+    touching neighbours are 2β apart, 0 for balls without size. Raises NotKnownError if no formula gives it.
 
     Source: derived; for two balls Kladiev 1996, (4), with ε = 0.
     """
     needed = needed_resultants(scene)
     if not needed and (scene.imbalance or scene.couple):
         return None
-    found: dict[int, tuple[float, ...]] = dict.fromkeys(range(len(scene.races)), ())
+    ball_angles: dict[int, tuple[float, ...]] = dict.fromkeys(range(len(scene.races)), ())
     for place, resultant in needed.items():
         races = {k: race for k, race in enumerate(scene.races) if race.plane_offset == place}
         sides = [mass * race.pitch_radius for race in races.values() for mass in race.ball_masses]
@@ -61,11 +61,11 @@ def resting_state(scene: Scene, half_angle: float = 0.0) -> Rest | None:
         ahead = iter(accumulate(turns[:-1], initial=cmath.phase(-resultant)))
         next(ahead)
         for k, race in races.items():
-            found[k] = tuple(math.remainder(angle, 2 * math.pi) for angle in islice(ahead, len(race.ball_masses)))
-            if narrowest_gap(found[k]) < needed_gap(scene, race, half_angle) - TOUCHING:
+            ball_angles[k] = tuple(math.remainder(angle, 2 * math.pi) for angle in islice(ahead, len(race.ball_masses)))
+            if narrowest_gap(ball_angles[k]) < needed_gap(scene, race, half_angle) - TOUCHING:
                 _refuse_other_splits(needed)
                 return None
-    angles = tuple(angle for own in found.values() for angle in own)
+    angles = tuple(angle for own in ball_angles.values() for angle in own)
     return Rest(angles) if still_axis(scene) else _settled(scene, angles, _motion(scene, needed))
 
 
@@ -76,7 +76,7 @@ def resting_angles(scene: Scene, half_angle: float = 0.0) -> tuple[float, ...] |
 
 
 def _refuse_other_splits(needed: dict[float, complex]) -> None:
-    """Of more than two planes, where this split has no state of rest another might have one."""
+    """Refuse a case of more than two planes: if this split has no state of rest, another might have one."""
     if len(needed) > 2:
         raise NotKnownError(
             "races in more than two planes share the load in proportion to what they carry; one of them cannot take "
@@ -131,8 +131,8 @@ def _settled(scene: Scene, angles: tuple[float, ...], motion: Complex) -> Rest:
         unknown = unknown - step
         if np.abs(step[:N]).max() <= SLACK * np.abs(unknown[:N]).max() and np.abs(step[N:]).max() <= TOUCHING:
             x, y = unknown[:N:2], unknown[1:N:2]
-            found = np.stack([x + 1j * y, y - 1j * x], axis=1).ravel()
-            return Rest(tuple((theta + sums @ unknown[N:]).tolist()), tuple(found.tolist()))
+            settled_motion = np.stack([x + 1j * y, y - 1j * x], axis=1).ravel()
+            return Rest(tuple((theta + sums @ unknown[N:]).tolist()), tuple(settled_motion.tolist()))
     raise NotKnownError("one race elsewhere than the imbalance: where its balls come to rest is not found")
 
 
@@ -165,7 +165,7 @@ def _polygon(sides: list[float]) -> list[float] | None:
         halves = [math.asin(side * x) for side in sides]
         # The long way round: the whole turn less what the others take.
         halves[top] = math.pi - halves[top]
-    return [one + other for one, other in pairwise([*halves, halves[0]])]
+    return [half + other for half, other in pairwise([*halves, halves[0]])]
 
 
 def _root(function: Callable[[float], float], high: float) -> float:

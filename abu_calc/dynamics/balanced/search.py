@@ -61,7 +61,7 @@ class Search:
 
     @property
     def in_plane(self) -> bool:
-        """Whether χ alone decides."""
+        """True if χ alone decides."""
         return isinstance(self.motions[0], TwoModes)
 
     def worst(self, speed: float) -> BalancedMotion:
@@ -108,7 +108,7 @@ class Search:
 
     @cached_property
     def races(self) -> list[Race]:
-        """What the balls of each race keep."""
+        """Masses, resultant and needed gap of the balls of each race, which a search keeps."""
         scene, angles = self.listed[0].scene, self.listed[0].angles
         return [
             (masses, complex(masses @ np.exp(1j * np.array(own))), needed_gap(scene, race, self.half_angle))
@@ -146,7 +146,7 @@ class Search:
             return decided(replace(self.listed[0], scene=scene, angles=tuple(angles.tolist())), speed)[1]
 
         listed = [np.array(motion.angles) for motion in self.listed]
-        starts = sorted(((growth(one), one) for one in (*listed, *self._more)), key=lambda pair: -pair[0])
+        starts = sorted(((growth(motion), motion) for motion in (*listed, *self._more)), key=lambda pair: -pair[0])
         climbs = [self._climbed(growth, *start, MARGIN * speed) for start in starts[: CLIMBS if self._more else 1]]
         return max(climbs, key=lambda pair: pair[0])[1]
 
@@ -166,7 +166,8 @@ class Search:
 
     @cached_property
     def _more(self) -> tuple[Array, ...]:
-        """On a swing arm: one with χ = 0, the least and the largest χ, then those farthest in Σ m e^{2iθ} from others.
+        """Further arrangements on a swing arm: one with χ = 0, the least and the largest χ, then the farthest in Σ m
+        e^{2iθ}.
 
         Growth may have a sharp peak at χ = 0, so that neighbours do not lead there.
         """
@@ -197,7 +198,7 @@ def searched(listed: tuple[BalancedMotion, ...], half_angle: float) -> Search | 
 
 
 def _grow(motions: Iterable[Motion], speed: float) -> bool:
-    """Whether any of them grows beyond what rounding decides."""
+    """True if any of the motions grows beyond what rounding decides."""
     return any(decided(motion, speed)[1] > UNDECIDED * speed for motion in motions)
 
 

@@ -1,4 +1,4 @@
-"""Where a growth rate is looked at over a range of speeds, and where it changes sign."""
+"""Growth rates over a range of speeds, and the speeds at which they change sign."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -18,14 +18,16 @@ FEW, MANY = 2, 12
 """Natural frequencies up to which the speeds between any two of them are looked at, likewise."""
 
 DEEPEST, BEND = 6, 0.1
-"""How often an interval may be halved, and the share of its distance from zero by which the growth rate may leave a
-straight line."""
+"""Most halvings of an interval, and the permitted bend of the growth rate.
+
+The bend is its distance from a straight line, as a share of its distance from zero.
+"""
 
 MOST_SPEEDS: Final = 500
 """Speeds at which the growth rate is looked at before no interval is halved any more."""
 
 FINE, ROUGH = 1e-13, 1e-6
-"""How near zeros are found, and where that must not take long; relative."""
+"""Relative precision of zeros, and that of a quick search."""
 
 Points = list[tuple[float, float]]
 
@@ -74,18 +76,18 @@ def refined(function: Callable[[float], float], grid: Sequence[float]) -> Points
 
 
 def _extremes(function: Callable[[float], float], points: Points) -> Points:
-    """Where the function turns back before zero, it is followed to the turning point."""
+    """Turning points of a function that turns back before zero."""
     from scipy.optimize import minimize_scalar
 
-    found = []
+    extremes = []
     for (low, before), (_, value), (high, after) in zip(points, points[1:], points[2:], strict=False):
         sign = math.copysign(1.0, value)
         if 0 < sign * value <= min(sign * before, sign * after):
             done = minimize_scalar(
                 lambda x, sign=sign: sign * function(x), bounds=(low, high), method="bounded", options={"maxiter": 25}
             )
-            found.append((float(done.x), function(float(done.x))))
-    return found
+            extremes.append((float(done.x), function(float(done.x))))
+    return extremes
 
 
 def changes(function: Callable[[float], float], points: Points, near: float = FINE) -> list[tuple[float, bool]]:

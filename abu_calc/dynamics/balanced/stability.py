@@ -45,7 +45,7 @@ class Stability:
 
 
 def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "worst") -> Stability:
-    """Whether every disturbance of the balanced state of a scene dies out, at its speed, by the worst arrangement.
+    """Stability of the balanced state of a scene, at its speed, by the worst arrangement.
 
     Growth rate: the largest Re λ, or ln|μ|/T over a revolution T [1/s]; stable below −1e-9·Ω. `half_angle` [rad] of
     touching balls, 0 for balls without size; `arrangement`: see `arrangements.rests`; on an anisotropic support and on
@@ -56,13 +56,13 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
     left_out = tuple(effect.name for effect in scene.effects)
     unknown = Stability(scene.speed, None, None, None, None, None, None, None, left_out)
     try:
-        state, found = judged(scene, half_angle, arrangement)
+        state, motions = judged(scene, half_angle, arrangement)
     except NotKnownError as error:
         return replace(unknown, reason=str(error))
-    if not found:
+    if not motions:
         return replace(unknown, stable=False)
-    motion, search = worst(found, scene.speed), searched(found, half_angle)
-    count = len(found)
+    motion, search = worst(motions, scene.speed), searched(motions, half_angle)
+    count = len(motions)
     if search:
         motion, count = worst((motion, search.worst(scene.speed)), scene.speed), search.trials
     eigenvalues = motion.eigenvalues(scene.speed)
@@ -85,12 +85,12 @@ def critical_damping(scene: Scene) -> float | None:
 def judged(
     scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = "worst"
 ) -> tuple[State | None, tuple[BalancedMotion, ...]]:
-    """What is judged of a scene, and its motions at each arrangement, if there is anything."""
-    found = rests(scene, half_angle, arrangement) if scene.ball_masses else _without_balls(scene, half_angle)
+    """State that is judged of a scene, and its motions at each arrangement, if there are any."""
+    states = rests(scene, half_angle, arrangement) if scene.ball_masses else _without_balls(scene, half_angle)
     support = scene.support
-    if found:
-        state: State = "race still" if found[0].motion else "balanced"
-        return state, tuple(BalancedMotion(scene, rest.angles, rest.motion) for rest in found)
+    if states:
+        state: State = "race still" if states[0].motion else "balanced"
+        return state, tuple(BalancedMotion(scene, rest.angles, rest.motion) for rest in states)
     if not support.turns:
         return None, ()
     races = tuple(replace(race, ball_masses=(), start_angles=(), start_speeds=()) for race in scene.races)

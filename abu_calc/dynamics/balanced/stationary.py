@@ -1,6 +1,7 @@
-"""What balls must add up to where they rest in the rotor (Kladiev 1996, eq. (4), in the right quadrant).
+"""Needed resultants of balls at rest in the rotor (Kladiev 1996, eq. (4), in the right quadrant).
 
-Imbalances are complex numbers U e^{iφ} [kg m], φ from the zero mark. An idle, freely suspended rotor.
+Imbalances are complex numbers U e^{iφ} [kg m], φ from the zero mark. The rotor is idle and freely
+suspended.
 """
 
 import cmath
@@ -56,7 +57,7 @@ def needed_resultants(scene: Scene) -> dict[float, complex]:
 
 
 def still_axis(scene: Scene) -> bool:
-    """Whether balls can leave nothing at all of imbalance and couple: force and couple vanish together."""
+    """True if balls can leave no imbalance and no couple at all: force and couple vanish together."""
     planes = {race.plane_offset for race in scene.races if race.ball_masses}
     if len(planes) > 1:
         return True

@@ -28,11 +28,11 @@ def arm_growth(kappa: float, ratio: float, sigma: float) -> float:
     """
 
     def matrices(t: Array) -> Array:
-        """Of z and p = (1 + 2κ cos t) z', scaled to k z."""
-        found = np.zeros((len(t), 2, 2))
+        """Matrices of z and p = (1 + 2κ cos t) z', scaled to k z."""
+        matrix = np.zeros((len(t), 2, 2))
         weight = 1 + 2 * kappa * np.cos(t)
-        found[:, 0, 1], found[:, 1, 0], found[:, 1, 1] = ratio / weight, -ratio, -2 * kappa * sigma * ratio / weight
-        return found
+        matrix[:, 0, 1], matrix[:, 1, 0], matrix[:, 1, 1] = ratio / weight, -ratio, -2 * kappa * sigma * ratio / weight
+        return matrix
 
     largest = np.abs(floquet.multipliers(matrices, 2 * math.pi, np.eye(2))).max()
     return math.log(largest) / (2 * math.pi)

@@ -32,7 +32,7 @@ ALIKE: Final = 1e-12
 """Relative; what differs by less along x and y is the same."""
 
 PHASES: Final = 64
-"""Of half a turn, at which what is felt of the support is looked at."""
+"""Number of phases over half a turn at which the support's response is evaluated."""
 
 SPEEDS: Final = (0.5, 1.0, 2.0)
 """Shares of the unit at which A is taken: it is a polynomial of the second degree in the speed."""
@@ -69,7 +69,7 @@ class TwoModes:
 
     @property
     def on_one_line(self) -> Self:
-        """With balls that are all but on one line taken as if they were; itself where they are not."""
+        """Motion with balls that are almost on one line treated as if they were; itself if they are not."""
         near = 1 - self.likeness < WIDE_SPAN**2 and not self.in_one_place
         return replace(self, likeness=1.0) if near else self
 
@@ -80,7 +80,7 @@ class TwoModes:
 
     @cached_property
     def isotropic(self) -> bool:
-        """Whether all is constant, seen from the rotor."""
+        """True if everything is constant, seen from the rotor."""
         spin = self._spin
         matrices = (self.support.mass, self.support.damping, self.support.stiffness)
         return all(np.abs(A @ spin - spin @ A).max() <= ALIKE * np.abs(A).max() for A in matrices)
@@ -113,11 +113,11 @@ class TwoModes:
         return {}
 
     def growing(self, speed: float, least: float) -> int:
-        """How many eigenvalues or multipliers grow by more than `least` [1/s]."""
+        """Number of eigenvalues or multipliers that grow by more than `least` [1/s]."""
         return int((self._rates(speed) > least).sum())
 
     def _rates(self, speed: float) -> Array:
-        """Of all."""
+        """Growth rates of all eigenvalues or multipliers."""
         x = speed / self.unit
         terms = np.tensordot((1.0, x, x * x), self._parts, axes=1)
         if self.isotropic:
@@ -128,8 +128,8 @@ class TwoModes:
             return np.asarray(np.einsum("tk,kij->tij", np.exp(phases[:, None] * orders), terms).real / x, dtype=float)
 
         # Seen from the rotor, half a turn later all is the same.
-        found = np.abs(floquet.multipliers(matrices, math.pi, np.eye(self.states)))
-        return np.asarray(np.log(np.maximum(found, np.finfo(float).tiny)) * speed / math.pi, dtype=float)
+        moduli = np.abs(floquet.multipliers(matrices, math.pi, np.eye(self.states)))
+        return np.asarray(np.log(np.maximum(moduli, np.finfo(float).tiny)) * speed / math.pi, dtype=float)
 
     def _scaled(self, phases: Array, speed: float) -> Array:
         """A with time in 1/unit."""
@@ -142,9 +142,9 @@ class TwoModes:
 
     def _matrices(self, phases: Array, speed: float) -> Array:
         """A of z' = A z [1/s], z = (q, η, q', η') seen from the rotor, at phases of its turn, stacked."""
-        one, m, W = self.support, self.ball_mass, speed
-        spin, P, Q = self._spin, one.frame, QUARTER
-        M, C, K = (_turned(A, spin, phases) for A in (one.mass, one.damping, one.stiffness))
+        support, m, W = self.support, self.ball_mass, speed
+        spin, P, Q = self._spin, support.frame, QUARTER
+        M, C, K = (_turned(A, spin, phases) for A in (support.mass, support.damping, support.stiffness))
         B = np.array(((0.0, -1.0), (1.0, 0.0)))[:, : len(self.shares)] * self.shares
         size, balls = len(spin), len(self.shares)
         first, second, third = (np.zeros((len(phases), size + balls, size + balls)) for _ in range(3))
@@ -171,8 +171,11 @@ def _turned(matrix: Array, spin: Array, phases: Array) -> Array:
 
 
 def two_modes(motion: BalancedMotion) -> TwoModes | None:
-    """Those of a motion of any scene; None but for balls of one race, whose support moves it in its plane by
-    pairs of coordinates along x and y, the axis still."""
+    """Two-mode form of a motion of any scene; None if the motion has no such form.
+
+    The form exists only for balls of one race, whose support moves it in its plane by pairs of coordinates
+    along x and y, the axis still.
+    """
     scene, angles = motion.scene, motion.angles
     if motion.motion:
         return None

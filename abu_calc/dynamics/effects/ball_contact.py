@@ -89,7 +89,7 @@ class Neighbours:
 
 
 def _rounding(theta: Array) -> float:
-    """What a gap that opens may lack of 2β [rad]."""
+    """Tolerance [rad] by which a gap that opens may fall short of 2β."""
     return float(1e-13 + 8 * np.spacing(np.abs(theta).max()))
 
 
@@ -141,9 +141,9 @@ class BallContact(Effect):
             return None
         least, theta = np.array(spans), np.array(scene.start_angles)
         none = np.zeros(len(least))
-        found = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, tuple(rings))
-        _check_apart(found, theta)
-        return found.joining(none, theta)
+        neighbours = Neighbours(tuple(behind), tuple(ahead), np.array(turns), least, least, none, tuple(rings))
+        _check_apart(neighbours, theta)
+        return neighbours.joining(none, theta)
 
     def _span(self, race: Race) -> float:
         """2β [rad]. Raises InputError where the balls do not fit."""
@@ -164,10 +164,11 @@ class BallContact(Effect):
             loads.own(mates=mode.chains, leads=mode.chains.leads(p.balls))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """Of each gap: gap − 2β while open; what the chain behind pushes with, the chain ahead resists, while joined.
+        """Watched values of each gap: gap − 2β while open, two torques while joined.
 
-        Balls that move press by what their own inertia leaves over. Where they stick, friction takes up to f n of each,
-        and what holds is every distribution of forces that pulls nobody.
+        The torques are the push of the chain behind and the resistance of the chain ahead. Balls that move
+        press by what their own inertia leaves over. If they stick, friction takes up to f n of each; every
+        distribution of forces in which no ball pulls another then holds.
         """
         if mode is None:
             return []
@@ -181,7 +182,7 @@ class BallContact(Effect):
         return [*((1 - joined) * gaps + joined), *(joined * push + (1 - joined)), *(joined * resist + (1 - joined))]
 
     def _margin(self, p: Parameters) -> Any:
-        """What counts as no torque between two balls [N m]."""
+        """Torque between two balls that counts as none [N m]."""
         return MARGIN * (p.static_moments * p.radii).mean() * p.speed**2
 
     def rule(self, mode: Any) -> Rule | None:
@@ -222,13 +223,13 @@ class BallContact(Effect):
         """1 for each touching pair that stays together."""
         rest = AT_REST * slow
         together = np.abs(answer.pairs.dot(rates)) <= rest
-        found = np.zeros(len(together))
+        pressed = np.zeros(len(together))
         directions = np.where(np.abs(rates) <= rest, 0.0, np.sign(rates))
-        found[together], _ = pressing(answer.among(together), directions, joined[together], margin)
-        return found
+        pressed[together], _ = pressing(answer.among(together), directions, joined[together], margin)
+        return pressed
 
     def weight(self, scene: Circumstances) -> Weight:
-        """Not estimated: without it balls pass through each other."""
+        """Influence without an estimate: without this effect balls pass through each other."""
         return Weight(None, "balls that meet stop each other; without it they would pass")
 
 
@@ -250,9 +251,9 @@ def _check_apart(neighbours: Neighbours, theta: Array) -> None:
     short = neighbours.touching - neighbours.gaps(theta)
     if np.any(short > TOUCHING):
         worst = int(short.argmax())
-        one, other = sorted((neighbours.behind[worst] + 1, neighbours.ahead[worst] + 1))
+        ball, other = sorted((neighbours.behind[worst] + 1, neighbours.ahead[worst] + 1))
         raise InputError(
-            f"balls {one} and {other} overlap at the start",
+            f"balls {ball} and {other} overlap at the start",
             found=f"{math.degrees(neighbours.gaps(theta)[worst]):g}° apart",
             allowed=f"at least {math.degrees(neighbours.touching[worst]):g}°",
             remedy="part them, or leave ball_contact out",

@@ -102,7 +102,7 @@ class DryRollingFriction(Effect):
         return None if mode is None else Rule("dry friction")
 
     def criteria(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """What pulls each ball along its race, and what friction can take of it, relative to f m R_p Ω²."""
+        """Pull on each ball along its race, and the most that friction can take of it, relative to f m R_p Ω²."""
         if mode is None:
             return []
         pull, _, most = forces(self.coefficient, m, mode, loads, solved, p)
@@ -110,7 +110,7 @@ class DryRollingFriction(Effect):
         return [*(pull / unit), *(most / unit)]
 
     def settle(self, at: SwitchPoint) -> tuple[Any, Any]:
-        """Which balls stick and which roll, and on which side."""
+        """Decide which balls stick and which roll, and on which side."""
         return (at.y, None) if at.mode is None else decided(at, self.coefficient)
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
@@ -162,7 +162,7 @@ class DryRollingFriction(Effect):
         return at_samples(outward, t, y, direction, at_once=p.traceable)
 
     def _asked(self, equations: Laws, samples: Samples) -> NDArray[np.intp]:
-        """Which samples are asked at first, in their order."""
+        """Indices of the samples that are examined first, in their order."""
         p, count = equations.parameters, len(samples.t)
         if count <= 2 * ASKED:
             return np.arange(count)
@@ -172,7 +172,7 @@ class DryRollingFriction(Effect):
         return merged(np.argpartition(slowest, ASKED)[:ASKED], np.linspace(0, count - 1, ASKED).astype(np.intp))
 
     def holding(self, scene: Circumstances) -> Holding | None:
-        """By f of their normal force; without friction by none of it."""
+        """Holding of balls by f of their normal force; without friction by none of it."""
         return Holding(self.coefficient, self.weight(scene).value)
 
     def weight(self, scene: Circumstances) -> Weight:

@@ -85,7 +85,11 @@ class Gravity(Effect):
         return any(self.acceleration > SHAKES * hold for hold in held)
 
     def weight(self, scene: Circumstances) -> Weight:
-        """Where gravity pulls harder than dry friction holds, f R_p Ω², it shakes out all that friction does, too."""
+        """Estimated influence of gravity.
+
+        If gravity pulls harder than dry friction holds, f R_p Ω², it also releases all balls that friction
+        holds.
+        """
         own = self._swings(scene)
         if own.value is None or (holding := scene.holding) is None or not self._shakes(scene, holding.friction):
             return own

@@ -47,7 +47,10 @@ _LARGEST = sys.float_info.max
 TOUCHING, APART = 1.0, 0.0
 
 NEAR = 1e-9
-"""Of the contact's own lengths: as near as this, the motion decides whether wheel and work touch."""
+"""Distance, relative to the contact's own lengths, within which the motion decides about contact.
+
+So near, the motion tells whether wheel and workpiece touch.
+"""
 
 LEAST_DEPTH = 1e-9
 """A depth [m] that counts as something where there is neither press nor runout."""
@@ -97,7 +100,7 @@ class GrindingContact(Effect):
         return self.rotation_sense * self.cutting_coefficient
 
     def _may_stop(self, scene: Circumstances) -> bool:
-        """Whether cutting brakes a rotor that a torque drives."""
+        """True if cutting brakes a rotor that a torque drives."""
         return self.drag < 0 and self.wheel_radius > 0 and bool(scene.rotor.rows)
 
     def first_mode(self, scene: Circumstances) -> Any:
@@ -146,7 +149,7 @@ class GrindingContact(Effect):
         return p.rotor.on_frame(p.geometry.forces(x, y, self.plane_offset), turning)
 
     def _direction(self, m: Motion, mode: Any, p: Parameters) -> Array:
-        """What the frame feels per unit N."""
+        """Force on the frame per unit N."""
         drag = mode.slides * self.drag if isinstance(mode, Cutting) else self.drag
         if self.contact == "face":
             return self._rows(0.0, 0.0, drag * self.wheel_radius, p)
@@ -154,12 +157,12 @@ class GrindingContact(Effect):
         return self._rows(drag, 1.0, x - drag * y + drag * self.wheel_radius, p)
 
     def _force(self, m: Motion, mode: Any, p: Parameters, normal: Any) -> Array:
-        """All that acts on the frame."""
+        """Whole force of the contact on the frame."""
         force: Array = normal * self._direction(m, mode, p)
         return force if self.contact == "face" else force - self.press_force * self._rows(0.0, 1.0, 0.0, p)
 
     def slip(self, m: Motion, p: Parameters) -> Slip:
-        """How the wheel's surface moves over the work; on a face by the turning alone."""
+        """Motion of the wheel's surface over the workpiece; on a face by the turning alone."""
         if self.contact == "face":
             return Slip(self.wheel_radius * m.speed, self._rows(0.0, 0.0, self.wheel_radius, p), 0.0, self.wheel_radius)
         _, _, x, y = self._surface(m, p)
@@ -185,27 +188,31 @@ class GrindingContact(Effect):
         return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, mode, p), beside=beside)
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """How deep the wheel is in the work while touching, the gap while apart, relative to what is usual.
+        """Depth of the wheel in the workpiece while touching, gap while apart, relative to the usual depth.
 
-        Rigid: what the balls' squared speeds lack of a runaway. Where cutting may stop the rotor, how clearly it
-        slides, or stands.
+        Rigid: the margin of the balls' squared speeds to a runaway. If cutting may stop the rotor: also the
+        margins with which it slides, or stands.
         """
-        found = self._goes_on(m, mode, solved, p) if isinstance(mode, Cutting) else []
+        margins = self._goes_on(m, mode, solved, p) if isinstance(mode, Cutting) else []
         if self.contact == "face":
-            return found
+            return margins
         if self.contact == "rigid":
-            return [1 - m.rate.dot(m.rate) / (RUNAWAY * p.speed * RUNAWAY * p.speed), *found] if p.balls else found
+            return [1 - m.rate.dot(m.rate) / (RUNAWAY * p.speed * RUNAWAY * p.speed), *margins] if p.balls else margins
         unloaded = self.press_force / self.contact_stiffness
         touching = mode.touching if isinstance(mode, Cutting) else mode
-        return [(2 * touching - 1) * (unloaded - self._surface(m, p)[0]) / self._depth, *found]
+        return [(2 * touching - 1) * (unloaded - self._surface(m, p)[0]) / self._depth, *margins]
 
     @property
     def _depth(self) -> float:
-        """What is usual of a compliant contact [m]."""
+        """Usual depth of a compliant contact [m]."""
         return self.press_force / self.contact_stiffness + self.runout + LEAST_DEPTH
 
     def _goes_on(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> list[Any]:
-        """By the speed over the work relative to that of the surface, and forces relative to usual ones."""
+        """Margins with which the wheel slides or stands.
+
+        They use the speed over the workpiece relative to that of the surface, and forces relative to usual
+        ones.
+        """
         usual = self.contact_stiffness * self._depth if self.contact == "compliant" else self.press_force or 1.0
         unit, (held, most) = self.cutting_coefficient * usual, self.held(m, mode, solved, p)
         return goes_on(mode, self.slip(m, p).speed / (p.speed * self.wheel_radius), held / unit, most / unit)
@@ -228,7 +235,7 @@ class GrindingContact(Effect):
         return y, at.mode if mode == at.mode else mode
 
     def _touches(self, at: SwitchPoint) -> float:
-        """Whether wheel and work go on touching."""
+        """Mode of the contact: touching if wheel and workpiece stay in contact, else apart."""
         m, _, solved = at.solved(replace(at.mode, touching=APART) if isinstance(at.mode, Cutting) else APART)
         p = at.parameters
         h, moved, x, y = self._surface(m, p)
@@ -239,10 +246,10 @@ class GrindingContact(Effect):
         return TOUCHING if inside(depth, deeper, ever, NEAR * (unloaded + self.runout + abs(h))) else APART
 
     def power(self, m: Motion, mode: Any, own: Any, solved: Solved, p: Parameters) -> Any:
-        """Of N − N₀, T and, where it is driven, the torque, by the motion of frame and rotor [W]; none by standing.
+        """Power of N − N₀, T and, if driven, the torque, by the motion of frame and rotor [W].
 
-        The work of the compliant spring is in it. What a rotor of given speed needs to carry the runout past the work
-        is the drive's, not of the coordinates.
+        Standing gives none. The work of the compliant spring is included. If the rotor's speed is given, the
+        drive supplies the power that carries the runout past the workpiece, not the coordinates.
         """
         normal = solved.reaction if self.contact == "rigid" else self.pressed(m, mode, p)
         return self._force(m, mode, p, normal).dot(p.rotor.on_frame(p.geometry.rates(m, p), m.speed))
@@ -262,7 +269,11 @@ class GrindingContact(Effect):
         return force if self.contact == "rigid" else np.maximum(force, 0.0)
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """How long a rigid contact pulls; whether a compliant one parts in the last twentieth of the run; a stop."""
+        """Remarks on a contact that pulls, is lost, or stops the rotor.
+
+        They tell how long a rigid contact pulls, whether a compliant one is lost in the last twentieth of the
+        run, and a stop.
+        """
         scene, stops = equations.scene, self._turning(equations.scene, samples)
         if self.contact == "face":
             return stops
@@ -273,7 +284,10 @@ class GrindingContact(Effect):
         return (PARTING, *stops) if parts else stops
 
     def _turning(self, scene: Circumstances, samples: Samples) -> tuple[str, ...]:
-        """That cutting stops a rotor that a torque drives, or that friction of the printed sign drives it."""
+        """Remark that cutting stops a rotor that a torque drives, or that friction as published drives it.
+
+        The latter follows from the published sign of the friction.
+        """
         if self._may_stop(scene):
             return stopped(scene, samples, self.cutting_coefficient * self.press_force * self.wheel_radius)
         return (DRIVEN,) if self.drag > 0 and self.wheel_radius and scene.rotor.rows else ()
@@ -292,7 +306,7 @@ class GrindingContact(Effect):
         return Weight(changed / least if least else None, why)
 
     def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """On the constraint of a rigid contact, h = h' = 0, by the shortest way."""
+        """Start on the constraint of a rigid contact, h = h' = 0, by the shortest way."""
         row, start = self._row(scene), (scene.start_position, scene.start_velocity)
         if self.contact != "rigid":
             return start

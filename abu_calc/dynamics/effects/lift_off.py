@@ -30,13 +30,16 @@ from abu_calc.validity import Range
 TOUCHING, APART = 1.0, 0.0
 
 NEAR = 1e-9
-"""Of the depth of the contact: as near as this, the motion decides whether disk and work touch."""
+"""Distance, relative to the depth of the contact, within which the motion decides about contact.
+
+So near, the motion tells whether disk and workpiece touch.
+"""
 
 LATE = 0.95
-"""Of the duration: what happens afterwards is what remains."""
+"""Share of the duration after which events count as lasting."""
 
 LEAST_DEPTH: Final = 1e-9
-"""How far [rad] an arm is pressed in at least: one that hangs on its work just touches it."""
+"""Least angle [rad] by which an arm is pressed in: one that hangs on its workpiece just touches it."""
 
 
 @dataclass(frozen=True)
@@ -73,12 +76,12 @@ class LiftOff(Effect):
         return m.support[0] - self.touch_angle
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
-        """What the support adds where nothing touches, taken back."""
+        """Take back the contact moment of the support while nothing touches."""
         moment = (1 - mode) * (self.stiffness * self.length * self.length) * self._beyond(m)
         loads.add(frame=p.rotor.on_frame(np.array([moment]), 0.0))
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
-        """How deep the disk is in the work while touching, the gap while apart, relative to the depth at rest."""
+        """Depth of the disk in the workpiece while touching, gap while apart, relative to the depth at rest."""
         return [(2 * mode - 1) * self._beyond(m) / self.depth]
 
     def rule(self, mode: Any) -> Rule:
@@ -108,12 +111,12 @@ class LiftOff(Effect):
         return float(self._apart(samples)[late].mean())
 
     def last_apart(self, samples: Samples) -> float | None:
-        """When they were apart last [s], by the samples; None: never."""
+        """Last time at which they were apart [s], by the samples; None: never."""
         apart = samples.t[self._apart(samples)]
         return float(apart[-1]) if len(apart) else None
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """That the disk lifts off its work at the end of the run, or has done so before."""
+        """Remark that the disk lifts off its workpiece at the end of the run, or has done so before."""
         share = self.share_apart(samples)
         if share:
             return (
@@ -125,12 +128,12 @@ class LiftOff(Effect):
         return () if last is None else (f"the disk lifts off its work until t = {last:.3g} s, then it stays on it",)
 
     def weight(self, scene: Circumstances) -> Weight:
-        """It decides whether a disk bounces, which no closed estimate tells."""
+        """Influence without a closed estimate: the effect decides whether a disk bounces."""
         return Weight(None, "the disk leaves its work where the arm swings farther than it is pressed in")
 
 
 def lift_off(arm: SwingArm, joint_stiffness: float, touch_angle: float) -> tuple[LiftOff, ...]:
-    """Of an arm at its work, whose own joint has a stiffness [N/m]; none where the work has no stiffness."""
+    """Lift-off of an arm whose own pivot has a stiffness [N/m]; none if the workpiece has no stiffness."""
     work = arm.stiffness - joint_stiffness
     if not work:
         return ()

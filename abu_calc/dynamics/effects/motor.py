@@ -33,12 +33,12 @@ class Motor(Effect):
 
     @property
     def rotor(self) -> Rotor:
-        """Its torque is given."""
+        """Driven rotor: its torque is given."""
         return DRIVEN
 
     @property
     def rotor_inertia(self) -> float:
-        """That of the rotor [kg m²]."""
+        """Inertia of the rotor [kg m²]."""
         return self.inertia
 
     def torque(self, m: Motion, mode: Any, p: Parameters) -> Any:
@@ -64,5 +64,5 @@ class Motor(Effect):
         return self.torque(m, mode, p) * m.own_speed
 
     def weight(self, scene: Circumstances) -> Weight:
-        """Not estimated: capture at a resonance is all or nothing."""
+        """Influence without an estimate: capture at a resonance is all or nothing."""
         return Weight(None, "the speed itself may differ: it can stick at a resonance")

@@ -51,7 +51,7 @@ class RaceEccentricity(Effect):
             levers.outward[row] = levers.outward[row] + self.magnitude * outward
 
     def _direction(self, m: Motion) -> tuple[Any, Any]:
-        """From the axis to the races' centres."""
+        """Direction from the axis to the races' centres."""
         place = m.turn + self.angle
         return m.xp.cos(place), m.xp.sin(place)
 

@@ -24,6 +24,8 @@ REGISTRY: Final[tuple[tuple[str, type[Effect]], ...]] = (
     ("ball_contact", BallContact),
     ("dry_rolling_friction", DryRollingFriction),
 )
-"""In the order in which a scene holds them: what moves the rotor and the races comes before what acts on the balls, and
-what decides by all forces comes last.
+"""Effects in the order in which a scene holds them.
+
+Effects that move the rotor and the races come before those that act on the balls. Effects that decide
+by all forces come last.
 """

@@ -48,17 +48,17 @@ class RunUp(Effect):
 
     @property
     def rotor(self) -> Rotor:
-        """Its speed is given."""
+        """Guided rotor: its speed is given."""
         return GUIDED
 
     @property
     def from_rest(self) -> bool:
-        """In a run-up."""
+        """True if the scene has a run-up."""
         return bool(self.up)
 
     @property
     def run_down(self) -> float:
-        """At the end."""
+        """Duration of the run-down at the end."""
         return self.down
 
     @property
@@ -68,7 +68,7 @@ class RunUp(Effect):
 
     @property
     def at_speed(self) -> float:
-        """When the rotor is at full speed for good [s]."""
+        """Time from which the rotor stays at full speed [s]."""
         return self._parts[-1] if self.fall else self.up
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:
@@ -76,7 +76,10 @@ class RunUp(Effect):
         m.acceleration = mode
 
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
-        """What carries the rotor takes the reaction of what drives it, where it can turn; a motor's knows its own."""
+        """Apply the reaction of the drive to whatever carries the rotor, if that can turn.
+
+        A motor's effect accounts for its own reaction.
+        """
         if self.inertia and _reacts(p):
             unit = np.zeros(len(p.frame.mass))
             unit[list(p.frame.turning)] = 1.0
@@ -123,7 +126,7 @@ class RunUp(Effect):
         return self.mode_at(scene, 0.0, None)
 
     def remarks(self, equations: Laws, samples: Samples) -> tuple[str, ...]:
-        """That an arm lacks the reaction torque where the inertia is not known, and how much that is."""
+        """Remark that an arm lacks the reaction torque if the inertia is not known, and how much that is."""
         scene = equations.scene
         if self.inertia or not _reacts(equations.parameters):
             return ()
@@ -134,10 +137,10 @@ class RunUp(Effect):
         )
 
     def weight(self, scene: Circumstances) -> Weight:
-        """It is the scene itself."""
+        """Influence without an estimate: the run-up is the scene itself."""
         return Weight(None, "the speed itself: without it there is no run-up")
 
 
 def _reacts(p: Parameters) -> bool:
-    """Whether what carries the rotor turns, and nothing else knows what drives this."""
+    """True if whatever carries the rotor turns, and no other effect accounts for its drive."""
     return p.rotor.given and bool(p.frame.turning)

@@ -40,7 +40,7 @@ from abu_calc.validity import Range
 
 _LARGEST = sys.float_info.max
 _EDGE = 1e-9
-"""What is left of the groove at an event that was located."""
+"""Share of the groove that is left at a located event."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,10 @@ class TransverseMotion(Effect):
         loads.own(across=Across(lever, p.inertia_factors + lean * lean, drive, -lean))
 
     def _lean(self, m: Motion, w: Array, v: Array, levers: Levers, loads: Loads, p: Parameters) -> None:
-        """On a race that leans, a ball off its plane is nearer to the axis or further from it: −½ m γ'² 2 w w_t."""
+        """Add the forces of a race that leans: −½ m γ'² 2 w w_t.
+
+        A ball off the plane of such a race is nearer to the axis or further from it.
+        """
         leaning, axial = levers.leaning, levers.axial
         assert leaning is not None and axial is not None
         outward = m.swing * m.swing * w

@@ -1,4 +1,4 @@
-"""From a scene to the equations that are integrated."""
+"""Assembly of the integrated equations from a scene."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""From a scene to the numbers that its equations read."""
+"""Conversion of a scene to the numbers that its equations read."""
 
 from dataclasses import replace
 
@@ -42,7 +42,7 @@ def parameters_of(scene: Scene) -> Parameters:
 
 
 def _spin_inertia(frame: Frame, inertia: float) -> Array | None:
-    """What balls turned by their races weigh in the accelerations that turn these."""
+    """Inertia of balls that their races turn, in the accelerations that turn the races."""
     turning = np.zeros(len(frame.mass))
     turning[list(frame.turning)] = 1.0
     return inertia * np.outer(turning, turning) if frame.turning else None

@@ -16,10 +16,10 @@ from abu_calc.dynamics.parameters import Parameters
 
 @dataclass(slots=True)
 class _Reduced:
-    """What is left when the balls are eliminated: `mass` A = `force`, and how they follow from A.
+    """Equations without the balls: `mass` A = `force`, and how the balls follow from A.
 
-    Along the race, per mass: balls = `give` (`drive` − A `felt`); in a second direction `pushed` − A `resisted`.
-    `weights` (d × n): what a drive of each ball takes from the force.
+    Along the race, per mass: balls = `give` (`drive` − A `felt`); in a second direction `pushed` − A
+    `resisted`. `weights` (d × n): share of the force that a drive of each ball takes.
     """
 
     mass: Array
@@ -109,7 +109,7 @@ def _inertia_factors(m: Motion, levers: Levers, p: Parameters) -> Array:
 
 
 def _ball_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
-    """What drives the balls along the race, per mass, without the frame's acceleration; and the levers of that."""
+    """Drive of the balls along the race, per mass, without the frame's acceleration; and its levers."""
     drive, along = p.braking * m.rate, levers.along
     if loads.pull is not None:
         drive = drive + loads.pull
@@ -127,7 +127,7 @@ def _ball_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[
 
 
 def _turned(drive: Array, along: Array, way: Array, m: Motion, p: Parameters) -> tuple[Array, Array]:
-    """With what the rotor's change of speed drives the balls by, `way` [m] of acceleration per turn of it."""
+    """Add the drive of the balls by the rotor's change of speed, `way` [m] of acceleration per turn of it."""
     if p.rotor.given:
         drive = drive + way * m.acceleration
     if p.frame.turning:
@@ -185,8 +185,8 @@ def _summed(levers: Levers, p: Parameters) -> Array:
 def _across(left: Array, balls: Array, across: Across, levers: Levers) -> Array:
     """Accelerations in the second direction, by what is left to drive it."""
     given = left if levers.axial is None else left - levers.axial.slope * balls
-    found: Array = given * across.give
-    return found
+    accelerations: Array = given * across.give
+    return accelerations
 
 
 def _together(inertias: Array, radii: Array, mates: Chains, loads: Loads) -> Array:
@@ -203,7 +203,7 @@ def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any, Any]:
     reactions: list[Any] = []
     for bound, pushed, back in _pushes(mass, loads.bound):
         reaction = bound.holds * (bound.value - bound.row.dot(A)) / bound.row.dot(pushed)
-        reactions = [*(one - back * reaction for one in reactions), reaction]
+        reactions = [*(earlier - back * reaction for earlier in reactions), reaction]
         A = A + pushed * reaction
     return A, reactions[0], reactions[1] if len(reactions) > 1 else None
 

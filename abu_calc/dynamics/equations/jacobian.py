@@ -16,8 +16,8 @@ STEP = 1e-100
 
 def jacobian(equations: Equations, t: float, y: Array, modes: tuple[Any, ...] | None = None) -> Array:
     """∂(rhs)/∂y at (t, y), in the first modes unless others are given; see `jacobians`."""
-    found: Array = jacobians(equations, np.array([t]), np.array([y]), modes)[0]
-    return found
+    matrix: Array = jacobians(equations, np.array([t]), np.array([y]), modes)[0]
+    return matrix
 
 
 def jacobians(equations: Equations, times: Array, states: Array, modes: tuple[Any, ...] | None = None) -> Array:
@@ -33,5 +33,5 @@ def jacobians(equations: Equations, times: Array, states: Array, modes: tuple[An
         return equations.rhs(np, t, y, acting)
 
     every = np.repeat(times, size), moved.reshape(size, -1)
-    found = at_samples(rates, *every, at_once=equations.parameters.traceable)
-    return np.asarray(np.imag(found).reshape(moved.shape).transpose(1, 0, 2) / STEP, dtype=float)
+    slopes = at_samples(rates, *every, at_once=equations.parameters.traceable)
+    return np.asarray(np.imag(slopes).reshape(moved.shape).transpose(1, 0, 2) / STEP, dtype=float)

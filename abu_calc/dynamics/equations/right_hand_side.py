@@ -42,12 +42,12 @@ def derivative(motion: Motion, solved: Solved, y: Any, acting: Acting) -> Array:
 def with_states(y: Any, acting: Acting) -> list[tuple[Any, Any, Any]]:
     """Each effect with its mode and its own states (None where it has none), in order."""
     p = acting.parameters
-    place, found = 2 * (p.size + p.balls), []
+    place, rows = 2 * (p.size + p.balls), []
     for effect, mode in zip(p.effects, acting.modes, strict=True):
         count = len(effect.ball_states) * p.balls
-        found.append((effect, mode, y[place : place + count] if count else None))
+        rows.append((effect, mode, y[place : place + count] if count else None))
         place += count
-    return found
+    return rows
 
 
 def accelerations(xp: Any, t: Any, y: Any, acting: Acting) -> tuple[Motion, Loads, Solved]:

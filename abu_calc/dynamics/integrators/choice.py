@@ -1,8 +1,9 @@
-"""Which integrator: one loop of steps for nearly all scenes; SciPy's methods for stiff ones and on request.
+"""Choice of the integrator: one loop of steps for nearly all scenes, SciPy's methods for stiff ones.
 
-The loop runs as compiled code, or as plain Python where there is no compiler and where a run is over before compiled
-code is loaded; the numbers are the same. Its method hangs on the scene and the tolerance alone: order 8 (DOP853) for
-smooth scenes and for tight tolerances, order 5 (RK45) for looser ones where events cut the steps short anyway.
+SciPy's methods are also used on request. The loop runs as compiled code. It runs as plain Python if
+there is no compiler, or if a run is over before compiled code is loaded; the numbers are the same. Its
+method depends on the scene and the tolerance alone: order 8 (DOP853) for smooth scenes and for tight
+tolerances, order 5 (RK45) for looser ones if events cut the steps short anyway.
 """
 
 import math
@@ -62,7 +63,7 @@ class Choice:
     """Evaluations that an event is worth."""
 
     def evaluations(self, work: int) -> int:
-        """How many make up so much work."""
+        """Number of evaluations that make up this much work."""
         return int(work / self.share)
 
     def expected(self, equations: Equations, tolerance: float) -> float:
@@ -71,7 +72,7 @@ class Choice:
         return self.share * ((about.loop if self.name in LOOP else about.scipy) + self.event * about.events)
 
     def work(self, run: Trajectory) -> int:
-        """What a run took, counted in SciPy's evaluations."""
+        """Work of a run, counted in SciPy's evaluations."""
         return math.ceil(self.share * work(run, self.event))
 
 
@@ -160,7 +161,7 @@ def _through(
 
 
 def _events_rule(equations: Equations, tolerance: float, decay: float) -> bool:
-    """Whether the loop goes through a stiff scene sooner than an implicit method that begins anew at each event."""
+    """True if the loop solves a stiff scene sooner than an implicit method that begins anew at each event."""
     if not watches(equations) or untraceable(equations):
         return False
     about = counts(equations, tolerance)

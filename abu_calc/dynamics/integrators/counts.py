@@ -6,8 +6,11 @@ from abu_calc.dynamics.switching.modes import watches
 from abu_calc.frozen import dataclass
 
 EVALUATIONS, ORDER = 35.0, 8
-"""Of DOP853 per revolution, or per cycle of what oscillates faster, at a tolerance of 1e-6, and the order by which they
-grow: four balls on a soft planar support took 18, 33, 78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12."""
+"""Evaluations of DOP853 per revolution at a tolerance of 1e-6, and the order by which they grow.
+
+They are counted per cycle of any faster oscillation. Four balls on a soft planar support took 18, 33,
+78 and 183 at 2e-4, 1e-6, 1e-9 and 1e-12.
+"""
 
 SWITCHING_EVALUATIONS, SWITCHING_ORDER = 45.0, 5
 """Likewise of the loop's method of order 5 through scenes that switch, at a tolerance of 2e-4."""

@@ -40,11 +40,11 @@ class Watcher:
             values = self._values(t, y)
             times.append(t)
             rows.append(values)
-            found = self._dips(dense, times[-3:], rows[-3:])
+            event_times = self._dips(dense, times[-3:], rows[-3:])
             if len(fallen := np.flatnonzero(values < 0)):
-                found.append(self._first(fallen, dense, t))
-            if found:
-                return min(found)
+                event_times.append(self._first(fallen, dense, t))
+            if event_times:
+                return min(event_times)
             self.before, self.since = values, t
         return None
 
@@ -58,12 +58,12 @@ class Watcher:
         lowest = (a + b) / 2 - slope / (2 * np.where(bend > 0, bend, 1.0))
         depth = first + (lowest - a) * (slope + bend * (lowest - b))
         dips = (bend > 0) & (lowest > a) & (lowest < c) & (depth < 0) & (first > 0) & (second > 0) & (third > 0)
-        found = []
+        event_times = []
         for index in np.flatnonzero(dips):
             t = float(lowest[index])
             if self._values(t, dense(t))[index] < 0:
-                found.append(self._crossing(int(index), dense, a if t < b else b, t))
-        return found
+                event_times.append(self._crossing(int(index), dense, a if t < b else b, t))
+        return event_times
 
     def _first(self, fallen: NDArray[np.intp], dense: Any, t: float) -> float:
         """The first of the events that lie behind at t; each is looked for before the one found last."""

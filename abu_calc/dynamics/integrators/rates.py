@@ -1,4 +1,7 @@
-"""How fast a scene's motion dies out and oscillates at its start: what an integrator has to follow, or to step over."""
+"""Decay and oscillation rates of a scene's motion at its start.
+
+An integrator has to follow them, or to step over them.
+"""
 
 import math
 from functools import lru_cache
@@ -31,7 +34,10 @@ def stiff_decay(equations: Equations) -> float | None:
 
 
 def cycles(equations: Equations) -> float:
-    """Of the fastest oscillation in a run: no explicit step may be longer than a part of one, however small it is."""
+    """Number of cycles of the fastest oscillation in a run.
+
+    No explicit step may be longer than a part of one, however small the oscillation is.
+    """
     return equations.scene.duration * rates(equations)[1] / (2 * math.pi)
 
 

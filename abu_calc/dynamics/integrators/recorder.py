@@ -17,9 +17,9 @@ class Recorder:
 
     sampling: Sampling
     done: int = 0
-    """How many samples are filled."""
+    """Number of filled samples."""
     read: int = 0
-    """How many of them the readers have seen."""
+    """Number of filled samples that the readers have seen."""
     block: Array = field(init=False)
     """States since then; of the whole run where all are held."""
     held: Array = field(init=False)
@@ -46,13 +46,13 @@ class Recorder:
             self.sampling.told(self.done / len(self.sampling.times))
 
     def samples(self) -> Samples:
-        """What is held, when the run is over."""
+        """Held samples, when the run is over."""
         self._hand_on()
         times, held = self.sampling.times, self.sampling.held
         return Samples(times[: self.done], self.block[:, : self.done]) if held is None else Samples(held, self.held)
 
     def enough(self, t: float) -> bool:
-        """Whether the run may end at a time, up to which all samples are filled."""
+        """True if the run may end at a time, up to which all samples are filled."""
         until = self.sampling.until
         if until is None or t not in until.times:
             return False

@@ -1,4 +1,4 @@
-"""What all integrators share: the way from event to event, and how a run is refused, given up and handed on."""
+"""Common parts of all integrators: the way from event to event, and how a run is refused or ends."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
@@ -20,7 +20,7 @@ from abu_calc.validity import Range
 Array = NDArray[np.float64]
 
 TOLERANCE = Range("tolerance", 1e-13, 0.1)
-"""Below, rounding decides; above, a method's own estimate of its error means nothing."""
+"""Range of tolerances: below, rounding decides; above, a method's own error estimate means nothing."""
 
 MOST_EVALUATIONS = 12_000_000
 """Some minutes of SciPy's work; a scene that needs more is stiff or too long for this method."""
@@ -67,11 +67,11 @@ class Run(ABC):
     @property
     @abstractmethod
     def name(self) -> str:
-        """Of the integrator."""
+        """Name of the integrator."""
 
     @property
     def done(self) -> int:
-        """How many samples are filled."""
+        """Number of filled samples."""
         return self.recorder.done
 
     @abstractmethod
@@ -148,7 +148,7 @@ class Run(ABC):
 
 
 def work(run: Trajectory, event: int = EVENT) -> int:
-    """What a run took, counted in evaluations; `event`: how many of them one is worth."""
+    """Work of a run, counted in evaluations; `event`: how many of them one event is worth."""
     return run.evaluations + event * run.events
 
 
@@ -168,10 +168,10 @@ def exceeded(t: float, evaluations: int, events: int) -> TooMuchWorkError:
     return TooMuchWorkError(_lost(t, f"more work than allowed, {did}"), t, evaluations)
 
 
-def too_much(found: str, most: int, remedy: str = "") -> TooMuchWorkError:
+def too_much(evaluations: str, most: int, remedy: str = "") -> TooMuchWorkError:
     """The error for a run that is not begun, since so many of SciPy's evaluations are not allowed."""
     return TooMuchWorkError(
-        f"the run takes more work than allowed (found {found} evaluations; allowed: {most:.3g})\n"
+        f"the run takes more work than allowed (found {evaluations} evaluations; allowed: {most:.3g})\n"
         f"  {remedy}shorten the run, ask for less accuracy, or allow some seconds: --patience 60"
     )
 

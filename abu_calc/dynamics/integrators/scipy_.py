@@ -35,8 +35,10 @@ STAGES = {"scipy-dop853": 12, "scipy-rk45": 6}
 """Evaluations of every step; those of the other methods vary."""
 
 LOOSE, ORDER = 1e-3, 8
-"""Below this tolerance the longest step shrinks as DOP853's own steps do: were it to rule two runs of different
-tolerance alike, they would agree without being right."""
+"""Tolerance below which the longest step shrinks as DOP853's own steps do, and that method's order.
+
+If the longest step ruled two runs of different tolerance alike, they would agree without being right.
+"""
 
 
 def load() -> None:
@@ -141,5 +143,5 @@ class _Run(Run):
 
 
 def _evaluations(solver: "OdeSolver", watcher: Watcher | None) -> int:
-    """Of the equations so far; a Jacobian takes one for each state."""
+    """Evaluations of the equations so far; a Jacobian takes one for each state."""
     return int(solver.nfev + solver.njev * solver.n + (watcher.evaluations if watcher else 0))

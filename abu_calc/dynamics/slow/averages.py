@@ -26,7 +26,7 @@ TURNED: Final = np.array((1, -1j))
 
 @dataclass(frozen=True)
 class Averages:
-    """What the averaged equations need of a scene; `race` of each ball."""
+    """Quantities of a scene that the averaged equations need; `race` of each ball."""
 
     masses: Array
     static_moments: Array
@@ -43,7 +43,10 @@ class Averages:
     offset: complex
     speed: float
     kick: Array
-    """What the support's free motion and gravity, both from the start on, add to the balls' mean speeds [rad/s]."""
+    """Change of the balls' mean speeds by the support's free motion and gravity [rad/s].
+
+    Both act from the start on.
+    """
     free: Array
     """(q, q') of that motion at t = 0: the start less the steady whirl."""
 
@@ -61,7 +64,7 @@ def averages(scene: Scene) -> Averages:
     offset = sum((effect.offset for effect in scene.effects), 0j)
     falling = sum(effect.falling for effect in scene.effects) / scene.speed
     own = [scene.imbalance * np.exp(1j * scene.imbalance_angle), scene.couple * np.exp(1j * scene.couple_angle)]
-    own += [sum(one.ball_masses) * offset for one in scene.races]
+    own += [sum(race.ball_masses) * offset for race in scene.races]
     forward, slope = (_between(scene, support.frame @ moved) for moved in support.answer(scene.speed))
     free = _free_motion(scene, support, np.array(own), balls.race)
     # Gravity −g cos(Ωt + θ) along the race swings the balls, and from rest it gives their mean g sin θ/Ω.
@@ -97,7 +100,7 @@ def _free_motion(scene: Scene, support: SmallMotion, own: Complex, race: NDArray
     """(q, q') of the support's start less its steady whirl under the imbalances as they are at the start."""
     sums = own.copy()
     np.add.at(sums, 2 + race, np.array(scene.static_moments) * np.exp(1j * np.array(scene.start_angles)))
-    places = np.array([one.plane_offset for one in scene.races])
+    places = np.array([scene_race.plane_offset for scene_race in scene.races])
     planes = sums[:2] + np.array((sums[2:].sum(), places @ sums[2:]))
     forces = np.outer(planes, TURNED).ravel()[: len(support.frame)]
     steady = scene.speed**2 * support.answer(scene.speed)[0] @ forces
@@ -120,5 +123,5 @@ def _kick(scene: Scene, support: SmallMotion, free: Array, race: NDArray[np.intp
     total = A @ A @ np.linalg.solve(1j * scene.speed * np.eye(len(A)) - A, free)
     moved = support.frame @ total[: len(support.mass)]
     whirl = moved[::2] + 1j * moved[1::2]
-    each = np.array([whirl @ np.array((1.0, one.plane_offset))[: len(whirl)] for one in scene.races])
+    each = np.array([whirl @ np.array((1.0, scene_race.plane_offset))[: len(whirl)] for scene_race in scene.races])
     return np.asarray(-(each[race] * np.exp(-1j * np.array(scene.start_angles))).imag, dtype=float)

@@ -33,7 +33,7 @@ RESONANT = 1e-9
 """Distance from a natural frequency, as a share of the speed, that is none."""
 
 MOST_STEPS = 100_000
-"""Between two times."""
+"""Most steps between two times."""
 
 
 @dataclass(frozen=True)

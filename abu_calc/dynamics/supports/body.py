@@ -7,7 +7,10 @@ from abu_calc.dynamics.supports.linear import DAMPING, MASS, STIFFNESS, Pair, ro
 from abu_calc.dynamics.supports.planar import PlanarSupport
 
 ROTOR, BETWEEN = np.array(((1.0, 0.0), (0.0, 0.0))), np.array(((1.0, -1.0), (-1.0, 1.0)))
-"""Which of rotor and body an element acts on: from the rotor to the ground, or between the two."""
+"""Matrices of an element's action on rotor and body.
+
+The element acts from the rotor to the ground, or between the two.
+"""
 
 
 def with_body(
@@ -33,5 +36,8 @@ def with_body(
 
 
 def _joined(ground: list[float], link: list[float]) -> Array:
-    """What acts against the motion of rotor and body, in the order x, y of the rotor, x, y of the body."""
+    """Matrix that acts against the motion of rotor and body.
+
+    Its order is x, y of the rotor, x, y of the body.
+    """
     return np.kron(ROTOR, np.diag(ground)) + np.kron(BETWEEN, np.diag(link))

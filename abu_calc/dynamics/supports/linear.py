@@ -1,4 +1,4 @@
-"""What all linear supports M q'' + C q' + K q = Pᵀ F share."""
+"""Common parts of all linear supports M q'' + C q' + K q = Pᵀ F."""
 
 import math
 from collections.abc import Sequence
@@ -54,9 +54,9 @@ class LinearGeometry(Geometry):
         return p.rotor.unbalanced(m, force, None, lambda: -self.turning_imbalances * m.xp.sin(place), lambda: 0.0)
 
     def rates(self, m: Motion, p: Parameters) -> Array:
-        """How fast the frame moves."""
-        found: Array = self.race_map.dot(m.support[p.size :])
-        return found
+        """Velocities of the frame."""
+        velocities: Array = self.race_map.dot(m.support[p.size :])
+        return velocities
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class LinearSupport(Support):
         )
 
     def turning(self, unbalance: Unbalance) -> tuple[Array, Array]:
-        """What turns with the rotor and pulls at the frame, as `LinearGeometry` has it."""
+        """Imbalance and couple that turn with the rotor and pull at the frame, as in `LinearGeometry`."""
         axes = len(self.race_map)
         angles = np.repeat((unbalance.angle, unbalance.couple_angle), 2)
         return np.repeat((unbalance.static, unbalance.couple), 2)[:axes], angles[:axes] - QUARTERS[:axes]
@@ -136,7 +136,7 @@ class LinearSupport(Support):
         return 2 / float(compliance[0, 0] + compliance[1, 1])
 
     def shares(self, races: Sequence[Race]) -> list[float]:
-        """By how much a unit of each coordinate moves the axis."""
+        """Displacement of the axis by a unit of each coordinate."""
         return [float(value) for value in np.hypot(*np.array(self.race_map)[:2])]
 
     def small_motion(self, speed: float) -> SmallMotion:
@@ -147,7 +147,7 @@ class LinearSupport(Support):
         )
 
     def holding(self, balls: Balls) -> Self:
-        """With their mass at the centres of their races."""
+        """Support with the balls' mass at the centres of their races."""
         P = np.array(self.race_map)
         return replace(self, mass=rows(np.array(self.mass) + P.T @ balls.mass(len(P)) @ P))
 
@@ -160,7 +160,7 @@ class LinearSupport(Support):
         return [float(value) for value in np.sqrt(np.maximum(squares, 0.0))]
 
     def resting_position(self, force: tuple[float, float] = (0.0, 0.0)) -> tuple[float, ...]:
-        """At its springs' middle, or where they hold the force."""
+        """Position at the middle of the springs, or where they hold the force."""
         if not any(force):
             return (0.0,) * len(self.names)
         pulled = np.array(self.race_map)[:2].T @ force
@@ -185,7 +185,7 @@ class LinearSupport(Support):
         return np.array(self.race_map)
 
     def model(self) -> dict[str, Any]:
-        """Its matrices."""
+        """Matrices of the support."""
         return {
             "mass_kg": [list(row) for row in self.mass],
             "damping_N_s_per_m": [list(row) for row in self.damping],

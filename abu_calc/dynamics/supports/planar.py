@@ -29,7 +29,7 @@ class PlanarGeometry(LinearGeometry):
         return self.race_map
 
     def forces(self, x: Any, y: Any, z: Any) -> list[Any]:
-        """As they are."""
+        """Forces x and y, unchanged."""
         return [x, y]
 
 
@@ -39,12 +39,12 @@ class PlanarSupport(LinearSupport):
     """A linear support whose frame has the rows x and y of the race centre, all races in one plane."""
 
     def geometry(self, unbalance: Unbalance) -> Geometry:
-        """In one plane."""
+        """Geometry in one plane."""
         return PlanarGeometry(np.array(self.race_map), *self.turning(unbalance))
 
     @property
     def description(self) -> str:
-        """With the coordinates beside those of the axis."""
+        """Description with the number of coordinates besides those of the axis."""
         more = len(self.names) - 2
         return "Planar support" + (f" with {more} more coordinates" if more else "")
 

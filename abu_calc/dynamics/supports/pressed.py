@@ -1,6 +1,6 @@
-"""What is told of a wheel pressed to its work: how it changes the axis's motion, and remarks on a run.
+"""Action of a wheel pressed to its workpiece: the change of the axis's motion, and remarks on a run.
 
-Of a `GrindingContact`, whose equations and signs these are.
+Equations and signs are those of a `GrindingContact`.
 """
 
 from typing import Final
@@ -13,7 +13,7 @@ from abu_calc.dynamics.supports.receptance import receptance, reference_imbalanc
 from abu_calc.dynamics.trajectory import Samples
 
 STOPPED: Final = 0.01
-"""Of the scene's speed: a rotor slower than this stands."""
+"""Share of the scene's speed: a rotor slower than this stands."""
 
 _REMEDY: Final = ": press harder, or run the wheel truer"
 
@@ -30,14 +30,14 @@ BRAKES: Final = {
     True: "cutting brakes a driven rotor",
     False: "no wheel radius: cutting does not brake the rotor",
 }
-"""By whether the radius of the wheel is known."""
+"""Texts by whether the radius of the wheel is known."""
 
 
 def moved(scene: Circumstances, plane_offset: float, drag: float, surface: complex, give: float, press: float) -> float:
-    """By how much [m] the contact changes the motion of the axis without balls, as if they never parted.
+    """Change of the axis's motion [m] by the contact, without balls, as if contact were never lost.
 
-    N~ = −(y + E)/(give + h_wn), y of the wheel without contact, E = `surface`, h_wn its motion by the contact, `drag`
-    T per N. And what is left near the end of swinging about the place to which T moves it.
+    N~ = −(y + E)/(give + h_wn), y of the wheel without contact, E = `surface`, h_wn its motion by the
+    contact, `drag` T per N. Added is the remaining swing near the end about the place to which T moves it.
     """
     h = receptance(scene.support, scene.speed)
     wheel = np.vstack([np.eye(2), plane_offset * np.eye(2)])[: len(h)]
@@ -50,7 +50,10 @@ def moved(scene: Circumstances, plane_offset: float, drag: float, surface: compl
 
 
 def pulls(t: Array, normal: Array) -> tuple[str, ...]:
-    """For how much of the time a rigid contact would have to pull, and the least force; samples may stand unevenly."""
+    """Remark on the share of time in which a rigid contact would have to pull, and on the least force.
+
+    The samples may be unevenly spaced.
+    """
     if not len(t) or normal.min() >= 0:
         return ()
     spans = np.diff(t, prepend=t[0], append=t[-1])
@@ -62,7 +65,10 @@ def pulls(t: Array, normal: Array) -> tuple[str, ...]:
 
 
 def stopped(scene: Circumstances, samples: Samples, most: float) -> tuple[str, ...]:
-    """That cutting, which takes up to `most` [N m], has stopped the rotor before anything switched its motor off."""
+    """Remark that cutting has stopped the rotor before anything switched its motor off.
+
+    Cutting takes up to `most` [N m].
+    """
     if scene.run_down:
         return ()
     _, speeds = scene.rotor.turning(samples.t, samples.y, scene.speed)

@@ -39,9 +39,9 @@ class ArmGeometry(Geometry):
         cos, sin = m.xp.cos(arm), m.xp.sin(arm)
         l_cos = self.length * (m.cos * cos + m.sin * sin)
         l_sin = self.length * (m.sin * cos - m.cos * sin)
-        found = Levers((l_cos + m.radii)[None, :], l_sin[None, :], None)
-        found.carry(rate * rate * l_sin, -(rate * rate) * l_cos)
-        return p.rotor.carry(m, found)
+        levers = Levers((l_cos + m.radii)[None, :], l_sin[None, :], None)
+        levers.carry(rate * rate * l_sin, -(rate * rate) * l_cos)
+        return p.rotor.carry(m, levers)
 
     def imbalance(self, m: Motion, p: Parameters) -> tuple[Array, Array | None]:
         """Moment about the arm's axis of an imbalance U at ψ₀: U l (speed² − φ'²) sin ψ₀, and its inertia 2 U l cos ψ₀.
@@ -97,7 +97,7 @@ class SwingArm(Support):
         )
 
     def geometry(self, unbalance: Unbalance) -> Geometry:
-        """On a circle."""
+        """Geometry on a circle."""
         return ArmGeometry(self.length)
 
     @property
@@ -158,7 +158,7 @@ class SwingArm(Support):
         )
 
     def without_steady_force(self) -> Self:
-        """Its torque only moves the place where it stands."""
+        """Arm without its torque, which only moves the place where it stands."""
         return replace(self, torque=0.0)
 
     def critical_damping(self, imbalance: float, balls: Balls) -> float | None:
@@ -176,7 +176,7 @@ class SwingArm(Support):
             return None
 
     def standing_arm(self, balls: Balls) -> Arm:
-        """Its stiffness, that of the work included, as the joint's."""
+        """Arm with its whole stiffness, that of the workpiece included, as the pivot's."""
         arm = self.holding(balls)
         return Arm(arm.length, arm.inertia, arm.stiffness, arm.damping, *(0.0,) * 6)
 
@@ -190,7 +190,7 @@ class SwingArm(Support):
         raise InputError("a swing arm has a contact of its own", remedy="describe the cutting in the arm's own table")
 
     def axis(self, q: Numbers, plane: float = 0.0) -> Numbers:
-        """From where it lies along +x."""
+        """Place of the axis, counted from where the arm lies along +x."""
         return self.length * np.array((np.cos(q[0]) - 1, np.sin(q[0])))
 
     def axis_velocity(self, q: Numbers, rates: Numbers) -> Numbers:
@@ -213,11 +213,11 @@ class SwingArm(Support):
 
     @property
     def description(self) -> str:
-        """What it is."""
+        """Description of the arm."""
         return "Rotor on a swing arm"
 
     def model(self) -> dict[str, Any]:
-        """Its numbers."""
+        """Numbers of the arm."""
         return {
             "arm_length_m": self.length,
             "moment_of_inertia_kg_m2": self.inertia,

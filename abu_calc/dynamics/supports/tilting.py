@@ -34,9 +34,9 @@ class TiltingGeometry(LinearGeometry):
         """T = (e_t, z e_t), N = (e_r, z e_r); along the spindle a ball moves by −R_p Θ·e_r."""
         plane: Array = np.array(((m.cos, m.sin), (-m.sin, m.cos)))
         outward, along = np.concatenate([plane, p.places * plane], axis=1)
-        found = Levers(along, outward, p.frame.whole)
-        leaning = None if self.tilt_map is None else self._lean(m, p, self.tilt_map, found)
-        return p.rotor.carry(m, found, leaning)
+        levers = Levers(along, outward, p.frame.whole)
+        leaning = None if self.tilt_map is None else self._lean(m, p, self.tilt_map, levers)
+        return p.rotor.carry(m, levers, leaning)
 
     def _lean(self, m: Motion, p: Parameters, tilt_map: Array, levers: Levers) -> Array:
         """−R_p Θ·e_r along the spindle, its rate −R_p (Θ'·e_r + γ' Θ·e_t), and so on; R_p even off a groove's middle.
@@ -58,11 +58,11 @@ class TiltingGeometry(LinearGeometry):
 
     def plane(self, z: Any) -> Array:
         """x + z θ_y and y − z θ_x."""
-        found: Array = self.race_map[:2] + z * self.race_map[2:]
-        return found
+        displacements: Array = self.race_map[:2] + z * self.race_map[2:]
+        return displacements
 
     def forces(self, x: Any, y: Any, z: Any) -> list[Any]:
-        """With their moments about the centre of mass."""
+        """Forces with their moments about the centre of mass."""
         return [x, y, z * x, z * y]
 
 
@@ -80,7 +80,7 @@ class TiltingSupport(LinearSupport):
     bearings: tuple[float, ...] = ()
 
     def geometry(self, unbalance: Unbalance) -> Geometry:
-        """In planes that tilt."""
+        """Geometry in planes that tilt."""
         P = np.array(self.race_map)
         return TiltingGeometry(P, *self.turning(unbalance), np.kron(np.eye(2), P[2:]) if self.axial_inertia else None)
 
@@ -106,7 +106,7 @@ class TiltingSupport(LinearSupport):
 
     @property
     def description(self) -> str:
-        """What it is."""
+        """Description of the support."""
         return "Rigid rotor that moves in its plane and tilts"
 
 

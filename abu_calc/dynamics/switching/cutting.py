@@ -37,7 +37,10 @@ class Cutting:
 
 @dataclass(frozen=True)
 class Slip:
-    """How the wheel's surface moves over the work: `speed` v [m/s], v' = `row` · A − `turned`; `lever` dv/dΩ [m]."""
+    """Motion of the wheel's surface over the workpiece.
+
+    `speed` v [m/s], v' = `row` · A − `turned`; `lever` dv/dΩ [m].
+    """
 
     speed: Any
     row: Array
@@ -46,17 +49,20 @@ class Slip:
 
 
 class Contact(Protocol):
-    """What is asked of a contact that can stop its rotor."""
+    """Interface of a contact that can stop its rotor."""
 
     def slip(self, m: Motion, p: Parameters) -> Slip:
-        """How the wheel's surface moves over the work."""
+        """Motion of the wheel's surface over the workpiece."""
 
     def held(self, m: Motion, mode: Cutting, solved: Solved, p: Parameters) -> tuple[Any, Any]:
         """T with which the work holds a wheel that stands, and the most it can, f N [N]."""
 
 
 def goes_on(mode: Cutting, speed: Any, held: Any, most: Any) -> list[Any]:
-    """What stays at or above zero as long as the wheel slides on, or stands, by relative numbers; 1 while apart."""
+    """Watched values that stay at or above zero as long as the wheel slides on, or stands.
+
+    They are relative numbers; 1 while apart.
+    """
     slides, stands = mode.touching * mode.slides * mode.slides, mode.stands
     apart, most = 1 - slides - stands, (1 + HOLD) * most
     return [
@@ -84,7 +90,7 @@ def decided(at: SwitchPoint, mode: Cutting, contact: Contact) -> tuple[Array, Cu
 
 
 def _from_rest(at: SwitchPoint, mode: Cutting, contact: Contact) -> Cutting:
-    """Whether a wheel at rest stands, or which way it starts: the way in which it then goes."""
+    """Mode of a wheel at rest: it stands, or slides in the direction in which it starts."""
     still = replace(mode, slides=0.0)
     m, _, solved = at.solved(still)
     held, most = contact.held(m, still, solved, at.parameters)
@@ -103,9 +109,10 @@ def _from_rest(at: SwitchPoint, mode: Cutting, contact: Contact) -> Cutting:
 
 
 def inside(depth: float, deeper: float, ever: float, near: float) -> bool:
-    """Whether depth + deeper t + ½ ever t² counts as inside: by its sign, or where that is nothing by what follows.
+    """True if depth + deeper t + ½ ever t² counts as inside.
 
-    An excursion that stays nothing is none, so that a graze is not entered.
+    The sign of the depth decides; if the depth is nothing, what follows decides. An excursion that stays
+    nothing is none, so that a graze is not entered.
     """
     if abs(depth) > near:
         return depth > 0

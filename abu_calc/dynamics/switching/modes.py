@@ -50,7 +50,7 @@ def settled(equations: Equations, t: float, y: NDArray[np.float64], modes: Modes
 
 
 def watched(t: float, y: Any, acting: Acting, xp: Any = np) -> list[Any]:
-    """What stays at or above zero as long as the modes hold, of all effects."""
+    """Watched values of all effects, which stay at or above zero as long as the modes hold."""
     motion, loads, solved = accelerations(xp, t, y, acting)
     return [
         value
@@ -60,5 +60,5 @@ def watched(t: float, y: Any, acting: Acting, xp: Any = np) -> list[Any]:
 
 
 def watches(equations: Equations) -> bool:
-    """Whether any effect has modes that the state may end."""
+    """True if any effect has modes that the state may end."""
     return any(effect.switching(equations.scene) for effect in equations.scene.effects)

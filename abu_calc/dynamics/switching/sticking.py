@@ -24,12 +24,18 @@ HOLD = 1e-7
 """A ball is let go when pulled by this much more, relatively, than friction holds, so that it leaves with certainty."""
 
 SLOW = 1e-6
-"""Where balls move across the race too, one starts with this speed, relative to R_p Ω, in the direction of the force
-that overcomes friction, and may stick again at half of it: at rest it has no direction. Less where drag would stop it:
-then with the speed at which drag takes what friction leaves over, at least 1e-6 of it."""
+"""Starting speed of a ball that moves across the race too, relative to R_p Ω.
+
+The ball starts in the direction of the force that overcomes friction, and may stick again at half of
+this speed: at rest it has no direction. If drag would stop it, it starts with the speed at which drag
+takes what friction leaves over, at least 1e-6 of it.
+"""
 
 AT_ALL = 1e-9
-"""What friction holds of f m R_p Ω² at least, where the rotor may stand: with nothing pressed, rounding pulls."""
+"""Least share of f m R_p Ω² that friction holds if the rotor may stand.
+
+With nothing pressed, rounding pulls.
+"""
 
 CROSSES = 1e-7
 """A ball changes sides when pulled from one with this much of m R_p Ω², so that it changes with certainty."""
@@ -48,14 +54,14 @@ class Rolling:
     begun: Array
 
     def like(self, other: "Rolling") -> bool:
-        """Whether both say the same."""
+        """True if both modes are the same."""
         return all(np.array_equal(getattr(self, part), getattr(other, part)) for part in ("direction", "side", "begun"))
 
 
 def forces(f: Any, m: Motion, mode: Rolling, loads: Loads, solved: Solved, p: Parameters) -> tuple[Any, Any, Any]:
-    """What pulls balls along and across the race, and what friction can take of it, times R/R_p.
+    """Pulls on balls along and across the race, and the most that friction can take of them, times R/R_p.
 
-    Of balls together their sums: torques, for their angles are bound.
+    Balls that move together get their sums: torques, for their angles are bound.
     """
     masses = m.static_moments / p.radii
     pull, most = masses * solved.left, f * masses * (mode.side * solved.normal)
@@ -86,8 +92,8 @@ def decided(at: SwitchPoint, f: float) -> tuple[Array, Rolling]:
         y[first : first + p.balls][rests] = 0.0
         at = replace(at, y=y)
     start = replace(mode, direction=np.where(rests, 0.0, np.sign(rates[leader])))
-    found = _decided_along(at, f, rests, start, leader)
-    return at.y, mode if found.like(mode) else found
+    new_mode = _decided_along(at, f, rests, start, leader)
+    return at.y, mode if new_mode.like(mode) else new_mode
 
 
 def _decided_along(at: SwitchPoint, f: float, rests: Array, mode: Rolling, leader: Array) -> Rolling:
@@ -110,9 +116,9 @@ def _decided_along(at: SwitchPoint, f: float, rests: Array, mode: Rolling, leade
 
 
 def _failing(at: SwitchPoint, f: float, mode: Rolling) -> tuple[Array, Array, Rolling]:
-    """Which balls, were they at rest, could not go on in their directions, and what is better for them.
+    """Balls that could not go on in their directions if they were at rest, and better directions for them.
 
-    And the mode with all balls on the sides to which they are pressed.
+    Returned too is the mode with all balls on the sides to which they are pressed.
     """
     mode, (motion, loads, solved) = _on_sides(at, f, mode)
     pull, _, most = forces(f, motion, mode, loads, solved, at.parameters)
@@ -128,10 +134,10 @@ def _on_sides(at: SwitchPoint, f: float, mode: Rolling) -> tuple[Rolling, tuple[
     """
     p = at.parameters
     for _ in range(2 + p.balls):
-        found = at.solved(mode)
-        wrong = mode.side * found[2].normal < -CROSSES / 2 * p.radii * p.speed**2
+        solution = at.solved(mode)
+        wrong = mode.side * solution[2].normal < -CROSSES / 2 * p.radii * p.speed**2
         if not wrong.any():
-            return mode, found
+            return mode, solution
         mode = replace(mode, side=np.where(wrong, -mode.side, mode.side))
     raise _inconsistent(at, f, "no side of its race presses a ball consistently")
 
@@ -178,12 +184,12 @@ def _decided_across(at: SwitchPoint, f: float, motion: Motion, loads: Loads) -> 
 def _kept_by_drag(force: Array, p: Parameters) -> Array:
     """Speed [m/s] at which drag takes all of a force [N]; infinite without drag."""
     drags = p.masses * p.drags / p.radii
-    found: Array = np.divide(force, drags, out=np.full(len(force), math.inf), where=drags > 0)
-    return found
+    speeds: Array = np.divide(force, drags, out=np.full(len(force), math.inf), where=drags > 0)
+    return speeds
 
 
 def _rate_places(p: Parameters) -> tuple[slice, slice]:
-    """Where the state holds the speeds of the balls along and across the race."""
+    """Places in the state of the speeds of the balls along and across the race."""
     first, place = 2 * p.size + p.balls, 2 * (p.size + p.balls)
     for effect in p.effects:
         if ACROSS_RATE in effect.ball_states:

@@ -17,7 +17,10 @@ from abu_calc.errors import NotTrustworthyError
 from abu_calc.frozen import dataclass
 
 MOST_IMPACTS = 10_000
-"""In a chain that passes impacts on without end, all that still approach lose their speed at once."""
+"""Most impacts in a chain that passes them on without end.
+
+After that all balls that still approach lose their speed at once.
+"""
 
 SOFT = 1e-11
 """Compliance of contacts and of sticking, relative to that of the balls: it picks one distribution of the forces of a
@@ -29,11 +32,12 @@ SURPLUS = 1e-7 / 4
 
 @dataclass(frozen=True, eq=False)
 class Responses:
-    """Of a state with all balls free: θ'', normal forces per ball mass, and what torques do to them.
+    """Responses of a state with all balls free: θ'', normal forces per ball mass, and effects of torques.
 
-    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_torque`, `normal_by_torque` (n × n): per unit
-    torque about the race's centre [N m] on each ball. `friction` (n): ±m R f, negative where the inner side of the race
-    presses; zero without dry friction. `kick`: what an impulse of torques [N m s] does to the state.
+    `pairs` (P × n): 1 for the ball ahead, −1 for the one behind. `by_torque`, `normal_by_torque` (n × n):
+    per unit torque about the race's centre [N m] on each ball. `friction` (n): ±m R f, negative where the
+    inner side of the race presses; zero without dry friction. `kick`: change of the state by an impulse of
+    torques [N m s].
     """
 
     t: float
@@ -51,7 +55,7 @@ class Responses:
 
 
 def responses(at: SwitchPoint, behind: list[int], ahead: list[int]) -> Responses:
-    """What torques on the balls do in a state, for pairs of balls."""
+    """Responses of a state to torques on the balls, for pairs of balls."""
     p = at.parameters
     m, levers, loads = prepared(np, at.t, at.y, at.acting)
     hold = np.zeros(p.balls) if loads.hold is None else loads.hold
@@ -62,11 +66,14 @@ def responses(at: SwitchPoint, behind: list[int], ahead: list[int]) -> Responses
     balls, normal = by_pulls(m, levers, loads, p)
 
     def kick(torques: Array) -> Array:
-        """By the difference of two solutions, with forces as large as the scene's, so that no digits are lost."""
+        """Change of the state by torques, from the difference of two solutions.
+
+        The forces are as large as the scene's, so that no digits are lost.
+        """
         size = (levered * p.radii).max() * p.speed**2 / np.abs(torques).max()
         pull = torques * size / levered
         more = replace(loads, pull=pull if loads.pull is None else loads.pull + pull)
-        changed, still = (derivative(m, one, at.y, at.acting) for one in (solve_all(m, levers, more, p), base))
+        changed, still = (derivative(m, answer, at.y, at.acting) for answer in (solve_all(m, levers, more, p), base))
         return np.asarray((changed - still) / size)
 
     unity = np.eye(p.balls)
@@ -108,8 +115,8 @@ def impacts(answer: Responses, y: Array, rates: slice, restitution: float, slow:
 def approaches(answer: Responses, torques: Array) -> Array:
     """Relative accelerations [rad/s²] at which pairs would meet again that torques [N m] press together."""
     own = np.einsum("ij,jk,ik->i", answer.pairs, answer.by_torque, answer.pairs)
-    found: Array = own * np.maximum(torques, 0.0)
-    return found
+    accelerations: Array = own * np.maximum(torques, 0.0)
+    return accelerations
 
 
 def pressing(answer: Responses, directions: Array, joined: Array, margin: float) -> tuple[Array, Array]:
@@ -150,7 +157,7 @@ class _Problem:
         self.margin = margin
 
     def failing(self, status: Array) -> tuple[Array, Array, Array]:
-        """Which assumptions fail, what is better (pairs 1 joined or 0; balls 0 sticking or ±1), and all torques."""
+        """Failing assumptions, better ones (pairs 1 joined or 0; balls 0 sticking or ±1), and all torques."""
         pair = np.arange(len(status)) < self.pairs
         held = np.where(pair, status > 0, status == 0)
         unit, own = np.eye(len(status)), np.diag(self.W)

@@ -39,7 +39,7 @@ class Graph:
         self.slot = slot
         self.entries: list[Entry] = []
         self.fixed: list[bool] = []
-        """Whether an expression is made of parameters and numbers alone."""
+        """True for each expression that is made of parameters and numbers alone."""
         self._places: dict[Entry, int] = {}
         self._constants: dict[int, float] = {}
         self._parameters: list[str] = []
@@ -141,7 +141,7 @@ class Graph:
         return lines, [texts[place] for place in results]
 
     def _needed(self, results: Sequence[int], slots: bool) -> dict[int, int]:
-        """How often each expression is used to make the results."""
+        """Number of times that each expression is used to make the results."""
         needed: dict[int, int] = {}
         left = list(results)
         while left:
@@ -152,7 +152,7 @@ class Graph:
         return needed
 
     def _in_slot(self, place: int) -> bool:
-        """Whether the code takes an expression from a slot: it is made of parameters, and no mere number."""
+        """True if the code takes an expression from a slot: it is made of parameters, and no mere number."""
         return self.fixed[place] and place not in self._constants
 
 

@@ -38,7 +38,7 @@ def functions(equations: Equations, numbers: Numbers, modes: Modes) -> tuple[Fun
 
 
 def handful(equations: Equations, values: Sequence[float]) -> bool:
-    """Whether the equations with these parameters are few enough to be written out."""
+    """True if the equations with these parameters are few enough to be written out."""
     return 0 < equations.parameters.balls <= MOST_BALLS and len(values) <= MOST_NUMBERS
 
 

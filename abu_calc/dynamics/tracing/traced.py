@@ -54,7 +54,7 @@ def symbols(equations: Equations, acting: Acting, graph: Graph) -> tuple[Acting,
 
 
 class Numbers:
-    """What decides how the code of a scene looks, and the numbers that it is run with, as modes change."""
+    """Structure that decides the code of a scene, and the numbers that it is run with, as modes change."""
 
     def __init__(self, equations: Equations) -> None:
         self._structure: list[Any] = [equations.rhs, len(equations.states), watches(equations)]
@@ -90,7 +90,7 @@ def _flattened(mode: Any, numbers: list[float], structure: list[Any]) -> None:
 
 @lru_cache(maxsize=8)
 def numbers_of(equations: Equations) -> Numbers:
-    """Those of some equations, which are integrated several times at different tolerances."""
+    """Numbers of equations that are integrated several times at different tolerances."""
     return Numbers(equations)
 
 
@@ -122,9 +122,9 @@ def mapped(
     if isinstance(value, np.ndarray):
         same = value == 0 if value.ndim == zeros else np.full(value.shape, value.dtype.kind != "f")
         fixed((value.shape, same.tobytes(), value[same].tobytes()))
-        found = value.astype(object)
-        found[~same] = [number(one, False) for one in value[~same].tolist()]
-        return value if same.all() else found
+        entries = value.astype(object)
+        entries[~same] = [number(entry, False) for entry in value[~same].tolist()]
+        return value if same.all() else entries
     if is_dataclass(value) and not isinstance(value, type):
         fixed(type(value))
         changed = copy.copy(value)
@@ -134,6 +134,6 @@ def mapped(
         return changed
     if isinstance(value, tuple):
         fixed(len(value))
-        return tuple(mapped(one, number, fixed, zeros) for one in value)
+        return tuple(mapped(element, number, fixed, zeros) for element in value)
     fixed(value)
     return value

@@ -29,41 +29,41 @@ if TYPE_CHECKING:
 
 HATCHES = {"body": (45.0, 2.5), "race ring": (135.0, 2.5), "cover": (135.0, 1.5)}
 STACK = 10.0
-"""From the part to its first dimension, and from one to the next, on paper [mm]."""
+"""Distance from the part to its first dimension; `STEP`: from one to the next. On paper [mm]."""
 STEP = 9.0
 COLUMN = 14.0
-"""From the part to the texts right of it."""
+"""Distance from the part to the texts right of it, on paper [mm]."""
 DATUM = 15.0
-"""What the sign of a datum takes below the bore."""
+"""Space that the datum sign takes below the bore, on paper [mm]."""
 OVERHANG = 4.0
-"""Of centre lines."""
+"""Overhang of centre lines, on paper [mm]."""
 
 
 def section_view(result: "SizeResult", scale: float, right: float = 0.0) -> tuple[Shape, ...]:
     """The section, the axis along y = 0; its closed web stands at x = `right`."""
-    one, unit = result.autobalancer, 1 / scale
-    outer = one.outer_diameter_mm / 2
+    abu, unit = result.autobalancer, 1 / scale
+    outer = abu.outer_diameter_mm / 2
     shapes = (
         *_cut(result.section.parts),
         *_seen_behind(result),
         *_balls_cut(result),
-        Line("centre", (-OVERHANG * unit, 0), (one.width_mm + OVERHANG * unit, 0)),
+        Line("centre", (-OVERHANG * unit, 0), (abu.width_mm + OVERHANG * unit, 0)),
         *_diameters(result, unit),
         *_widths(result, unit),
         *_race_notes(result, scale),
         *_part_names(result, scale),
-        Text((one.width_mm / 2, outer + (STACK + 2 * STEP) * unit), "A–A", 1.4 * HEIGHT, "centre"),
+        Text((abu.width_mm / 2, outer + (STACK + 2 * STEP) * unit), "A–A", 1.4 * HEIGHT, "centre"),
     )
     return tuple(moved(shape, (right, 0.0)) for shape in shapes)
 
 
 def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
     """The face seen on the open side, its centre at the origin, balls evenly round the race."""
-    one, section, unit = result.autobalancer, result.section, 1 / scale
-    outer, pitch = one.outer_diameter_mm / 2, one.pitch_radius_mm
+    abu, section, unit = result.autobalancer, result.section, 1 / scale
+    outer, pitch = abu.outer_diameter_mm / 2, abu.pitch_radius_mm
     seen = {round(diameter, 6) for diameter in (
         section.bore_diameter_mm, section.hub_diameter_mm, section.shoulder_diameter_mm, section.race_diameter_mm,
-        section.ring_diameter_mm, one.outer_diameter_mm,
+        section.ring_diameter_mm, abu.outer_diameter_mm,
     )}  # fmt: skip
     reach = outer + OVERHANG * unit
     return (
@@ -73,23 +73,23 @@ def face_view(result: "SizeResult", scale: float) -> tuple[Shape, ...]:
         *_cutting_plane(outer, scale),
         *_balls_seen(result),
         *(Radius((0, 0), radius, angle, _outside(outer, angle, unit), text) for (radius, text), angle in zip((
-            (one.race_radius_mm, f"R{digits(one.race_radius_mm)} ±{digits(section.race_tolerance_mm)}"),
+            (abu.race_radius_mm, f"R{digits(abu.race_radius_mm)} ±{digits(section.race_tolerance_mm)}"),
             (pitch, f"(R{digits(pitch)})"),
             (section.hub_diameter_mm / 2, f"R{digits(section.hub_diameter_mm / 2)}"),
-        ), _clear_of_balls(one), strict=True)),
+        ), _clear_of_balls(abu), strict=True)),
         Text((0, outer + (STACK + 2 * STEP) * unit), "cover off", HEIGHT, "centre"),
     )  # fmt: skip
 
 
-def _clear_of_balls(one: "Autobalancer") -> tuple[float, ...]:
+def _clear_of_balls(abu: "Autobalancer") -> tuple[float, ...]:
     """Angles for three radii in different corners, each between two balls if there is a gap near."""
-    part, half = 360 / one.ball_count, math.degrees(math.asin(one.ball_diameter_mm / 2 / one.pitch_radius_mm))
-    found = list[float]()
+    part, half = 360 / abu.ball_count, math.degrees(math.asin(abu.ball_diameter_mm / 2 / abu.pitch_radius_mm))
+    angles = list[float]()
     for wanted in (135.0, 225.0, 315.0):
         gap = 90 + (round((wanted - 90) / part - 0.5) + 0.5) * part
         crossed = abs((wanted - 90 + part / 2) % part - part / 2) < half
-        found.append(gap if crossed and abs(gap - wanted) < 40 else wanted)
-    return tuple(found)
+        angles.append(gap if crossed and abs(gap - wanted) < 40 else wanted)
+    return tuple(angles)
 
 
 def section_drawing(result: "SizeResult", scale: float) -> Drawing:
@@ -113,12 +113,12 @@ def _alone(name: str, title: str, result: "SizeResult", shapes: Sequence[Shape],
 
 def described(result: "SizeResult") -> str:
     """The drawing in words, for those who cannot see it."""
-    one, section = result.autobalancer, result.section
-    groove = "straight across" if one.groove_radius_mm is None else f"groove radius {digits(one.groove_radius_mm)} mm"
+    abu, section = result.autobalancer, result.section
+    groove = "straight across" if abu.groove_radius_mm is None else f"groove radius {digits(abu.groove_radius_mm)} mm"
     return (
-        f"Autobalancer of {digits(one.outer_diameter_mm)} mm outer diameter and {digits(one.width_mm)} mm width on a "
-        f"bore of {digits(section.bore_diameter_mm)} mm {section.bore_class}. {one.ball_count} {one.corrector}s of "
-        f"{digits(one.ball_diameter_mm)} mm run in a race of radius {digits(one.race_radius_mm)} mm, {groove}, between "
+        f"Autobalancer of {digits(abu.outer_diameter_mm)} mm outer diameter and {digits(abu.width_mm)} mm width on a "
+        f"bore of {digits(section.bore_diameter_mm)} mm {section.bore_class}. {abu.ball_count} {abu.corrector}s of "
+        f"{digits(abu.ball_diameter_mm)} mm run in a race of radius {digits(abu.race_radius_mm)} mm, {groove}, between "
         f"a web and a cover of {digits(section.web_mm)} mm. Parts: "
         + ", ".join(f"{part.name} of {part.material}" for part in section.parts)
         + "."
@@ -143,39 +143,39 @@ def _seen_behind(result: "SizeResult") -> Iterator[Line]:
 
 def _balls_cut(result: "SizeResult") -> Iterator[Shape]:
     """The ball at the top, and that at the bottom where there is one; rollers seen from the side."""
-    one = result.autobalancer
-    radius, middle, reach = one.ball_diameter_mm / 2, one.width_mm / 2, 0.62 * one.ball_diameter_mm
-    for side in (1, -1) if one.ball_count % 2 == 0 else (1,):
-        y = side * one.pitch_radius_mm
-        if one.corrector == "ball":
+    abu = result.autobalancer
+    radius, middle, reach = abu.ball_diameter_mm / 2, abu.width_mm / 2, 0.62 * abu.ball_diameter_mm
+    for side in (1, -1) if abu.ball_count % 2 == 0 else (1,):
+        y = side * abu.pitch_radius_mm
+        if abu.corrector == "ball":
             yield Arc("outline", (middle, y), radius)
         else:
             box = [(middle - radius, y - radius), (middle + radius, y - radius),
                    (middle + radius, y + radius), (middle - radius, y + radius)]  # fmt: skip
             yield from (Line("outline", a, b) for a, b in zip(box, (*box[1:], box[0]), strict=True))
         yield Line("centre", (middle - reach, y), (middle + reach, y))
-    top = one.race_radius_mm
-    yield Line("centre", (middle, one.pitch_radius_mm - reach), (middle, min(top, one.pitch_radius_mm + reach)))
+    top = abu.race_radius_mm
+    yield Line("centre", (middle, abu.pitch_radius_mm - reach), (middle, min(top, abu.pitch_radius_mm + reach)))
 
 
 def _diameters(result: "SizeResult", unit: float) -> Iterator[Shape]:
     """Left of the closed web, the smallest nearest to it."""
-    one, section = result.autobalancer, result.section
+    abu, section = result.autobalancer, result.section
     bore, limits = f"Ø{digits(section.bore_diameter_mm)} {section.bore_class}", bore_limits(section)
     if not fits(section.bore_diameter_mm, limits, 1 / unit):
         limits = ""
     rows = [(section.bore_diameter_mm, bore, 0.0)]
     if any(part.name == "race ring" for part in section.parts):
         rows.append((section.ring_diameter_mm, f"Ø{digits(section.ring_diameter_mm)}", section.web_mm))
-    rows.append((one.outer_diameter_mm, f"Ø{digits(one.outer_diameter_mm)}", 0.0))
+    rows.append((abu.outer_diameter_mm, f"Ø{digits(abu.outer_diameter_mm)}", 0.0))
     for index, (diameter, text, x) in enumerate(rows):
         at = -(STACK + STEP * index) * unit
         yield Length((x, -diameter / 2), (x, diameter / 2), at, text, True, below=limits if index == 0 else "")
     half = section.bore_diameter_mm / 2
-    if one.outer_diameter_mm / 2 - half > DATUM * unit:
+    if abu.outer_diameter_mm / 2 - half > DATUM * unit:
         yield from datum((-STACK * unit, -half), "A", 1 / unit)
     else:
-        right = one.width_mm
+        right = abu.width_mm
         yield Line("dimension", (right + unit, -half), (right + 9 * unit, -half))
         yield from datum((right + 6 * unit, -half), "A", 1 / unit, upwards=True)
 
@@ -189,9 +189,9 @@ def bore_limits(section: "Section") -> str:
 
 
 def _widths(result: "SizeResult", unit: float) -> Iterator[Length]:
-    """Between web and cover, the cover, and all above; the web below."""
-    one, section = result.autobalancer, result.section
-    outer, right = one.outer_diameter_mm / 2, one.width_mm
+    """Dimensions of the widths: between web and cover, the cover, and all above; the web below."""
+    abu, section = result.autobalancer, result.section
+    outer, right = abu.outer_diameter_mm / 2, abu.width_mm
     web, shoulder = section.web_mm, section.shoulder_diameter_mm / 2
     top = outer + STACK * unit
     inner = digits(section.inner_width_mm)
@@ -202,9 +202,9 @@ def _widths(result: "SizeResult", unit: float) -> Iterator[Length]:
 
 
 def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
-    """What the race must be: form, runout, surface, hardness above; the groove's radius below."""
-    one, section, unit = result.autobalancer, result.section, 1 / scale
-    outer, right = one.outer_diameter_mm / 2, one.width_mm + COLUMN * unit
+    """Requirements of the race: form, runout, surface, hardness above; the groove's radius below."""
+    abu, section, unit = result.autobalancer, result.section, 1 / scale
+    outer, right = abu.outer_diameter_mm / 2, abu.width_mm + COLUMN * unit
     tip = _on_race(result, 0.7)
     shelf = right, outer - HEIGHT * unit
     hard, rough = f"{section.hardness}, case ≥ {digits(section.case_depth_mm)}", f"Ra {digits(section.roughness_Ra_um)}"
@@ -214,23 +214,23 @@ def _race_notes(result: "SizeResult", scale: float) -> Iterator[Shape]:
     runout = "runout", digits(section.runout_um / 1000, 4), "A"
     yield from tolerance_frame((right, shelf[1]), ("circularity", digits(section.circularity_um / 1000, 4)), scale)
     yield from tolerance_frame((right, shelf[1] - 2 * HEIGHT * unit), runout, scale)
-    if one.groove_radius_mm is not None:
-        centre = one.width_mm / 2, -(one.race_radius_mm - one.groove_radius_mm)
-        text = f"R{digits(one.groove_radius_mm, 2)} ±{digits(section.groove_tolerance_mm)}"
-        angle = -90 + math.degrees(math.asin(section.inner_width_mm / 2 / one.groove_radius_mm)) / 3
+    if abu.groove_radius_mm is not None:
+        centre = abu.width_mm / 2, -(abu.race_radius_mm - abu.groove_radius_mm)
+        text = f"R{digits(abu.groove_radius_mm, 2)} ±{digits(section.groove_tolerance_mm)}"
+        angle = -90 + math.degrees(math.asin(section.inner_width_mm / 2 / abu.groove_radius_mm)) / 3
         lowest = min(y for _, _, _, y in _named(result, unit))
         shelf = right, min(-outer - STACK * unit, lowest - 2.2 * HEIGHT * unit)
-        yield Radius(centre, one.groove_radius_mm, angle, shelf, text)
+        yield Radius(centre, abu.groove_radius_mm, angle, shelf, text)
 
 
 def _on_race(result: "SizeResult", share: float) -> Point:
     """A point on the race, so far from its middle to the cover."""
-    one, section = result.autobalancer, result.section
+    abu, section = result.autobalancer, result.section
     x = share * section.inner_width_mm / 2
     drop = 0.0
-    if one.groove_radius_mm is not None:
-        drop = one.groove_radius_mm - math.sqrt(one.groove_radius_mm**2 - x**2)
-    return one.width_mm / 2 + x, one.race_radius_mm - drop
+    if abu.groove_radius_mm is not None:
+        drop = abu.groove_radius_mm - math.sqrt(abu.groove_radius_mm**2 - x**2)
+    return abu.width_mm / 2 + x, abu.race_radius_mm - drop
 
 
 def _part_names(result: "SizeResult", scale: float) -> Iterator[Shape]:
@@ -242,17 +242,17 @@ def _part_names(result: "SizeResult", scale: float) -> Iterator[Shape]:
 
 def _named(result: "SizeResult", unit: float) -> Iterator[tuple[Point, str, bool, float]]:
     """Point, name, whether an arrow or a dot stands at the point, height of the text: one below the other."""
-    one, section = result.autobalancer, result.section
-    x, radius = one.width_mm - section.web_mm / 2, one.ball_diameter_mm / 2
+    abu, section = result.autobalancer, result.section
+    x, radius = abu.width_mm - section.web_mm / 2, abu.ball_diameter_mm / 2
     hub, race, ring = section.hub_diameter_mm / 2, section.race_diameter_mm / 2, section.ring_diameter_mm / 2
     edge = math.sqrt(0.5) * radius
-    ball = (edge, edge) if one.corrector == "ball" else (radius, 0.0)
+    ball = (edge, edge) if abu.corrector == "ball" else (radius, 0.0)
     tips = {"body": (x, -(hub + section.bore_diameter_mm / 2) / 2), "cover": (x, -(hub + race) / 2),
             "race ring": (x, -(race + ring) / 2)}  # fmt: skip
-    named = [((one.width_mm / 2 + ball[0], one.pitch_radius_mm - ball[1]),
-              f"{one.ball_count} × Ø{digits(one.ball_diameter_mm)}", True)]  # fmt: skip
+    named = [((abu.width_mm / 2 + ball[0], abu.pitch_radius_mm - ball[1]),
+              f"{abu.ball_count} × Ø{digits(abu.ball_diameter_mm)}", True)]  # fmt: skip
     named += [(tips[part.name], part.name, False) for part in section.parts]
-    top = one.outer_diameter_mm / 2 - 7.2 * HEIGHT * unit
+    top = abu.outer_diameter_mm / 2 - 7.2 * HEIGHT * unit
     for tip, text, pointed in sorted(named, key=lambda row: -row[0][1]):
         top = min(top, tip[1])
         yield tip, text, pointed, top
@@ -273,11 +273,11 @@ def _cutting_plane(outer: float, scale: float) -> Iterator[Shape]:
 
 def _balls_seen(result: "SizeResult") -> Iterator[Shape]:
     """Circles, and their part behind the edge of the groove as hidden lines."""
-    one = result.autobalancer
-    pitch, radius, edge = one.pitch_radius_mm, one.ball_diameter_mm / 2, result.section.shoulder_diameter_mm / 2
+    abu = result.autobalancer
+    pitch, radius, edge = abu.pitch_radius_mm, abu.ball_diameter_mm / 2, result.section.shoulder_diameter_mm / 2
     cosine = (edge**2 - pitch**2 - radius**2) / (2 * pitch * radius)
-    for number in range(one.ball_count):
-        turn = 90 + 360 * number / one.ball_count
+    for number in range(abu.ball_count):
+        turn = 90 + 360 * number / abu.ball_count
         centre = pitch * math.cos(math.radians(turn)), pitch * math.sin(math.radians(turn))
         if cosine >= 1:
             yield Arc("outline", centre, radius)
@@ -288,6 +288,6 @@ def _balls_seen(result: "SizeResult") -> Iterator[Shape]:
 
 
 def _outside(outer: float, angle: float, unit: float) -> Point:
-    """Where the text of a radius stands: outside the part at an angle."""
+    """Place of a radius's text: outside the part, at an angle."""
     turn, reach = math.radians(angle), outer + 8 * unit
     return reach * math.cos(turn), reach * math.sin(turn)

@@ -9,7 +9,7 @@ from abu_calc.studies.design_records import Autobalancer
 from abu_calc.studies.section_records import Section
 
 COLUMNS = 60
-"""At most, from rim to rim."""
+"""Most columns from rim to rim."""
 ASPECT = 2.0
 """Height of a character over its width."""
 LEAST_ROWS = 4
@@ -21,40 +21,40 @@ ENOUGH = 0.3
 """Share of a cell from which a part fills it; at the rim and the faces less will do, where thin walls are."""
 
 
-def section_lines(one: Autobalancer, section: Section, rows: int) -> list[str]:
+def section_lines(abu: Autobalancer, section: Section, rows: int) -> list[str]:
     """The section in at most so many lines, the cover on top; none where so few lines cannot show it."""
     if rows < LEAST_ROWS:
         return []
-    across, along = one.outer_diameter_mm / 2, one.width_mm
+    across, along = abu.outer_diameter_mm / 2, abu.width_mm
     column = max(2 * across / COLUMNS, along / rows / ASPECT)
     half, down = round(across / column), round(along / column / ASPECT)
     if half < 2 * LEAST_ROWS:
         return []
     down = max(down, LEAST_ROWS)
     flat = [(SIGNS[part.name], tuple(flattened(part.outline_mm))) for part in section.parts]
-    return [_line(one, flat, (row + 0.5) / down, 0.5 / down, half, row in (0, down - 1)) for row in range(down)]
+    return [_line(abu, flat, (row + 0.5) / down, 0.5 / down, half, row in (0, down - 1)) for row in range(down)]
 
 
 def _line(
-    one: Autobalancer, parts: Sequence[tuple[str, Sequence[Point]]], middle: float, reach: float, half: int, face: bool
+    abu: Autobalancer, parts: Sequence[tuple[str, Sequence[Point]]], middle: float, reach: float, half: int, face: bool
 ) -> str:
     """One line, mirrored; left of the axis without a ball where there is none opposite."""
     shares = [dict[str, float]() for _ in range(half)]
-    cell = one.outer_diameter_mm / 2 / half
+    cell = abu.outer_diameter_mm / 2 / half
     for index in range(SLICES):
         # The outermost cuts run close to the faces, where webs are, however thin.
-        x = one.width_mm * (1 - middle - 0.999 * reach * (2 * index / (SLICES - 1) - 1))
-        for sign, low, high in _slice(one, parts, x):
+        x = abu.width_mm * (1 - middle - 0.999 * reach * (2 * index / (SLICES - 1) - 1))
+        for sign, low, high in _slice(abu, parts, x):
             for place in range(max(int(low / cell), 0), min(math.ceil(high / cell), half)):
                 covered = min(high, cell * (place + 1)) - max(low, cell * place)
                 shares[place][sign] = shares[place].get(sign, 0.0) + covered / cell / SLICES
     right = "".join(_cell(share, edge=face or place == half - 1) for place, share in enumerate(shares))
-    left = right if one.ball_count % 2 == 0 else right.replace(BALL, NOTHING)
+    left = right if abu.ball_count % 2 == 0 else right.replace(BALL, NOTHING)
     return f"{left[::-1]}{AXIS}{right}".rstrip()
 
 
 def _cell(share: dict[str, float], *, edge: bool) -> str:
-    """What fills a cell: a part before a ball before nothing."""
+    """Character that fills a cell: a part before a ball before nothing."""
     parts = {sign: covered for sign, covered in share.items() if sign != BALL}
     most = max(parts, key=lambda sign: parts[sign], default=NOTHING)
     if parts and (parts[most] >= ENOUGH or (edge and parts[most] > 0.01)):
@@ -63,9 +63,9 @@ def _cell(share: dict[str, float], *, edge: bool) -> str:
 
 
 def _slice(
-    one: Autobalancer, parts: Sequence[tuple[str, Sequence[Point]]], x: float
+    abu: Autobalancer, parts: Sequence[tuple[str, Sequence[Point]]], x: float
 ) -> Iterator[tuple[str, float, float]]:
-    """What a line across the axis meets above it: sign, nearer and farther end."""
+    """Parts that a line across the axis meets above it: sign, nearer end, farther end."""
     for sign, outline in parts:
         crossings = sorted(
             a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1])
@@ -73,10 +73,10 @@ def _slice(
             if (a[0] <= x) != (b[0] <= x)
         )
         yield from ((sign, low, high) for low, high in zip(crossings[::2], crossings[1::2], strict=True))
-    radius, aside = one.ball_diameter_mm / 2, x - one.width_mm / 2
+    radius, aside = abu.ball_diameter_mm / 2, x - abu.width_mm / 2
     if abs(aside) < radius:
-        reach = math.sqrt(radius**2 - aside**2) if one.corrector == "ball" else radius
-        yield BALL, one.pitch_radius_mm - reach, one.pitch_radius_mm + reach
+        reach = math.sqrt(radius**2 - aside**2) if abu.corrector == "ball" else radius
+        yield BALL, abu.pitch_radius_mm - reach, abu.pitch_radius_mm + reach
 
 
 def flattened(corners: Sequence[Corner], pieces: int = 12) -> Iterator[Point]:
@@ -96,5 +96,5 @@ def flattened(corners: Sequence[Corner], pieces: int = 12) -> Iterator[Point]:
 
 
 def legend(section: Section) -> str:
-    """What the characters mean."""
+    """Legend of the characters."""
     return ", ".join(f"{SIGNS[part.name]} {part.name}" for part in section.parts) + f", {BALL} ball, {AXIS} axis"

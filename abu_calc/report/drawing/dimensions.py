@@ -21,9 +21,9 @@ from abu_calc.report.drawing.shapes import (
 ARROW = 3.0
 HALF_ARROW = 0.5
 BEYOND = 1.5
-"""Of an extension line past its arrow."""
+"""Overhang of an extension line past its arrow, on paper [mm]."""
 ABOVE = 1.0
-"""Between a line and the text on it. All on paper [mm]."""
+"""Distance between a line and the text on it. All lengths are on paper [mm]."""
 
 
 def primitives(shapes: Iterable[Shape], scale: float) -> Iterator[Primitive]:
@@ -36,56 +36,56 @@ def primitives(shapes: Iterable[Shape], scale: float) -> Iterator[Primitive]:
 
 
 def picture(dimension: Length | Radius, scale: float) -> tuple[Primitive, ...]:
-    """What a dimension looks like."""
+    """Primitives that draw a dimension."""
     return _length(dimension, scale) if isinstance(dimension, Length) else _radius(dimension, scale)
 
 
 def fits(value: float, text: str, scale: float) -> bool:
-    """Whether a text has room on the line of a dimension, between its arrows' lines."""
+    """True if a text has room on the line of a dimension, between its arrows' lines."""
     return value * scale >= max(text_width(text, HEIGHT) + 1, 3 * ARROW)
 
 
-def _length(one: Length, scale: float) -> tuple[Primitive, ...]:
+def _length(length: Length, scale: float) -> tuple[Primitive, ...]:
     """Described along x, turned where it stands upright."""
-    axis, unit = (1 if one.upright else 0), 1 / scale
-    first, last = sorted((one.start, one.end), key=lambda point: point[axis])
+    axis, unit = (1 if length.upright else 0), 1 / scale
+    first, last = sorted((length.start, length.end), key=lambda point: point[axis])
     low, high = first[axis], last[axis]
 
     def at(along: float, across: float) -> Point:
-        return (across, along) if one.upright else (along, across)
+        return (across, along) if length.upright else (along, across)
 
-    found = list[Primitive]()
+    shapes = list[Primitive]()
     for point in (first, last):
-        side = math.copysign(unit, one.at - point[1 - axis])
-        ends = point[1 - axis] + side, one.at + BEYOND * side
-        found.append(Line("dimension", *(at(point[axis], end) for end in ends)))
-    if one.value * scale >= 3 * ARROW:
-        found += _arrow(at(low, one.at), at(1, 0), unit), _arrow(at(high, one.at), at(-1, 0), unit)
+        side = math.copysign(unit, length.at - point[1 - axis])
+        ends = point[1 - axis] + side, length.at + BEYOND * side
+        shapes.append(Line("dimension", *(at(point[axis], end) for end in ends)))
+    if length.value * scale >= 3 * ARROW:
+        shapes += _arrow(at(low, length.at), at(1, 0), unit), _arrow(at(high, length.at), at(-1, 0), unit)
     else:
-        found += (_stroke(at(end, one.at), unit) for end in (low, high))
-    (start, align), reach = _place(one, (low, high), unit)
-    found.append(Line("dimension", at(reach[0], one.at), at(reach[1], one.at)))
+        shapes += (_stroke(at(end, length.at), unit) for end in (low, high))
+    (start, align), reach = _place(length, (low, high), unit)
+    shapes.append(Line("dimension", at(reach[0], length.at), at(reach[1], length.at)))
     # Upright texts are read from the right: above is left of their line.
-    above, turn = (-unit, 90.0) if one.upright else (unit, 0.0)
-    found.append(Text(at(start, one.at + ABOVE * above), one.text, HEIGHT, align, turn))
-    if one.below:
-        found.append(Text(at(start, one.at - (ABOVE + HEIGHT) * above), one.below, HEIGHT, align, turn))
-    return tuple(found)
+    above, turn = (-unit, 90.0) if length.upright else (unit, 0.0)
+    shapes.append(Text(at(start, length.at + ABOVE * above), length.text, HEIGHT, align, turn))
+    if length.below:
+        shapes.append(Text(at(start, length.at - (ABOVE + HEIGHT) * above), length.below, HEIGHT, align, turn))
+    return tuple(shapes)
 
 
 def _stroke(middle: Point, unit: float) -> Line:
-    """In place of an arrow for which there is no room."""
+    """Stroke in place of an arrow for which there is no room."""
     (x, y), half = middle, ARROW / 2 * unit
     return Line("dimension", (x - half, y - half), (x + half, y + half))
 
 
-def _place(one: Length, ends: Point, unit: float) -> tuple[tuple[float, Align], Point]:
-    """Where the text stands, and how far the line reaches."""
-    (low, high), long = ends, text_width(max(one.text, one.below, key=len), HEIGHT) * unit
-    if fits(one.value, max(one.text, one.below, key=len), 1 / unit):
+def _place(length: Length, ends: Point, unit: float) -> tuple[tuple[float, Align], Point]:
+    """Place and alignment of a dimension's text, and the ends of its line."""
+    (low, high), long = ends, text_width(max(length.text, length.below, key=len), HEIGHT) * unit
+    if fits(length.value, max(length.text, length.below, key=len), 1 / unit):
         return ((low + high) / 2, "centre"), ends
-    gap = ARROW * unit + one.clear
-    if one.beyond == "start":
+    gap = ARROW * unit + length.clear
+    if length.beyond == "start":
         return (low - gap - long, "left"), (low - gap - long, high)
     return (high + gap, "left"), (low, high + gap + long)
 
@@ -99,8 +99,8 @@ def _arrow(tip: Point, away: Point, unit: float) -> Solid:
                   (back[0] + HALF_ARROW * y, back[1] - HALF_ARROW * x)))  # fmt: skip
 
 
-def _radius(one: Radius, scale: float) -> tuple[Primitive, ...]:
-    return leader(one.touch, one.shelf, one.text, scale)
+def _radius(radius: Radius, scale: float) -> tuple[Primitive, ...]:
+    return leader(radius.touch, radius.shelf, radius.text, scale)
 
 
 def leader(
@@ -128,17 +128,17 @@ def arrow(tip: Point, tail: Point, scale: float) -> tuple[Primitive, ...]:
 def tolerance_frame(corner: Point, cells: Sequence[str], scale: float) -> tuple[Primitive, ...]:
     """A frame after ISO 1101; `corner` its upper left one; the first cell is "circularity" or "runout"."""
     unit, (x, top) = 1 / scale, corner
-    low, found, left = top - 2 * HEIGHT * unit, list[Primitive](), x
+    low, shapes, left = top - 2 * HEIGHT * unit, list[Primitive](), x
     for index, cell in enumerate(cells):
         wide = (2 * HEIGHT if index == 0 else max(2 * HEIGHT, text_width(cell, HEIGHT) + 2)) * unit
         middle = left + wide / 2
         if index == 0:
-            found += _sign(cell, (middle, (low + top) / 2), unit)
+            shapes += _sign(cell, (middle, (low + top) / 2), unit)
         else:
-            found.append(Text((middle, low + HEIGHT / 2 * unit), cell, align="centre"))
+            shapes.append(Text((middle, low + HEIGHT / 2 * unit), cell, align="centre"))
         left += wide
-        found.append(Line("dimension", (left, low), (left, top)))
-    return (*found, Line("dimension", (x, low), (x, top)), Line("dimension", (x, top), (left, top)),
+        shapes.append(Line("dimension", (left, low), (left, top)))
+    return (*shapes, Line("dimension", (x, low), (x, top)), Line("dimension", (x, top), (left, top)),
             Line("dimension", (x, low), (left, low)))  # fmt: skip
 
 

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
 STYLE = "ABU"
 COLOURS = {"outline": 7, "hidden": 8, "centre": 1, "hatch": 8, "dimension": 5, "text": 7, "frame": 7}
-"""Of layers, by AutoCAD's numbers: seen on dark and on light."""
+"""Colours of the layers, by AutoCAD's numbers: visible on a dark and on a light ground."""
 ANSI31 = 3.175
-"""Between the lines of this pattern, unscaled [mm]."""
+"""Distance between the lines of this pattern, unscaled [mm]."""
 
 
 def dxf_text(drawing: Drawing) -> str:
@@ -119,25 +119,25 @@ def _text(space: "BaseLayout", text: Text, scale: float) -> None:
     entity.set_placement(text.at, align=aligned)
 
 
-def _dimension(document: "Document", space: "BaseLayout", one: Length | Radius, scale: float) -> None:
+def _dimension(document: "Document", space: "BaseLayout", dim: Length | Radius, scale: float) -> None:
     """A dimension that CAD programs know as such, with the picture that every format has."""
-    drawn = picture(one, scale)
-    text = f"{written(one.text)}\\X{written(one.below)}" if isinstance(one, Length) and one.below else written(one.text)
+    drawn = picture(dim, scale)
+    text = f"{written(dim.text)}\\X{written(dim.below)}" if isinstance(dim, Length) and dim.below else written(dim.text)
     attributes = {"layer": "DIMENSION"}
-    if isinstance(one, Length):
-        base = (one.at, one.start[1]) if one.upright else (one.start[0], one.at)
-        angle = 90 if one.upright else 0
+    if isinstance(dim, Length):
+        base = (dim.at, dim.start[1]) if dim.upright else (dim.start[0], dim.at)
+        angle = 90 if dim.upright else 0
         entity = space.add_linear_dim(
-            base, one.start, one.end, angle=angle, text=text, dimstyle=STYLE, dxfattribs=attributes
+            base, dim.start, dim.end, angle=angle, text=text, dimstyle=STYLE, dxfattribs=attributes
         ).dimension
     else:
         entity = space.add_radius_dim(
-            one.centre, mpoint=one.touch, text=text, dimstyle=STYLE, dxfattribs=attributes
+            dim.centre, mpoint=dim.touch, text=text, dimstyle=STYLE, dxfattribs=attributes
         ).dimension
     block = document.blocks.new_anonymous_block(type_char="D")
     _draw(block, drawn, scale)
     entity.dxf.geometry = block.name
-    entity.dxf.actual_measurement = one.value
+    entity.dxf.actual_measurement = dim.value
     entity.dxf.text_midpoint = next(shape.at for shape in drawn if isinstance(shape, Text))
 
 

@@ -1,4 +1,4 @@
-"""Where shapes lie: their extent, and the same shapes elsewhere."""
+"""Extent of shapes, and the same shapes elsewhere."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -10,13 +10,13 @@ from abu_calc.report.drawing.shapes import Arc, Length, Line, Point, Primitive, 
 
 def extent(shapes: Sequence[Shape], scale: float) -> tuple[Point, Point]:
     """Lower left and upper right corner of all that is drawn."""
-    boxes = [box(one, scale) for one in primitives(shapes, scale)]
+    boxes = [box(primitive, scale) for primitive in primitives(shapes, scale)]
     return ((min(low[0] for low, _ in boxes), min(low[1] for low, _ in boxes)),
             (max(high[0] for _, high in boxes), max(high[1] for _, high in boxes)))  # fmt: skip
 
 
 def box(shape: Primitive, scale: float) -> tuple[Point, Point]:
-    """Of one primitive."""
+    """Extent of one primitive: lower left and upper right corner."""
     match shape:
         case Text():
             return shape.box(scale)

@@ -20,9 +20,9 @@ def planes_drawing(left: PlaneCorrection, right: PlaneCorrection, turns_from_lef
     sense = 1 if turns_from_left == "counterclockwise" else -1
     shapes = (*_plane("left", left, sense, 0.0), *_plane("right", right, -sense, APART))
     low, high = extent(shapes, 1.0)
-    told = f"left: {', '.join(_orders(left))}; right: {', '.join(_orders(right))}"
+    description = f"left: {', '.join(_orders(left))}; right: {', '.join(_orders(right))}"
     corners = (low[0] - 2, low[1] - 2), (high[0] + 2, high[1] + 2)
-    return Drawing("planes", "What to do in both planes", told, 1.0, *corners, tuple(shapes))
+    return Drawing("planes", "What to do in both planes", description, 1.0, *corners, tuple(shapes))
 
 
 def _plane(side: str, plane: PlaneCorrection, sense: int, middle: float) -> Iterator[Shape]:
@@ -66,8 +66,8 @@ def _orders(plane: PlaneCorrection, *, short: bool = False) -> list[str]:
     """`short`: by signs."""
     if not plane.mass_g or not plane.corrections:
         return ["leave it as it is"]
-    return [_order(SIGNS[one.action] if short else DO[one.action], one) for one in plane.corrections]
+    return [_order(SIGNS[share.action] if short else DO[share.action], share) for share in plane.corrections]
 
 
-def _order(what: str, one: Share) -> str:
-    return f"{what} {number(one.mass_g)} g at {round(one.angle_deg, 1) % 360:.1f}°"
+def _order(what: str, share: Share) -> str:
+    return f"{what} {number(share.mass_g)} g at {round(share.angle_deg, 1) % 360:.1f}°"

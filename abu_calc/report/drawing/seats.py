@@ -91,7 +91,7 @@ def _sizes(shaft: SeatResult, housing: SeatResult, beyond: float, unit: float) -
 
 
 def _asked(shaft: SeatResult, housing: SeatResult, beyond: float, scale: float) -> Iterator[Shape]:
-    """Beside each seat what its drawing must ask for."""
+    """Requirements that the drawing of each seat must state, beside that seat."""
     unit, x = 1 / scale, 1.4 * shaft.ring_width_mm
     tops = (housing.diameter_mm / 2 + beyond, housing), (-4 * unit, shaft)
     for top, seat in tops:

@@ -1,4 +1,7 @@
-"""What a drawing is made of. Places and lengths in mm of the thing, y upwards; heights of texts in mm on paper."""
+"""Elements of a drawing.
+
+Places and lengths are in mm of the object, y upwards; heights of texts are in mm on paper.
+"""
 
 import math
 from typing import Final, Literal, NamedTuple
@@ -14,16 +17,16 @@ Align = Literal["left", "centre", "right"]
 SCALES: Final = (20.0, 10.0, 5.0, 4.0, 2.5, 2.0, 1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.04, 0.025, 0.02, 0.01)
 """ISO 5455 with those between of GOST 2.302-68."""
 HEIGHT: Final = 3.5
-"""Of most texts."""
+"""Height of most texts, on paper [mm]."""
 SMALL: Final = 2.5
 SIGN_WIDTH: Final = 0.62
-"""Of an average sign, as a share of its height on the line."""
+"""Width of an average character on the line, as a share of its height."""
 TALL: Final = 1.35
 """Size of a font whose capitals have height 1."""
 
 
 class Pen(NamedTuple):
-    """How lines of a layer are drawn: width, dashes and gaps on paper [mm] (none: continuous)."""
+    """Style of a layer's lines: width, dashes and gaps on paper [mm] (no dashes: continuous)."""
 
     width: float
     dashes: tuple[float, ...] = ()
@@ -43,7 +46,7 @@ PENS: Final[dict[Layer, Pen]] = {
 
 @dataclass(frozen=True)
 class Line:
-    """From one point to another."""
+    """Straight line from one point to another."""
 
     layer: Layer
     start: Point
@@ -117,7 +120,7 @@ class Length:
 
     @property
     def value(self) -> float:
-        """What it measures [mm]."""
+        """Length that the dimension measures [mm]."""
         axis = 1 if self.upright else 0
         return abs(self.end[axis] - self.start[axis])
 

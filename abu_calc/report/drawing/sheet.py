@@ -31,11 +31,11 @@ WIDE, HIGH = 420.0, 297.0
 """A3 [mm]."""
 MARGIN, BINDING = 10.0, 20.0
 BLOCK: Final = (190.0, 50.0)
-"""Of the title block."""
+"""Width and height of the title block, on paper [mm]."""
 ROW = 6.0
 NOTE_ROW = 4.2
 GAP = 12.0
-"""Between views, and between them and the frame. All on paper [mm]."""
+"""Distance between views, and between views and the frame. All lengths are on paper [mm]."""
 SHOWN: Final = frozenset({"race", "groove", "race circularity", "race surface", "rolling friction"})
 """Lines of the drawing table that the views say themselves."""
 
@@ -74,7 +74,7 @@ def _views(result: "SizeResult", room: Point) -> tuple[float, tuple[Shape, ...]]
 
 
 def _placed(shape: Line | Text, corner: Point, unit: float) -> Shape:
-    """From mm on paper to mm of the thing."""
+    """Convert a shape from mm on paper to mm of the object, placed at a corner."""
 
     def to(point: Point) -> Point:
         return corner[0] + unit * point[0], corner[1] + unit * point[1]
@@ -135,7 +135,7 @@ def ratio(scale: float) -> str:
 
 
 def verdict(result: "Result") -> str:
-    """In a word, and what stands in the way."""
+    """Verdict in a word, with the codes of the checks that stand in the way."""
     if result.status == "pass":
         return "PASS"
     codes = dict.fromkeys(check.code for check in result.checks if check.status == result.status)
@@ -143,15 +143,15 @@ def verdict(result: "Result") -> str:
 
 
 def _parts_list(result: "SizeResult") -> Iterator[Line | Text]:
-    """Above the title block, from below: what the autobalancer is made of."""
-    one, low = result.autobalancer, MARGIN + BLOCK[1]
+    """Parts list above the title block, from below: the parts of the autobalancer."""
+    abu, low = result.autobalancer, MARGIN + BLOCK[1]
     left, right = WIDE - MARGIN - BLOCK[0], WIDE - MARGIN
     columns = left, left + 25, left + 90, left + 150, right
     rows = [
         ("number", "part", "material", "mass, g"),
         *(("1", part.name, part.material, digits(part.mass_g, 2)) for part in result.section.parts),
-        (f"{one.ball_count}", f"{one.corrector} Ø{digits(one.ball_diameter_mm)}", one.ball_material,
-         f"{one.ball_count} × {digits(one.ball_mass_g)}"),
+        (f"{abu.ball_count}", f"{abu.corrector} Ø{digits(abu.ball_diameter_mm)}", abu.ball_material,
+         f"{abu.ball_count} × {digits(abu.ball_mass_g)}"),
     ]  # fmt: skip
     for index, row in enumerate(reversed(rows)):
         y = low + ROW * index
@@ -171,7 +171,7 @@ def _notes(result: "SizeResult") -> Iterator[str]:
 
 
 def _written(notes: Sequence[str]) -> Iterator[Text]:
-    """From the frame's lower left corner upwards."""
+    """Notes in the frame's lower left corner, written from there upwards."""
     top = MARGIN + 4 + NOTE_ROW * len(notes)
     yield Text((BINDING + 4, top), "Requirements (engineering practice, assumed)", HEIGHT)
     for index, line in enumerate(notes, 1):

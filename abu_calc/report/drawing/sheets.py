@@ -1,4 +1,4 @@
-"""What the results of each command have to draw: the autobalancer's sheet first, then the sketches."""
+"""Drawings for the results of each command: the autobalancer's sheet first, then the sketches."""
 
 from collections.abc import Sequence
 from itertools import pairwise

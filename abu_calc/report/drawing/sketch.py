@@ -1,4 +1,4 @@
-"""What sketches share: the line that says what they are of, and their extent."""
+"""Common parts of sketches: the line that names the object, and their extent."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ from abu_calc.report.drawing.shapes import HEIGHT, SMALL, Drawing, Shape, Text, 
 from abu_calc.studies.result import Result
 
 ROOM = 220.0
-"""What the thing drawn may take on paper [mm]."""
+"""Room for the object on paper [mm]."""
 MARGIN = 8.0
 
 
@@ -21,13 +21,13 @@ def sketch(name: str, title: str, description: str, result: Result, shapes: Sequ
     unit, source = 1 / scale, result.provenance
     low, high = extent(shapes, scale)
     wide = (high[0] - low[0]) * scale
-    told = f"{plain(result.title)}, {source.date}, abu-calc {source.version}"
+    imprint = f"{plain(result.title)}, {source.date}, abu-calc {source.version}"
     below = (
         *((f"SHA-256 {source.sha256}",) if source.sha256 else ()),
         "Sketch: what has no dimension is not to scale.",
     )
     lines = [Text((low[0], high[1] + 8 * unit), *fitted(title, wide, 1.4 * HEIGHT))]
-    for index, line in enumerate((told, *below), 1):
+    for index, line in enumerate((imprint, *below), 1):
         lines.append(Text((low[0], low[1] - (4 + 4.5 * index) * unit), *fitted(line, wide, SMALL)))
     every = (*shapes, *lines)
     low, high = extent(every, scale)

@@ -11,7 +11,7 @@ from abu_calc.report.drawing.shapes import PENS, TALL, Arc, Drawing, Line, Point
 FONT = "Arial, 'Liberation Sans', Helvetica, sans-serif"
 ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
 BETWEEN = 10.0
-"""Between sheets in one file [mm]."""
+"""Distance between sheets in one file [mm]."""
 
 
 def svg_figure(drawing: Drawing) -> str:
@@ -40,14 +40,14 @@ def svg_file(drawings: Sequence[Drawing]) -> str:
 
 def _element(drawing: Drawing, attributes: str, before: str) -> str:
     name = f"abu-{drawing.name}"
-    found = list(primitives(drawing.shapes, drawing.scale))
+    shapes = list(primitives(drawing.shapes, drawing.scale))
     return "\n".join((
         f'<svg xmlns="http://www.w3.org/2000/svg" {attributes} role="img" aria-labelledby="{name}-title {name}-desc" '
         f'fill="none" stroke="none" font-family="{escape(FONT)}">',
         f'<title id="{name}-title">{_text(drawing.title)}</title>',
         f'<desc id="{name}-desc">{_text(drawing.description)}</desc>{before}',
-        *_patterns(found, name),
-        *(_drawn(shape, drawing, name) for shape in found),
+        *_patterns(shapes, name),
+        *(_drawn(shape, drawing, name) for shape in shapes),
         "</svg>",
     ))  # fmt: skip
 

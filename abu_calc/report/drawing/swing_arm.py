@@ -113,7 +113,7 @@ def _dimensions(arm: SwingArm, scale: float) -> Iterator[Shape]:
 
 
 def _bounds(arm: SwingArm, scale: float) -> Iterator[Text]:
-    """What the arm must have, under the joint."""
+    """Requirements on the arm, as text under the pivot."""
     lines = (
         f"contact stiffness < {number(arm.contact_stiffness_limit_N_per_m, 5)} N/m",
         f"worst contact angle {number(arm.worst_contact_angle_deg)}°",

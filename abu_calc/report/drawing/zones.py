@@ -9,7 +9,7 @@ from abu_calc.studies.seat_parts import Pair
 from abu_calc.studies.seat_records import SeatResult
 
 HIGH: Final = 60.0
-"""What the zones take on paper [mm]."""
+"""Height of the tolerance zones on paper [mm]."""
 BOX, PITCH, SEAT = 12.0, 25.0, 54.0
 """Width of a zone, from one to the next, from one seat to the next [mm on paper]."""
 LETTERS: Final = 3.0
@@ -39,10 +39,10 @@ def zones_drawing(name: str, shaft: SeatResult, housing: SeatResult) -> Drawing:
     shapes.append(Text((-4 / scale, -LETTERS / 2 / scale), "0", LETTERS, "right"))
     corners = extent(shapes, scale)
     margin = 2 / scale
-    told = "; ".join(_told(seat) for seat in seats)
+    description = "; ".join(_told(seat) for seat in seats)
     title = f"Tolerance zones of {shaft.name}"
     return Drawing(
-        name, title, f"{title}, deviations from the nominal size in µm. {told}.", scale,
+        name, title, f"{title}, deviations from the nominal size in µm. {description}.", scale,
         (corners[0][0] - margin, corners[0][1] - margin), (corners[1][0] + margin, corners[1][1] + margin),
         tuple(shapes),
     )  # fmt: skip

@@ -1,1 +1,1 @@
-"""What a result shows as figures: charts, drawings, a motion as data; who draws them is not said here."""
+"""Figures of a result: charts, drawings, a motion as data. The code that draws them is elsewhere."""

@@ -1,4 +1,7 @@
-"""What `abu accuracy` shows: error against time, a line for each way to compute, and what settling and accuracy are."""
+"""Figures of `abu accuracy`: error against time, a line for each way to compute.
+
+They also define settling and accuracy.
+"""
 
 from collections.abc import Iterator
 from typing import Final
@@ -22,40 +25,40 @@ def accuracy_extras(result: AccuracyResult) -> Extras:
 
 def _precision(result: AccuracyResult) -> Iterator[Figure]:
     groups: dict[str, list[tuple[float, float]]] = {}
-    for one in result.points:
-        if one.wall_s and one.error is not None:
-            groups.setdefault(_name(one), []).append((one.wall_s, max(one.error, NOTHING)))
+    for measurement in result.points:
+        if measurement.wall_s and measurement.error is not None:
+            groups.setdefault(_name(measurement), []).append((measurement.wall_s, max(measurement.error, NOTHING)))
     known = [point for points in groups.values() for point in points]
     if not known:
         return
     # Lines in the order of what they cost at best; the eighth and further ones share their looks with the first.
-    ordered = sorted(groups.items(), key=lambda one: min(one[1]))
+    ordered = sorted(groups.items(), key=lambda group: min(group[1]))
     lines = [Line(points, name, k % SERIES + 1) for k, (name, points) in enumerate(ordered)]
     across = Axis.decades("time, warm [s]", (x for x, _ in known))
     up = Axis.decades("error", [result.accuracy, *(y for _, y in known)])
     best, marks = result.chosen, [Point(*point, "", line.series) for line in lines for point in line.points]
     if best is not None and best.wall_s and best.error is not None:
         marks.append(Point(best.wall_s, max(best.error, NOTHING), "chosen"))
-    told = "; ".join(f"{line.name}: error {number(y, 2)} in {number(x, 2)} s" for line in lines for x, y in line.points)
+    text = "; ".join(f"{line.name}: error {number(y, 2)} in {number(x, 2)} s" for line in lines for x, y in line.points)
     caption = (
         "Work against precision, both axes in decades, a line for each way to compute over its tolerances: nearer to "
         "the lower left is better; what lies below the dashed line is accurate enough."
     )
     limit = (result.accuracy, f"asked for {result.accuracy:g}")
-    chart = Plot("Error against time", told, across, up, lines, marks, limit)
+    chart = Plot("Error against time", text, across, up, lines, marks, limit)
     yield Figure("precision", "Error against time", chart, caption)
 
 
-def _name(one: MeasuredPoint) -> str:
+def _name(point: MeasuredPoint) -> str:
     """Rung and integrator in short."""
-    by = (one.integrator or "").removeprefix("scipy-")
-    if one.rung == "equations" and by:
+    by = (point.integrator or "").removeprefix("scipy-")
+    if point.rung == "equations" and by:
         return by
-    return f"{by}, {one.rung}" if by else one.rung
+    return f"{by}, {point.rung}" if by else point.rung
 
 
 def _numbers(result: AccuracyResult) -> tuple[str, ...]:
-    one = result.reference
-    both = zip(one.integrators, one.tolerances, strict=True)
-    told = " and ".join(f"{name} at {tolerance:g}" for name, tolerance in both)
-    return (f"reference: {told} differ by {number(one.disagreement, 2)}",)
+    reference = result.reference
+    both = zip(reference.integrators, reference.tolerances, strict=True)
+    methods = " and ".join(f"{name} at {tolerance:g}" for name, tolerance in both)
+    return (f"reference: {methods} differ by {number(reference.disagreement, 2)}",)

@@ -1,4 +1,4 @@
-"""What `abu balance` shows: what to do in both planes, before and after, what makes the uncertainty, the formulas."""
+"""Figures of `abu balance`: corrections, before and after, causes of uncertainty, the formulas."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -29,7 +29,7 @@ def balance_extras(result: BalanceResult) -> Extras:
 
 
 def _imbalance(result: BalanceResult) -> Iterator[Figure]:
-    """In both planes, now and to be expected; the limit where both have the same."""
+    """Figure of the imbalance in both planes, now and expected; with the limit if both have the same."""
     sides = ("left", result.left), ("right", result.right)
     rows = [
         Bar(f"{side} plane, {when}", value, f"{number(value, 3)} g·mm", series)
@@ -44,29 +44,29 @@ def _imbalance(result: BalanceResult) -> Iterator[Figure]:
 
 
 def _vibration(result: BalanceResult) -> Iterator[Figure]:
-    """Of each speed and quantity that was read."""
-    for index, one in enumerate(result.residual_check.verification, 1):
+    """Figures of the vibration for each speed and quantity that was read."""
+    for index, run in enumerate(result.residual_check.verification, 1):
         rows = [
-            Bar(f"{side} sensor, {when}", value, f"{number(value, 3)} {one.unit}", series)
+            Bar(f"{side} sensor, {when}", value, f"{number(value, 3)} {run.unit}", series)
             for side, values in (
-                ("left", (one.left_before, one.left_expected, one.left_at_most)),
-                ("right", (one.right_before, one.right_expected, one.right_at_most)),
+                ("left", (run.left_before, run.left_expected, run.left_at_most)),
+                ("right", (run.right_before, run.right_expected, run.right_at_most)),
             )
             for when, value, series in zip(("now", "expected", "at most"), values, (NOW, AFTER, 3), strict=True)
         ]
         caption = (
-            f"Readings of the sensors at {one.speed_rpm:.0f} rpm now, and what the verification run should show: above "
+            f"Readings of the sensors at {run.speed_rpm:.0f} rpm now, and what the verification run should show: above "
             '"at most" something is wrong.'
         )
-        title, axis = f"Vibration at {one.speed_rpm:.0f} rpm, before and after", f"{one.quantity} [{one.unit}], 0–peak"
+        title, axis = f"Vibration at {run.speed_rpm:.0f} rpm, before and after", f"{run.quantity} [{run.unit}], 0–peak"
         yield from _bars(f"verification-{index}", "Verification run", title, axis, rows, caption)
 
 
 def _causes(result: BalanceResult) -> Iterator[Figure]:
     rows = [
-        Bar(f"{one.cause}, {side}", value, f"{number(value, 2)} %", series)
-        for one in result.uncertainty_by_cause
-        for side, value, series in (("left", one.left_percent, AFTER), ("right", one.right_percent, NOW))
+        Bar(f"{cause.cause}, {side}", value, f"{number(value, 2)} %", series)
+        for cause in result.uncertainty_by_cause
+        for side, value, series in (("left", cause.left_percent, AFTER), ("right", cause.right_percent, NOW))
     ]
     caption = "What each cause makes of the uncertainty, one standard deviation: begin with the longest."
     yield from _bars("uncertainty", "What makes the uncertainty", "Causes of the uncertainty",
@@ -77,18 +77,18 @@ def _bars(
     name: str, section: str, title: str, axis: str, rows: list[Bar], caption: str,
     limit: tuple[float, str] | None = None,
 ) -> Iterator[Figure]:  # fmt: skip
-    most = max([*(one.value for one in rows), *([limit[0]] if limit else [])], default=0.0)
+    most = max([*(bar.value for bar in rows), *([limit[0]] if limit else [])], default=0.0)
     if most > 0:
-        told = "; ".join(f"{one.name} {one.told}" for one in rows) + (f"; {limit[1]}" if limit else "")
-        yield Figure(name, section, Bars(title, told, Axis(axis, 0.0, most), rows, limit), caption)
+        text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
+        yield Figure(name, section, Bars(title, text, Axis(axis, 0.0, most), rows, limit), caption)
 
 
 def _numbers(result: BalanceResult) -> tuple[str, ...]:
-    """What the formulas come to here."""
+    """Values of the formulas for this result."""
     lines = [
         f"{side}: q = {number(plane.mass_g)} g at {plane.angle_deg:.1f}°, q·R = {number(plane.imbalance_g_mm)} g·mm"
         for side, plane in (("left plane", result.left), ("right plane", result.right))
     ]
     if result.natural_frequencies_hz is not None:
-        lines.append("natural frequencies: " + ", ".join(f"{one:.2f} Hz" for one in result.natural_frequencies_hz))
+        lines.append("natural frequencies: " + ", ".join(f"{freq:.2f} Hz" for freq in result.natural_frequencies_hz))
     return (*lines, f"put back, the answer gives the readings to {number(result.residual_check.reproduced, 2)}")

@@ -28,16 +28,16 @@ Field = list[list[str]]
 
 def pictured(blocks: Iterable[Block], figures: Sequence[Figure]) -> tuple[Block, ...]:
     """Blocks, each chart of the figures below those of its section."""
-    found: list[Block] = []
+    output: list[Block] = []
     for part in sections(blocks):
         title = getattr(part[0], "text", "").strip()
-        found += part
-        found += (
-            Picture(tuple(characters(one.shown)), f"{one.shown.title}.{_signs(one.shown)}", 2)
-            for one in figures
-            if one.section and title.startswith(one.section) and isinstance(one.shown, Plot)
+        output += part
+        output += (
+            Picture(tuple(characters(figure.shown)), f"{figure.shown.title}.{_signs(figure.shown)}", 2)
+            for figure in figures
+            if figure.section and title.startswith(figure.section) and isinstance(figure.shown, Plot)
         )
-    return tuple(found)
+    return tuple(output)
 
 
 def characters(plot: Plot) -> list[str]:
@@ -52,7 +52,7 @@ def characters(plot: Plot) -> list[str]:
         field[place][::2] = [LIMIT] * len(field[place][::2])
         # The word in the middle, where neither axis nor the ends of lines are.
         _say(field, place, (WIDE - len(plot.limit[1])) // 2, f" {plot.limit[1]} ")
-    names = [one.series for one in plot.legend]
+    names = [entry.series for entry in plot.legend]
     for line in plot.lines:
         _draw(field, plot, line, names.index(line.series) if line.series in names else 0)
     for point in plot.points:
@@ -61,7 +61,7 @@ def characters(plot: Plot) -> list[str]:
 
 
 def _signs(plot: Plot) -> str:
-    """What the signs mean that do not say so themselves."""
+    """Legend of the characters that do not explain themselves."""
     words = [f"{OTHERS[k - 1] if k else LEVELS} {line.name}" for k, line in enumerate(plot.legend)]
     words += [f"{BAND} not stable"] if plot.bands else []
     return f" {'; '.join(words)}." if words else ""

@@ -11,7 +11,7 @@ FIELD: Final = 354 / 204
 
 
 class Axis(NamedTuple):
-    """What is shown along it, with its unit, and from where to where; `log`: in decades."""
+    """Axis of a chart: its quantity with the unit, and its range; `log`: in decades."""
 
     name: str
     low: float
@@ -21,16 +21,16 @@ class Axis(NamedTuple):
     @classmethod
     def around(cls, name: str, values: Iterable[float], *, zero: bool = False) -> "Axis":
         """An axis with room beside all values; `zero`: from zero."""
-        found = list(values)
-        low, high = min(found), max(found)
+        numbers = list(values)
+        low, high = min(numbers), max(numbers)
         margin = 0.08 * ((high - low) or abs(high) or 1.0)
         return cls(name, 0.0 if zero else low - margin, high + margin)
 
     @classmethod
     def decades(cls, name: str, values: Iterable[float]) -> "Axis":
         """A logarithmic axis over whole decades that hold all values, which are above zero."""
-        found = list(values)
-        low, high = math.floor(math.log10(min(found))), math.ceil(math.log10(max(found)))
+        numbers = list(values)
+        low, high = math.floor(math.log10(min(numbers))), math.ceil(math.log10(max(numbers)))
         return cls(name, 10.0**low, 10.0 ** max(high, low + 1), log=True)
 
     @property
@@ -45,7 +45,7 @@ class Axis(NamedTuple):
         return [step * k for k in range(math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9) + 1)]
 
     def share(self, value: float) -> float:
-        """How far along."""
+        """Share of the axis at which a value lies."""
         if self.log:
             return math.log(value / self.low) / math.log(self.high / self.low)
         return (value - self.low) / (self.high - self.low)
@@ -88,7 +88,10 @@ class Bar(NamedTuple):
 
 
 class Plot(NamedTuple):
-    """What stands in a field between two axes; `told`: its text alternative, `limit`: of y, `bands`: forbidden x."""
+    """Contents of a field between two axes.
+
+    `told`: its text alternative, `limit`: of y, `bands`: forbidden x.
+    """
 
     title: str
     told: str

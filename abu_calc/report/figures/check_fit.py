@@ -1,4 +1,4 @@
-"""What `abu check-fit` shows of each bearing: sketch, tolerance zones, interference, clearance that is left."""
+"""Figures of `abu check-fit` for each bearing: sketch, tolerance zones, interference, clearance left."""
 
 from collections.abc import Iterator, Sequence
 
@@ -13,7 +13,7 @@ from abu_calc.studies.seat_records import SeatResult
 
 
 def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:
-    """Below the heading of each bearing, or at the end where two of them have one name."""
+    """Figures of each bearing, below its heading; at the end if two of them have one name."""
     sketches = list(seat_figures(result, result.seats))
     for index, pair in enumerate(by_bearing(result.seats), 1):
         section = _section(pair, result.seats)
@@ -30,12 +30,12 @@ def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:
 
 def _section(pair: Seats, seats: Sequence[SeatResult]) -> str:
     """Sections are found by how their headings begin."""
-    beginnings = [one.name for one in seats[::2] if one.name.startswith(pair[0].name)]
+    beginnings = [seat.name for seat in seats[::2] if seat.name.startswith(pair[0].name)]
     return f"Bearing seats: {pair[0].name}" if len(beginnings) == 1 else ""
 
 
 def _interference(index: int, section: str, pair: Seats) -> Figure:
-    """What comes out of the fields, above what will do."""
+    """Figure of the interference from the tolerance classes, above the permitted interference."""
     values = [value for seat in pair for value in (*seat.interference_um, seat.permitted_interference_um)]
     low = 1.05 * min(0.0, *values)
     rows = []
@@ -45,15 +45,15 @@ def _interference(index: int, section: str, pair: Seats) -> Figure:
             _span(f"{seat.seat}: probable", seat.probable_interference_um, 1),
         ]
         needed, most = seat.needed_um, seat.permitted_interference_um
-        told = f"≤ {most:g} µm" if needed is None else _told((needed, most))
-        rows.append(Bar(f"{seat.seat}: permitted", most, told, 2, low if needed is None else needed))
+        text = f"≤ {most:g} µm" if needed is None else _told((needed, most))
+        rows.append(Bar(f"{seat.seat}: permitted", most, text, 2, low if needed is None else needed))
     axis = Axis("interference [µm], below zero clearance", low, 1.05 * max(values))
-    told = "; ".join(f"{one.name} {one.told}" for one in rows)
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
     caption = (
         f"Interference in the seats of bearing {index}: what comes out should lie within what is permitted, from the "
         "least that the ring needs to the most that it bears."
     )
-    return Figure(f"interference-{index}", section, Bars("Interference", told, axis, rows, (0.0, "neither")), caption)
+    return Figure(f"interference-{index}", section, Bars("Interference", text, axis, rows, (0.0, "neither")), caption)
 
 
 def _clearance(index: int, section: str, left: Clearance) -> Figure:
@@ -62,11 +62,11 @@ def _clearance(index: int, section: str, left: Clearance) -> Figure:
         _span("after mounting, extreme", left.mounted_um, 1),
         _span("after mounting, probable", left.probable_um, 1),
     ]
-    ends = [0.0, *(end for one in rows for end in (one.start, one.value))]
+    ends = [0.0, *(end for bar in rows for end in (bar.start, bar.value))]
     axis = Axis("radial clearance [µm]", 1.05 * min(ends), 1.05 * max(ends))
-    told = "; ".join(f"{one.name} {one.told}" for one in rows)
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
     caption = f"Clearance left in bearing {index} after mounting and warming: it should stay right of the dashed line."
-    chart = Bars("Clearance left in the bearing", told, axis, rows, (0.0, "none left"))
+    chart = Bars("Clearance left in the bearing", text, axis, rows, (0.0, "none left"))
     return Figure(f"clearance-{index}", section, chart, caption)
 
 

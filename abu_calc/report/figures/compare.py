@@ -1,4 +1,4 @@
-"""What `abu compare` shows: the main numbers of each machine as bars."""
+"""Figures of `abu compare`: the main numbers of each machine as bars."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
@@ -52,26 +52,26 @@ FIGURES: Final = (
 def compare_extras(result: CompareResult) -> Extras:
     """Figures of what more than one machine has."""
     rows = {row.path: row for row in (*result.differences, *result.alike) if row.part == "design"}
-    return Extras(tuple(figure for one in FIGURES for figure in _figure(result, one, rows)))
+    return Extras(tuple(figure for quantity in FIGURES for figure in _figure(result, quantity, rows)))
 
 
-def _figure(result: CompareResult, one: _Compared, rows: dict[str, Difference]) -> Iterator[Figure]:
-    unit = one.axis.partition("[")[2].rstrip("]")
-    words = list(one.paths.values())
+def _figure(result: CompareResult, quantity: _Compared, rows: dict[str, Difference]) -> Iterator[Figure]:
+    unit = quantity.axis.partition("[")[2].rstrip("]")
+    words = list(quantity.paths.values())
     bars = [
         Bar(f"{file.letter}  {file.title}{f', {words[k]}' if words[k] else ''}", value, _told(value, unit),
             SERIES.get(words[k], 1))
         for index, file in enumerate(result.files)
-        for k, path in enumerate(one.paths)
+        for k, path in enumerate(quantity.paths)
         if path in rows and is_number(value := rows[path].values[index])
     ]  # fmt: skip
     if len({bar.name[0] for bar in bars}) < 2:  # of one machine alone there is nothing to compare
         return
-    limit = _limit(result, one.code, unit)
+    limit = _limit(result, quantity.code, unit)
     values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]
-    axis = Axis.around(one.axis, values) if unit == "dB" else Axis(one.axis, 0.0, max(values) or 1.0)
-    told = "; ".join(f"{bar.name} {bar.told}" for bar in bars) + (f"; {limit[1]}" if limit else "")
-    yield Figure(one.name, result.title, Bars(one.title, told, axis, bars, limit), one.caption)
+    axis = Axis.around(quantity.axis, values) if unit == "dB" else Axis(quantity.axis, 0.0, max(values) or 1.0)
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in bars) + (f"; {limit[1]}" if limit else "")
+    yield Figure(quantity.name, result.title, Bars(quantity.title, text, axis, bars, limit), quantity.caption)
 
 
 def _told(value: Any, unit: str) -> str:
@@ -79,7 +79,7 @@ def _told(value: Any, unit: str) -> str:
 
 
 def _limit(result: CompareResult, code: str, unit: str) -> tuple[float, str] | None:
-    """Where all machines have the same."""
+    """Limit of a check with its text; None unless all machines have the same limit."""
     limits: Sequence[float | None] = list({check.limit for check in result.checks if check.code == code})
     if len(limits) != 1 or limits[0] is None:
         return None

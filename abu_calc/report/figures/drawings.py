@@ -10,6 +10,6 @@ from abu_calc.studies.seat_records import SeatResult
 
 def seat_figures(result: Result, seats: Sequence[SeatResult]) -> Iterator[Figure]:
     """A sketch of the two seats of each bearing: `seats-1` and on."""
-    for index, one in enumerate(seats_of(result, seats), 1):
+    for index, drawing in enumerate(seats_of(result, seats), 1):
         caption = f"Seats of bearing {index}: sizes with limits in mm, and what the drawing asks of them."
-        yield Figure(f"seats-{index}", "", one, caption)
+        yield Figure(f"seats-{index}", "", drawing, caption)

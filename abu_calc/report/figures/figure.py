@@ -12,9 +12,9 @@ Shown = Plot | Bars | Cells | Drawing | Motion
 
 
 class Figure(NamedTuple):
-    """What is shown, with a caption that says what to see.
+    """Figure with a caption that says what to see.
 
-    `name`: single among a result's figures; `section`: the heading it stands below, as far as it is given.
+    `name`: unique among a result's figures; `section`: the heading it stands below, as far as it is given.
     """
 
     name: str
@@ -24,7 +24,7 @@ class Figure(NamedTuple):
 
 
 class Extras(NamedTuple):
-    """What a page has beyond the blocks of a report: figures, and the formulas with numbers put in."""
+    """Parts of a page beyond the blocks of a report: figures, and the formulas with numbers put in."""
 
     figures: tuple[Figure, ...] = ()
     note: tuple[Block, ...] = ()

@@ -1,4 +1,7 @@
-"""What `abu grinding` shows: levels, the axis, the force round the wheel, both over angles and speeds, wear."""
+"""Figures of `abu grinding`: levels, spindle displacement, the force round the wheel, wear.
+
+Displacement and force are also shown over angles and speeds.
+"""
 
 from collections.abc import Iterable, Iterator
 from itertools import groupby
@@ -29,7 +32,7 @@ def grinding_extras(result: GrindingResult) -> Extras:
         *_profile(result),
     )  # fmt: skip
     if result.profile is None:  # a face presses by nothing in the plane: over angles and speeds all is the same
-        figures = tuple(one for one in figures if one.name in ("levels", "orbit-simulated"))
+        figures = tuple(figure for figure in figures if figure.name in ("levels", "orbit-simulated"))
     return Extras(figures, tuple(step_blocks(STEPS["grinding"], _numbers(result))))
 
 
@@ -43,8 +46,8 @@ def _levels(result: GrindingResult) -> Iterator[Figure]:
     ]  # fmt: skip
     if not rows:
         return
-    axis = Axis.around("velocity level at work [dB]", (one.value for one in rows))
-    chart = Bars("Levels at work", "; ".join(f"{one.name} {one.told}" for one in rows), axis, rows)
+    axis = Axis.around("velocity level at work [dB]", (bar.value for bar in rows))
+    chart = Bars("Levels at work", "; ".join(f"{bar.name} {bar.told}" for bar in rows), axis, rows)
     caption = "Velocity level at work, 0 dB = 5e-8 m/s rms: the autobalancer helps where round stands left of square."
     yield Figure("levels", f"{result.title}: at work", chart, caption)
 
@@ -55,13 +58,13 @@ def _orbits(result: GrindingResult) -> Iterator[Figure]:
         (False, "orbit", "as if wheel and work never parted"),
         (True, "orbit-simulated", "simulated"),
     ):
-        paths = [one for one in result.orbits if one.simulated is simulated]
+        paths = [orbit for orbit in result.orbits if orbit.simulated is simulated]
         if not paths:
             continue
-        across, up = alike("along the work [µm]", "away from it [µm]", [p for one in paths for p in one.points_um])
-        lines = [Line(one.points_um, one.name, SERIES[one.name]) for one in paths]
-        told = "; ".join(f"{one.name}: {_reach(one.points_um)}" for one in paths)
-        chart = Plot(f"Motion of the axis, {word}", told, across, up, lines)
+        across, up = alike("along the work [µm]", "away from it [µm]", [p for orbit in paths for p in orbit.points_um])
+        lines = [Line(orbit.points_um, orbit.name, SERIES[orbit.name]) for orbit in paths]
+        text = "; ".join(f"{orbit.name}: {_reach(orbit.points_um)}" for orbit in paths)
+        chart = Plot(f"Motion of the axis, {word}", text, across, up, lines)
         which = f"{paths[0].name} autobalancer, " if len(paths) == 1 else ""
         caption = f"How the axis goes round once at the rated speed, {which}{word}: smaller is better."
         yield Figure(name, ANGLES, chart, caption)
@@ -75,10 +78,10 @@ def _reach(points: Iterable[tuple[float, float]]) -> str:
 def _hodograph(result: GrindingResult) -> Iterator[Figure]:
     rows = result.hodograph
     courses: list[tuple[str, int, Course]] = [
-        ("along, without", WITHOUT, [(one.runout_angle_deg, _um(one.without.x_amplitude_mm)) for one in rows]),
-        ("away, without", MEAN, [(one.runout_angle_deg, _um(one.without.y_amplitude_mm)) for one in rows]),
-        ("along, with", WITH, [(one.runout_angle_deg, _um(one.fitted.x_amplitude_mm)) for one in rows]),
-        ("away, with", FIXED, [(one.runout_angle_deg, _um(one.fitted.y_amplitude_mm)) for one in rows]),
+        ("along, without", WITHOUT, [(row.runout_angle_deg, _um(row.without.x_amplitude_mm)) for row in rows]),
+        ("away, without", MEAN, [(row.runout_angle_deg, _um(row.without.y_amplitude_mm)) for row in rows]),
+        ("along, with", WITH, [(row.runout_angle_deg, _um(row.fitted.x_amplitude_mm)) for row in rows]),
+        ("away, with", FIXED, [(row.runout_angle_deg, _um(row.fitted.y_amplitude_mm)) for row in rows]),
     ]
     caption = (
         "Amplitude of the axis along the work and away from it against the angle from imbalance to runout: how much "
@@ -91,8 +94,8 @@ def _hodograph(result: GrindingResult) -> Iterator[Figure]:
 def _response(result: GrindingResult) -> Iterator[Figure]:
     rows = result.response
     courses: list[tuple[str, int, Course]] = [
-        ("without", WITHOUT, [(one.speed_rpm, _largest(one.without)) for one in rows]),
-        ("with", WITH, [(one.speed_rpm, _largest(one.fitted)) for one in rows]),
+        ("without", WITHOUT, [(row.speed_rpm, _largest(row.without)) for row in rows]),
+        ("with", WITH, [(row.speed_rpm, _largest(row.fitted)) for row in rows]),
     ]
     resonance = "" if result.resonance_rpm is None else (
         f" Without autobalancer the machine resonates on its work at {number(result.resonance_rpm)} rpm.")  # fmt: skip
@@ -105,8 +108,8 @@ def _response(result: GrindingResult) -> Iterator[Figure]:
 
 def _force(result: GrindingResult) -> Iterator[Figure]:
     courses: list[tuple[str, int, Course]] = [
-        ("without", WITHOUT, [(one.speed_rpm, one.force_without_N) for one in result.response]),
-        ("with", WITH, [(one.speed_rpm, one.force_with_N) for one in result.response]),
+        ("without", WITHOUT, [(row.speed_rpm, row.force_without_N) for row in result.response]),
+        ("with", WITH, [(row.speed_rpm, row.force_with_N) for row in result.response]),
     ]
     caption = (
         "Variable part of the force of wheel and work over the speeds: above the dashed line, the mean force, they "
@@ -123,18 +126,18 @@ def _profile(result: GrindingResult) -> Iterator[Figure]:
     if not rows:
         return
     # Round the wheel it ends where it begins.
-    angles = [*((one.wheel_angle_deg, one) for one in rows), (360.0, rows[0])]
+    angles = [*((row.wheel_angle_deg, row) for row in rows), (360.0, rows[0])]
     mean = result.reaction.mean_N
     courses: list[tuple[str, int, Course]] = [
-        ("without", WITHOUT, [(angle, one.without_N) for angle, one in angles]),
-        ("with", WITH, [(angle, one.with_N) for angle, one in angles]),
+        ("without", WITHOUT, [(angle, row.without_N) for angle, row in angles]),
+        ("with", WITH, [(angle, row.with_N) for angle, row in angles]),
         ("mean", MEAN, [(angle, mean) for angle, _ in angles]),
     ]
     points = [
         Point(angle, force, "", series)
         for series, name in ((WITHOUT, "simulated_without_N"), (WITH, "simulated_N"))
-        for angle, one in angles[:-1]
-        if (force := getattr(one, name)) is not None
+        for angle, row in angles[:-1]
+        if (force := getattr(row, name)) is not None
     ]
     as_simulated = " Points: as simulated, round with, square without." if points else ""
     caption = (
@@ -147,19 +150,21 @@ def _profile(result: GrindingResult) -> Iterator[Figure]:
 
 def _wear(result: GrindingResult) -> Iterator[Figure]:
     """Runout and imbalance of the wheel as it wears, by time where that is known."""
-    wears = [(name, one) for name, one in (("without", result.wear_without), ("with", result.wear)) if one is not None]
-    timed = all(stage.time_min is not None for _, one in wears for stage in one.stages)
+    wears = [
+        (name, wear) for name, wear in (("without", result.wear_without), ("with", result.wear)) if wear is not None
+    ]
+    timed = all(stage.time_min is not None for _, wear in wears for stage in wear.stages)
 
-    def against(one: WearCourse, name: str, scale: float) -> Course:
+    def against(wear: WearCourse, name: str, scale: float) -> Course:
         return [(stage.time_min if timed and stage.time_min is not None else stage.depth_um,
-                 scale * getattr(stage, name)) for stage in one.stages]  # fmt: skip
+                 scale * getattr(stage, name)) for stage in wear.stages]  # fmt: skip
 
     across = "time at work [min]" if timed else "depth worn off [µm]"
     for name, key, unit, scale, title in (
         ("wear", "runout_mm", "runout [µm]", 1e3, "Runout as the wheel wears"),
         ("wear-imbalance", "imbalance_g_mm", "imbalance [g·mm]", 1.0, "Imbalance as the wheel wears"),
     ):
-        courses = [(side, SERIES[side], against(one, key, scale)) for side, one in wears if one.depth_um]
+        courses = [(side, SERIES[side], against(wear, key, scale)) for side, wear in wears if wear.depth_um]
         caption = (
             f"{title}, {' and '.join(side for side, *_ in courses)} autobalancer (Archard): where it falls, wear "
             "centres the wheel. Lines end where what the table names comes first."
@@ -173,24 +178,24 @@ def _plotted(
 ) -> Iterator[Figure]:  # fmt: skip
     """Lines over one another, broken where a value is not known; nothing where none is."""
     lines = [line for course in courses for line in _unbroken(*course)]
-    found, marks = [point for line in lines for point in line.points], list(points)
-    if not found:
+    data, marks = [point for line in lines for point in line.points], list(points)
+    if not data:
         return
-    xs, ys = [x for x, _ in found], [*(y for _, y in found), *(one.y for one in marks), *([limit[0]] if limit else [])]
+    xs, ys = [x for x, _ in data], [*(y for _, y in data), *(mark.y for mark in marks), *([limit[0]] if limit else [])]
     horizontal = Axis(across, min(xs), max(xs)) if max(xs) > min(xs) else Axis.around(across, xs)
-    told = "; ".join(f"{line.name}: {_extremes(line)}" for line in lines)
+    text = "; ".join(f"{line.name}: {_extremes(line)}" for line in lines)
     vertical = Axis.around(up, [0.0, *ys], zero=min(ys) >= 0)
-    yield Figure(name, section, Plot(title, told, horizontal, vertical, lines, marks, limit), caption)
+    yield Figure(name, section, Plot(title, text, horizontal, vertical, lines, marks, limit), caption)
 
 
 def _unbroken(name: str, series: int, course: Course) -> Iterator[Line]:
-    for known, part in groupby(course, key=lambda one: one[1] is not None):
+    for known, part in groupby(course, key=lambda point: point[1] is not None):
         if known:
             yield Line([(x, y) for x, y in part if y is not None], name, series)
 
 
 def _extremes(line: Line) -> str:
-    least, most = (chosen(line.points, key=lambda one: one[1]) for chosen in (min, max))
+    least, most = (chosen(line.points, key=lambda point: point[1]) for chosen in (min, max))
     return ", ".join(f"{word} {number(y, 3)} at {number(x)}" for word, (x, y) in (("least", least), ("most", most)))
 
 
@@ -204,7 +209,7 @@ def _largest(axis: AxisMotion) -> float | None:
 
 
 def _numbers(result: GrindingResult) -> tuple[str, ...]:
-    """What the formulas come to here."""
+    """Values of the formulas for this result."""
     reaction, friction = result.reaction, result.friction
     lines = [
         f"asked of the balls: {number(result.needed_resultant_g_mm)} g·mm",

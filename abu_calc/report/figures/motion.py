@@ -33,40 +33,42 @@ class Motion(NamedTuple):
     @property
     def race_mm(self) -> float:
         """The radius of the largest race as it is drawn."""
-        return max((sum(one) for one in zip(self.balls_mm, self.view.pitch_radii_mm, strict=True)), default=1.0)
+        return max((sum(radii) for radii in zip(self.balls_mm, self.view.pitch_radii_mm, strict=True)), default=1.0)
 
 
 def settling(view: "RotorView", limit: float | None) -> Plot:
     """Imbalance left against time."""
     bound = None if limit is None else (limit, f"permitted {_g_mm(limit)}")
-    course, told = _course(view, view.residual_g_mm, _g_mm)
+    course, text = _course(view, view.residual_g_mm, _g_mm)
     up = Axis.around("imbalance left [g·mm]", [*(rest for _, rest in course), limit or 0.0], zero=True)
-    return Plot("Imbalance left against time", told, _time(view), up, (Line(course),), (), bound)
+    return Plot("Imbalance left against time", text, _time(view), up, (Line(course),), (), bound)
 
 
 def level(view: "RotorView", limit: float | None, measured: float | None = None) -> Plot:
     """Level against time, and what was measured in the end."""
     bound = None if limit is None else (limit, f"limit {db(limit)}")
-    course, told = _course(view, view.level_db, db)
+    course, text = _course(view, view.level_db, db)
     up = Axis.around(
-        "velocity level [dB]", [*(one for _, one in course), *(one for one in (limit, measured) if one is not None)]
+        "velocity level [dB]",
+        [*(decibels for _, decibels in course), *(mark for mark in (limit, measured) if mark is not None)],
     )
     points = () if measured is None else (Point(course[-1][0], measured, "measured", 3),)
-    told += "" if measured is None else f"; measured {db(measured)}"
-    return Plot("Level against time", told, _time(view), up, (Line(course),), points, bound)
+    text += "" if measured is None else f"; measured {db(measured)}"
+    return Plot("Level against time", text, _time(view), up, (Line(course),), points, bound)
 
 
 def angles(view: "RotorView") -> Plot:
-    """Where the balls stand, from the imbalance, against time: the still picture of a motion.
+    """Angles of the balls from the imbalance, against time: the still picture of a motion.
 
-    From 0 to 360°, so that balls about the place opposite the imbalance, where they gather, do not jump.
+    The angles run from 0 to 360°. Balls about the place opposite the imbalance, where they gather, then do not
+    jump.
     """
     turned = (view.ball_angles_deg - view.imbalance_angle_deg) % 360.0
     lines = [line for index, row in enumerate(turned) for line in _without_jumps(view, row, index + 1)]
     last = ", ".join(f"{value:.0f}°" for value in turned[:, -1])
-    told = f"The balls end at {last} from the imbalance" if len(turned) else "There are no balls"
+    text = f"The balls end at {last} from the imbalance" if len(turned) else "There are no balls"
     up = Axis("angle of the balls from the imbalance [°]", 0.0, 360.0)
-    return Plot("Angles of the balls", told, _time(view), up, lines)
+    return Plot("Angles of the balls", text, _time(view), up, lines)
 
 
 def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Line]:
@@ -80,19 +82,19 @@ def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Li
 def caught(view: "RotorView", speed: "Array") -> Plot:
     """Speed of the rotor and imbalance left against time, both of their largest."""
     courses = ((speed, "speed", _rpm), (view.residual_g_mm, "imbalance left", _g_mm))
-    lines, told = [], []
+    lines, texts = [], []
     for series, (values, name, form) in enumerate(courses, 1):
         most = float(values.max()) or 1.0
         lines.append(Line(_course(view, 100 * values / most, form)[0], f"{name}, of {form(most)}", series))
-        told.append(f"{name}: {_course(view, values, form)[1]}")
-    return Plot("Run-up", "; ".join(told), _time(view), Axis("share of the largest [%]", 0.0, 105.0), lines)
+        texts.append(f"{name}: {_course(view, values, form)[1]}")
+    return Plot("Run-up", "; ".join(texts), _time(view), Axis("share of the largest [%]", 0.0, 105.0), lines)
 
 
 def run_up(view: "RotorView", speed: "Array") -> Plot:
     """Speed of the rotor against time."""
-    course, told = _course(view, speed, _rpm)
-    up = Axis.around("speed of the rotor [rpm]", (one for _, one in course), zero=True)
-    return Plot("Run-up", told, _time(view), up, (Line(course),))
+    course, text = _course(view, speed, _rpm)
+    up = Axis.around("speed of the rotor [rpm]", (speed_rpm for _, speed_rpm in course), zero=True)
+    return Plot("Run-up", text, _time(view), up, (Line(course),))
 
 
 def _time(view: "RotorView") -> Axis:

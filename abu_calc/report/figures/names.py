@@ -15,7 +15,7 @@ class Known(NamedTuple):
     drawn: bool = False
 
     def fits(self, name: str) -> bool:
-        """Whether a name is this one."""
+        """True if a name matches this one."""
         pattern = re.escape(self.name).replace("QUANTITY", r"[\w.\[\]-]+").replace(r"\-N", r"\-[1-9]\d*")
         return re.fullmatch(pattern, name) is not None
 
@@ -71,24 +71,27 @@ KNOWN: Final[dict[str, tuple[Known, ...]]] = {
         Known("cells-level", "it went over two keys with --grid"),
     ),
 }  # fmt: skip
-"""Of the commands that have figures; a name without a condition stands in every result of its command."""
+"""Figures of the commands that have some.
+
+A name without a condition stands in every result of its command.
+"""
 
 
 def names_of(command: str) -> str:
-    """All that a command knows, as helps tell them."""
-    return ", ".join(one.name for one in KNOWN[command])
+    """All figure names of a command, as help texts list them."""
+    return ", ".join(entry.name for entry in KNOWN[command])
 
 
 def known(command: str, name: str) -> Known:
-    """What a name stands for; raises InputError for one that no result of the command has."""
-    found = next((one for one in KNOWN.get(command, ()) if one.fits(name)), None)
-    if found is None:
+    """Figure that a name stands for; raises InputError for one that no result of the command has."""
+    entry = next((candidate for candidate in KNOWN.get(command, ()) if candidate.fits(name)), None)
+    if entry is None:
         raise InputError("no such figure", place=Place(key="--figure"), found=name, allowed=names_of(command))
-    return found
+    return entry
 
 
 def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     """The error about a name that this result does not have, with the reason."""
-    when = next((one.when for one in KNOWN.get(command, ()) if one.fits(name)), "")
+    when = next((entry.when for entry in KNOWN.get(command, ()) if entry.fits(name)), "")
     reason = f"; one is there where {when}" if when else ""
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")

@@ -24,11 +24,11 @@ MAKERS: Final = {
     "stability": "stability_extras",
     "sweep": "sweep_extras",
 }
-"""By command: what makes the figures, in the module of its name."""
+"""Functions that make the figures, by command, each in the module of its command's name."""
 
 
 def figures_of(result: "Result") -> tuple[Figure, ...]:
-    """All that a result has; none of those that show none."""
+    """All figures of a result; none if its command shows none."""
     maker = MAKERS.get(result.command)
     if maker is None:
         return ()
@@ -38,8 +38,8 @@ def figures_of(result: "Result") -> tuple[Figure, ...]:
 
 
 def names(result: "Result") -> tuple[str, ...]:
-    """Those of a result's figures."""
-    return tuple(one.name for one in figures_of(result))
+    """Names of a result's figures."""
+    return tuple(entry.name for entry in figures_of(result))
 
 
 def figure(result: "Result", name: str) -> "Drawn":
@@ -48,8 +48,8 @@ def figure(result: "Result", name: str) -> "Drawn":
 
 
 def named(command: str, figures: Iterable[Figure], name: str) -> Figure:
-    """That of a name; raises InputError where there is none."""
-    there = {one.name: one for one in figures}
+    """Figure of a name; raises InputError if there is none."""
+    there = {entry.name: entry for entry in figures}
     if name not in there:
         raise absent(command, name, there)
     return there[name]

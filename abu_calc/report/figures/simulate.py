@@ -1,4 +1,4 @@
-"""What `abu simulate` shows: the balls on their way, imbalance, level and speed against time, the formulas."""
+"""Figures of `abu simulate`: path of the balls; imbalance, level and speed against time; the formulas."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -21,7 +21,7 @@ def simulate_extras(result: SimulateResult) -> Extras:
 
 
 def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
-    limits = {one.code: one.limit for one in result.checks}
+    limits = {check.code: check.limit for check in result.checks}
     if view.pitch_radii_mm:
         whole = view.t_s[-1] > 0.9 * result.duration_s
         seen = "The run" if whole else "The beginning of the run"
@@ -46,7 +46,7 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
 
 
 def _numbers(result: SimulateResult) -> tuple[str, ...]:
-    """What settling and accuracy come to."""
+    """Values of settling and accuracy for this result."""
     settled = result.settling_time_s
     since = "" if result.full_speed_s is None else f", from full speed at {number(result.full_speed_s)} s"
     return (

@@ -1,4 +1,4 @@
-"""What `abu size` shows: section and face, levels, candidates, budget, what tolerances cost, the formulas."""
+"""Figures of `abu size`: section and face, levels, candidates, budget, cost of tolerances, formulas."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -20,7 +20,7 @@ from abu_calc.units import from_si
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
 ROOM: Final = 130.0
-"""What the outer diameter may take on paper [mm]."""
+"""Room for the outer diameter on paper [mm]."""
 PARTS: Final = ("race_eccentricity_um", "rolling_friction_um", "rolling_friction_worst_um", "race_ovality_um",
                 "plane_offset_um", "capacity_shortfall_um", "residual_um", "worst_um")  # fmt: skip
 SUMS: Final = ("residual_um", "worst_um")
@@ -36,19 +36,19 @@ def size_extras(result: SizeResult) -> Extras:
 
 
 def size_charts(result: SizeResult) -> tuple[Figure, ...]:
-    """Those that a terminal has room for."""
+    """Figures for which a terminal has room."""
     return (*_over_speed(result), *_settling(result), *_candidates(result))
 
 
 def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
-    scale = next((one for one in SCALES if one * outer <= ROOM), SCALES[-1])
-    told = f"drawn to scale {_ratio(scale)}, sizes in mm"
-    yield Figure("section", "Section", section_drawing(result, scale), f"Section through the axis, {told}.")
-    face = f"Face with the cover off, {told}; balls evenly round the race."
+    scale = next((ratio for ratio in SCALES if ratio * outer <= ROOM), SCALES[-1])
+    note = f"drawn to scale {_ratio(scale)}, sizes in mm"
+    yield Figure("section", "Section", section_drawing(result, scale), f"Section through the axis, {note}.")
+    face = f"Face with the cover off, {note}; balls evenly round the race."
     yield Figure("face", "Section", face_drawing(result, scale), face)
-    for one in arm_sheets(result):
-        yield Figure("arm", "Swing arm", one, "Sketch of the swing arm, not to scale.")
+    for sheet in arm_sheets(result):
+        yield Figure("arm", "Swing arm", sheet, "Sketch of the swing arm, not to scale.")
     yield from seat_figures(result, result.fits)
 
 
@@ -57,7 +57,7 @@ def _ratio(scale: float) -> str:
 
 
 def _levels(result: SizeResult) -> Iterator[Figure]:
-    """Before, after and measured at each place, with the limit."""
+    """Figure of the levels before, after and as measured at each place, with the limit."""
     rows = [row for place in result.vibration.handles for row in (
         (f"{place.name}, before", place.level_before_db, 2), (f"{place.name}, after", place.level_after_db, 1)
     )]  # fmt: skip
@@ -67,56 +67,56 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     if not known:
         return
     limit = _limit(result, "ABU401")
-    values = [*(one.value for one in known), *([limit[0]] if limit else [])]
+    values = [*(bar.value for bar in known), *([limit[0]] if limit else [])]
     axis = Axis.around("velocity level, idle [dB]", values)
-    told = "; ".join(f"{one.name} {one.told}" for one in known) + (f"; {limit[1]}" if limit else "")
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in known) + (f"; {limit[1]}" if limit else "")
     caption = (
         "Velocity level at each place, idle, at the rated speed, 0 dB = 5e-8 m/s rms: what is after (round) should "
         "stand left of the dashed limit; squares: before, lozenge: measured."
     )
-    yield Figure("levels", "Vibration level", Bars("Levels before and after", told, axis, known, limit), caption)
+    yield Figure("levels", "Vibration level", Bars("Levels before and after", text, axis, known, limit), caption)
 
 
 def _over_speed(result: SizeResult) -> Iterator[Figure]:
     levels = result.vibration.by_speed or ()
-    if len({one.speed_rpm for one in levels}) < 2:
+    if len({speed_level.speed_rpm for speed_level in levels}) < 2:
         return
-    course = sorted((one.speed_rpm, one.level_after_db) for one in levels)
+    course = sorted((speed_level.speed_rpm, speed_level.level_after_db) for speed_level in levels)
     limit = _limit(result, "ABU401")
     bands = _forbidden(result)
-    points = [*(Point(*one) for one in course), *_measured(result)]
-    across = Axis.around("speed [rpm]", (one.x for one in points))
-    up = Axis.around("level [dB]", [*(one.y for one in points), *([limit[0]] if limit else [])])
-    told = "; ".join(f"{f'{one.word} ' if one.word else ''}{one.x:.0f} rpm {db(one.y)}" for one in points)
-    told += f"; {limit[1]}" if limit else ""
+    points = [*(Point(*pair) for pair in course), *_measured(result)]
+    across = Axis.around("speed [rpm]", (point.x for point in points))
+    up = Axis.around("level [dB]", [*(point.y for point in points), *([limit[0]] if limit else [])])
+    text = "; ".join(f"{f'{point.word} ' if point.word else ''}{point.x:.0f} rpm {db(point.y)}" for point in points)
+    text += f"; {limit[1]}" if limit else ""
     caption = (
         "Level with the autobalancer at the loudest place over the speed range, 0 dB = 5e-8 m/s rms: the line should "
         f"stay below the dashed limit{', and out of shaded speeds, where the balls do not balance' if bands else ''}."
     )
-    chart = Plot("Level against speed", told, across, up, (Line(course),), points, limit, bands)
+    chart = Plot("Level against speed", text, across, up, (Line(course),), points, limit, bands)
     yield Figure("speeds", "Vibration level", chart, caption)
 
 
 def _measured(result: SizeResult) -> Iterator[Point]:
-    """What was measured with the autobalancer, at the rated speed."""
-    one = result.measured_after
-    if one is not None:
+    """Point measured with the autobalancer, at the rated speed."""
+    measurement = result.measured_after
+    if measurement is not None:
         speed = from_si(result.model.speed_rad_per_s, "rpm")
-        yield Point(speed, one.measured_level_db, f"measured, {one.place}", 3)
+        yield Point(speed, measurement.measured_level_db, f"measured, {measurement.place}", 3)
 
 
 def _forbidden(result: SizeResult) -> list[tuple[float, float]]:
     """Ranges of speed [rpm] in which the balanced state is not stable."""
-    found, start = [], 0.0
-    boundaries = sorted(result.frequency.stability_boundaries_rpm or (), key=lambda one: one.speed_rpm)
-    lowest = min((one.speed_rpm for one in result.vibration.by_speed or ()), default=0.0)
-    for one in boundaries:
-        if one.stable_above and one.speed_rpm > lowest:
-            found.append((start, one.speed_rpm))
-        start = one.speed_rpm
+    ranges, start = [], 0.0
+    boundaries = sorted(result.frequency.stability_boundaries_rpm or (), key=lambda edge: edge.speed_rpm)
+    lowest = min((speed_level.speed_rpm for speed_level in result.vibration.by_speed or ()), default=0.0)
+    for boundary in boundaries:
+        if boundary.stable_above and boundary.speed_rpm > lowest:
+            ranges.append((start, boundary.speed_rpm))
+        start = boundary.speed_rpm
     if boundaries and not boundaries[-1].stable_above:
-        found.append((start, max(start, *(one.speed_rpm for one in result.vibration.by_speed or ()))))
-    return found
+        ranges.append((start, max(start, *(speed_level.speed_rpm for speed_level in result.vibration.by_speed or ()))))
+    return ranges
 
 
 def _budget(result: SizeResult) -> Iterator[Figure]:
@@ -131,17 +131,17 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
         return
     limit = (budget.permitted_um, f"permitted {micrometres(budget.permitted_um)}") if budget.permitted_um else None
     axis = Axis(
-        "displacement at the wheel, 0–peak [µm]", 0.0, max(max(one.value for one in rows), limit[0] if limit else 0)
+        "displacement at the wheel, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
     )
-    told = "; ".join(f"{one.name} {one.told}" for one in rows) + (f"; {limit[1]}" if limit else "")
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
     caption = "What keeps the balls from balancing to nothing; the sums should end left of what is permitted (dashed)."
-    yield Figure("budget", "Accuracy budget", Bars("Accuracy budget", told, axis, rows, limit), caption)
+    yield Figure("budget", "Accuracy budget", Bars("Accuracy budget", text, axis, rows, limit), caption)
 
 
 def _motion(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
-    others = [(_start(one), one.view) for one in result.starts.views]
+    others = [(_start(start), start.view) for start in result.starts.views]
     chosen = " Other starts of the machine can be chosen, from their beginning." if others else ""
     caption = (
         "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
@@ -151,19 +151,19 @@ def _motion(result: SizeResult) -> Iterator[Figure]:
     yield Figure("motion", "Simulation: idle", Motion(result.idle_run, "simulated: idle", others), caption)
 
 
-def _start(one: StartView) -> str:
+def _start(start: StartView) -> str:
     """A start in a line."""
     ends = "does not balance"
-    if one.balanced:
-        ends = "balances" if one.settling_time_s is None else f"settles in {number(one.settling_time_s, 2)} s"
-    why = f"{one.why}: " if one.why else ""
-    return f"{why}{one.start}, drag {number(one.drag_per_s, 3)} 1/s, {ends}, {db(one.level_db)}"
+    if start.balanced:
+        ends = "balances" if start.settling_time_s is None else f"settles in {number(start.settling_time_s, 2)} s"
+    why = f"{start.why}: " if start.why else ""
+    return f"{why}{start.start}, drag {number(start.drag_per_s, 3)} 1/s, {ends}, {db(start.level_db)}"
 
 
 def _settling(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
-    limit = next((one.limit for one in result.checks if one.code == "ABU701"), None)
+    limit = next((check.limit for check in result.checks if check.code == "ABU701"), None)
     caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
     yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
 
@@ -172,8 +172,8 @@ def _over_time(result: SizeResult) -> Iterator[Figure]:
     """Levels of the simulated runs: idle with the limit and what was measured, at work without."""
     where = "at the loudest place, 0 dB = 5e-8 m/s rms"
     if result.idle_run is not None:
-        found, measured = _limit(result, "ABU401"), result.measured_after
-        limit = None if found is None else found[0]
+        bound, measured = _limit(result, "ABU401"), result.measured_after
+        limit = None if bound is None else bound[0]
         shown = None if measured is None else measured.measured_level_db
         caption = f"Velocity level over each revolution, idle, {where}"
         caption += ": it should end below the dashed limit." if limit is not None else ": it should fall, and stay low."
@@ -186,58 +186,58 @@ def _over_time(result: SizeResult) -> Iterator[Figure]:
 
 
 def _run_up(result: SizeResult) -> Iterator[Figure]:
-    """Of the start among those of the ensemble that runs up, at the drag given."""
-    for one in result.starts.views:
-        if one.view.speed_rpm is not None and one.drag_per_s == result.starts.drag_per_s:
+    """Figure of the ensemble's first start case that runs up, at the given viscous drag rate."""
+    for start in result.starts.views:
+        if start.view.speed_rpm is not None and start.drag_per_s == result.starts.drag_per_s:
             caption = (
-                f"{one.start[0].upper()}{one.start[1:]} from standstill, balls side by side: the imbalance that is "
+                f"{start.start[0].upper()}{start.start[1:]} from standstill, balls side by side: the imbalance that is "
                 "left should fall, and stay low, when the speed is up."
             )
-            yield Figure("run-up", "Many starts", caught(one.view, one.view.speed_rpm), caption)
+            yield Figure("run-up", "Many starts", caught(start.view, start.view.speed_rpm), caption)
             return
 
 
 def _candidates(result: SizeResult) -> Iterator[Figure]:
     """Mass against residual; the chosen one is filled and named, the others numbered as in the table."""
     all_of_them = [(balls(result.autobalancer), result.autobalancer)] + [
-        (f"{number}", one) for number, one in enumerate(result.alternatives, 1)
+        (f"{number}", candidate) for number, candidate in enumerate(result.alternatives, 1)
     ]
     points = [
-        Point(one.mass_g, one.residual_um, word, 1 if one is result.autobalancer else 2)
-        for word, one in all_of_them
-        if one.residual_um is not None
+        Point(candidate.mass_g, candidate.residual_um, word, 1 if candidate is result.autobalancer else 2)
+        for word, candidate in all_of_them
+        if candidate.residual_um is not None
     ]
     if len(points) < 2:
         return
-    up = Axis.around("expected residual [µm]", (one.y for one in points))
-    across = Axis.around("mass with balls [g]", (one.x for one in points))
-    told = "; ".join(
-        f"{balls(one)}: {value_of(one, 'mass_g')}, {value_of(one, 'residual_um')}"
-        for _, one in all_of_them if one.residual_um is not None
+    up = Axis.around("expected residual [µm]", (point.y for point in points))
+    across = Axis.around("mass with balls [g]", (point.x for point in points))
+    text = "; ".join(
+        f"{balls(candidate)}: {value_of(candidate, 'mass_g')}, {value_of(candidate, 'residual_um')}"
+        for _, candidate in all_of_them if candidate.residual_um is not None
     )  # fmt: skip
     caption = (
         "Candidates, lighter on the left, nearer to rest below: the chosen one is filled, squares are numbered as the "
         "rows below."
     )
-    chart = Plot("Mass against residual", told, across, up, (), points[::-1])
+    chart = Plot("Mass against residual", text, across, up, (), points[::-1])
     yield Figure("candidates", "Runners-up", chart, caption)
 
 
 def _costs(result: SizeResult) -> Iterator[Figure]:
     rows = sorted(
-        (Bar(one.feature, one.cost_db, db(one.cost_db)) for one in result.drawing if one.cost_db is not None),
-        key=lambda one: -one.value,
+        (Bar(entry.feature, entry.cost_db, db(entry.cost_db)) for entry in result.drawing if entry.cost_db is not None),
+        key=lambda bar: -bar.value,
     )
     if not rows or rows[0].value <= 0:
         return
     axis = Axis("level rises by [dB]", min(0.0, rows[-1].value), rows[0].value)
-    told = "; ".join(f"{one.name} {one.told}" for one in rows)
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
     caption = (
         "What the level rises by where a tolerance of the drawing is used up: the long bars are worth their money."
     )
-    yield Figure("costs", "For the drawing", Bars("What tolerances cost", told, axis, rows), caption)
+    yield Figure("costs", "For the drawing", Bars("What tolerances cost", text, axis, rows), caption)
 
 
 def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:
-    found = next((one.limit for one in result.checks if one.code == code and one.limit is not None), None)
-    return None if found is None else (found, f"limit {number(found)} dB")
+    limit = next((check.limit for check in result.checks if check.code == code and check.limit is not None), None)
+    return None if limit is None else (limit, f"limit {number(limit)} dB")

@@ -1,4 +1,4 @@
-"""What `abu stability` shows: how fast disturbances die out over the speeds, eigenvalues, the formulas."""
+"""Figures of `abu stability`: decay rate of disturbances over the speeds, eigenvalues, the formulas."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -17,7 +17,7 @@ FORMULAS: Final = (
     "formulas.hanging:damped_drag", "formulas.hanging:gravity_drag",
 )  # fmt: skip
 RIM: Final = tuple((math.cos(math.tau * k / 90), math.sin(math.tau * k / 90)) for k in range(91))
-"""Of the circle within which multipliers die out."""
+"""Points of the circle within which multipliers die out."""
 
 
 def stability_extras(result: StabilityResult) -> Extras:
@@ -33,23 +33,23 @@ def _over_speeds(result: StabilityResult) -> Iterator[Figure]:
     course = result.growth_by_speed or ()
     if len(course) < 2:
         return
-    points = [(one.speed_rpm, one.growth_rate_per_s) for one in course]
+    points = [(growth.speed_rpm, growth.growth_rate_per_s) for growth in course]
     across = Axis("speed [rpm]", points[0][0], points[-1][0])
-    marks = [Point(one.speed_rpm, 0.0, "", 2) for one in result.boundaries_rpm or ()]
+    marks = [Point(boundary.speed_rpm, 0.0, "", 2) for boundary in result.boundaries_rpm or ()]
     here = result.growth_rate_per_s
     if here is not None and across.low <= result.speed_rpm <= across.high:
         marks.append(Point(result.speed_rpm, here, "this speed"))
-    up = Axis.around("growth rate [1/s]", [0.0, *(rate for _, rate in points), *(one.y for one in marks)])
+    up = Axis.around("growth rate [1/s]", [0.0, *(rate for _, rate in points), *(point.y for point in marks)])
     bands = _forbidden(course, result)
-    changes = ", ".join(f"{one.speed_rpm:.0f} rpm" for one in result.boundaries_rpm or ()) or "no speed"
-    told = f"From {points[0][1]:.3g} 1/s at {points[0][0]:.0f} rpm to {points[-1][1]:.3g} 1/s at "
-    told += f"{points[-1][0]:.0f} rpm; stability changes at {changes}"
+    changes = ", ".join(f"{boundary.speed_rpm:.0f} rpm" for boundary in result.boundaries_rpm or ()) or "no speed"
+    summary = f"From {points[0][1]:.3g} 1/s at {points[0][0]:.0f} rpm to {points[-1][1]:.3g} 1/s at "
+    summary += f"{points[-1][0]:.0f} rpm; stability changes at {changes}"
     caption = (
         "Growth rate of the slowest-dying disturbance of the balanced state: below zero the balls come back to it, the "
         "deeper the faster; squares: where stability changes. Stay clear of shaded speeds."
     )
     chart = Plot(
-        "Growth rate against speed", told, across, up, (Line(points),), marks, (0.0, "edge of stability"), bands
+        "Growth rate against speed", summary, across, up, (Line(points),), marks, (0.0, "edge of stability"), bands
     )
     yield Figure("growth", CHANGES, chart, caption)
 
@@ -57,11 +57,11 @@ def _over_speeds(result: StabilityResult) -> Iterator[Figure]:
 def _forbidden(course: Sequence[GrowthAt], result: StabilityResult) -> list[tuple[float, float]]:
     """Ranges of speed [rpm] between boundaries that are not stable."""
     low, high = course[0].speed_rpm, course[-1].speed_rpm
-    inner = sorted(result.boundaries_rpm or (), key=lambda one: one.speed_rpm)
+    inner = sorted(result.boundaries_rpm or (), key=lambda boundary: boundary.speed_rpm)
     if not inner:
         return [(low, high)] if course[0].growth_rate_per_s >= 0 else []
-    ends = [low, *(one.speed_rpm for one in inner), high]
-    stable = [not inner[0].stable_above, *(one.stable_above for one in inner)]
+    ends = [low, *(boundary.speed_rpm for boundary in inner), high]
+    stable = [not inner[0].stable_above, *(boundary.stable_above for boundary in inner)]
     return [(a, b) for a, b, safe in zip(ends, ends[1:], stable, strict=False) if not safe]
 
 
@@ -72,8 +72,8 @@ def _eigenvalues(result: StabilityResult) -> Iterator[Figure]:
     across = Axis.around("real part [1/s]", [0.0, *(re for re, _ in values)])
     up = Axis.around("imaginary part [1/s]", [0.0, *(im for _, im in values)])
     edge = Line(((0.0, up.low), (0.0, up.high)), "edge of stability", 2)
-    told = _in_words(values)
-    chart = Plot("Eigenvalues", told, across, up, (edge,), [Point(*one) for one in values])
+    summary = _in_words(values)
+    chart = Plot("Eigenvalues", summary, across, up, (edge,), [Point(*eigenvalue) for eigenvalue in values])
     caption = (
         "Eigenvalues of small motions about the balanced state at the speed judged: left of the dashed line they die "
         "out, the farther left the faster; up and down: how fast they swing."
@@ -86,9 +86,9 @@ def _multipliers(result: StabilityResult) -> Iterator[Figure]:
     if not values:
         return
     across, up = alike("real part", "imaginary part", [*RIM, *values])
-    told = _in_words(values)
+    summary = _in_words(values)
     rim = Line(RIM, "edge of stability", 2)
-    chart = Plot("Floquet multipliers", told, across, up, (rim,), [Point(*one) for one in values])
+    chart = Plot("Floquet multipliers", summary, across, up, (rim,), [Point(*multiplier) for multiplier in values])
     caption = (
         "Floquet multipliers of one revolution: inside the dashed circle a disturbance dies out, the nearer to the "
         "middle the faster."
@@ -109,10 +109,10 @@ def _numbers(result: StabilityResult) -> tuple[str, ...]:
     lines = [f"max Re λ = {growth} at {result.speed_rpm:.6g} rpm; stable below −1e-9·Ω"]
     if result.hanging is not None:
         lines += [
-            f"{one.state}: no balls hang above h₀ = {number(one.drag_per_s, 3)} 1/s; given "
+            f"{bound.state}: no balls hang above h₀ = {number(bound.drag_per_s, 3)} 1/s; given "
             f"{number(result.hanging.drag_per_s, 3)} 1/s"
-            for one in result.hanging.bounds
-            if one.drag_per_s is not None
+            for bound in result.hanging.bounds
+            if bound.drag_per_s is not None
         ]
     if result.critical_damping_N_s_per_m is not None:
         lines.append(f"h_sh > {number(result.critical_damping_N_s_per_m)} N·s/m against parametric resonance")

@@ -27,7 +27,7 @@ def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[st
             case Facts(rows):
                 yield _facts(rows, title)
             case Grid():
-                yield from (_grid(one, title) for one in block.within(WIDEST))
+                yield from (_grid(grid, title) for grid in block.within(WIDEST))
             case Picture(lines, caption):
                 drawn = text("\n".join(lines)).replace("\\n", "\n")
                 yield (

@@ -13,35 +13,35 @@ LABELS: Final = 8
 LARGEST: Final = 26.0
 """Side of a cell."""
 PARTS: Final = (0.3, 0.4, 0.62, 0.82, 1.0)
-"""Of a cell that is filled, by class; class 0 is a ring."""
+"""Size of the mark in a filled cell, as a share of the cell, by class; class 0 is a ring."""
 SAMPLE: Final = 13.0
 HIGH: Final = 300.0
 
 
-def cells(name: str, one: Cells) -> str:
+def cells(name: str, chart: Cells) -> str:
     """The field, the values along both axes, and what the cells mean."""
-    left = MARGIN + LETTER * max(map(len, one.rows)) + 8
-    wide = min((WIDE - left - 6) / len(one.columns), LARGEST)
-    high = min(HIGH / len(one.rows), LARGEST)
-    low = TOP + high * len(one.rows)
+    left = MARGIN + LETTER * max(map(len, chart.rows)) + 8
+    wide = min((WIDE - left - 6) / len(chart.columns), LARGEST)
+    high = min(HIGH / len(chart.rows), LARGEST)
+    low = TOP + high * len(chart.rows)
 
     def marks() -> Iterator[str]:
-        yield f'<text x="2" y="13">{text(one.up)}</text>'
-        for index, row in enumerate(one.classes):
+        yield f'<text x="2" y="13">{text(chart.up)}</text>'
+        for index, row in enumerate(chart.classes):
             y = low - high * (index + 1)
             yield from (_cell(each, left + wide * k, y, wide, high) for k, each in enumerate(row))
-        yield f'<path class="axis" d="M{left} {TOP}V{low:.1f}H{left + wide * len(one.columns):.1f}"/>'
-        for k in _some(one.rows, 14 / high):
-            yield _word(one.rows[k], left - 5, low - high * (k + 0.5) + 4, "end")
-        for k in _some(one.columns, LETTER * (max(map(len, one.columns)) + 2) / wide):
-            yield _word(one.columns[k], left + wide * (k + 0.5), low + 15, "middle")
-        right = max(left + wide * len(one.columns), left + LETTER * len(one.across))
-        yield f'<text x="{right:.1f}" y="{low + 33:.1f}" text-anchor="end">{text(one.across)}</text>'
+        yield f'<path class="axis" d="M{left} {TOP}V{low:.1f}H{left + wide * len(chart.columns):.1f}"/>'
+        for k in _some(chart.rows, 14 / high):
+            yield _word(chart.rows[k], left - 5, low - high * (k + 0.5) + 4, "end")
+        for k in _some(chart.columns, LETTER * (max(map(len, chart.columns)) + 2) / wide):
+            yield _word(chart.columns[k], left + wide * (k + 0.5), low + 15, "middle")
+        right = max(left + wide * len(chart.columns), left + LETTER * len(chart.across))
+        yield f'<text x="{right:.1f}" y="{low + 33:.1f}" text-anchor="end">{text(chart.across)}</text>'
         yield from legend
 
-    entries = list(_entries(one.words, low + 54))
+    entries = list(_entries(chart.words, low + 54))
     legend = [part for each in entries for part in _entry(*each)]
-    return svg(name, one, entries[-1][-1] + 8, marks())
+    return svg(name, chart, entries[-1][-1] + 8, marks())
 
 
 def _some(words: Sequence[str], room: float) -> range:
@@ -66,7 +66,7 @@ def _cell(kind: int | None, x: float, y: float, wide: float, high: float) -> str
 
 
 def _entries(words: Sequence[tuple[int | None, str]], y: float) -> Iterator[tuple[int | None, str, float, float]]:
-    """Beside one another, as far as there is room."""
+    """Legend entries beside one another, as far as there is room."""
     x = MARGIN
     for kind, word in words:
         wide = SAMPLE + 6 + LETTER * len(word) + 14

@@ -12,59 +12,59 @@ HIGH: Final = 270.0
 LEFT, RIGHT, TOP, BELOW = 52.0, 14.0, 22.0, 44.0
 """Around the field of a chart."""
 ROW: Final = 35.0
-"""Of a chart of bars: a name, and the bar below it."""
+"""Height of a row in a chart of bars: a name, and the bar below it."""
 MARGIN: Final = 8.0
 VALUES: Final = 74.0
-"""What the values beside bars take."""
+"""Width that the values beside bars take."""
 LETTER: Final = 6.8
-"""What a letter takes, about."""
+"""Approximate width of a letter."""
 SAMPLE: Final = 34.0
-"""What a piece of line takes in a legend."""
+"""Length that a piece of line takes in a legend."""
 FILLED: Final = (1, 6, 7, 8)
 """Series whose points are."""
 FORBIDDEN: Final = "not stable"
-"""What stands in bands, where they are wide enough."""
+"""Text in bands that are wide enough."""
 LEGEND_ROW: Final = 18.0
 
 
-def plot(name: str, one: Plot) -> str:
+def plot(name: str, chart: Plot) -> str:
     """A field between two axes; `name` makes its parts' names single on the page."""
     right, low = WIDE - RIGHT, HIGH - BELOW
 
     def at(x: float, y: float) -> tuple[float, float]:
-        return LEFT + one.across.share(x) * (right - LEFT), low - one.up.share(y) * (low - TOP)
+        return LEFT + chart.across.share(x) * (right - LEFT), low - chart.up.share(y) * (low - TOP)
 
-    lines = [[at(*each) for each in line.points] for line in one.lines]
-    points = [at(each.x, each.y) for each in one.points]
-    bound = [] if one.limit is None else [at(x, one.limit[0]) for x in (one.across.low, one.across.high)]
+    lines = [[at(*each) for each in line.points] for line in chart.lines]
+    points = [at(each.x, each.y) for each in chart.points]
+    bound = [] if chart.limit is None else [at(x, chart.limit[0]) for x in (chart.across.low, chart.across.high)]
     places = Places(Box(LEFT, TOP - 6, WIDE, low), [*lines, bound], points)
 
     def marks() -> Iterator[str]:
-        for first, last in one.bands:
-            start, end = (max(LEFT, min(right, at(x, one.up.low)[0])) for x in (first, last))
+        for first, last in chart.bands:
+            start, end = (max(LEFT, min(right, at(x, chart.up.low)[0])) for x in (first, last))
             yield f'<rect class="band" x="{start:.1f}" y="{TOP}" width="{end - start:.1f}" height="{low - TOP}"/>'
             wide = LETTER * len(FORBIDDEN)
             if end - start > wide:
                 middle = (start + end) / 2
                 choices = [Word(middle, y, "middle", wide) for y in (low - 6, TOP + 14)]
                 yield _written(FORBIDDEN, places.put(choices), "soft")
-        if one.limit:
+        if chart.limit:
             yield f'<path class="limit" d="M{LEFT} {bound[0][1]:.1f}H{right}"/>'
-        for line, course in zip(one.lines, lines, strict=True):
+        for line, course in zip(chart.lines, lines, strict=True):
             path = "L".join(f"{x:.1f} {y:.1f}" for x, y in course)
             yield f'<path class="line s{line.series}" d="M{path}"/>'
-        yield from (_mark(each.series, *place) for each, place in zip(one.points, points, strict=True))
-        if one.limit:
-            yield _written(one.limit[1], places.put(_beside_limit(one.limit[1], bound[0][1], right)), "limit-name")
-        for each, place in zip(one.points, points, strict=True):
+        yield from (_mark(each.series, *place) for each, place in zip(chart.points, points, strict=True))
+        if chart.limit:
+            yield _written(chart.limit[1], places.put(_beside_limit(chart.limit[1], bound[0][1], right)), "limit-name")
+        for each, place in zip(chart.points, points, strict=True):
             if each.word:
                 yield _written(each.word, places.put(_beside(each.word, *place, right)))
 
-    entries = list(_entries(one.legend))
+    entries = list(_entries(chart.legend))
     high = max((y for *_, y in entries), default=HIGH - 8) + 8
-    marked = {each.series for each in one.points if not each.word}
+    marked = {each.series for each in chart.points if not each.word}
     legend = (part for each in entries for part in _entry(*each, marked=each[0].series in marked))
-    return svg(name, one, high, (*_axes(one.across, one.up), *marks(), *legend))
+    return svg(name, chart, high, (*_axes(chart.across, chart.up), *marks(), *legend))
 
 
 def _entries(lines: Sequence[Line]) -> Iterator[tuple[Line, float, float]]:
@@ -103,17 +103,17 @@ def bars(name: str, chart: Bars) -> str:
             anchor = "end" if axis.share(limit[0]) > 0.5 else "start"
             yield f'<path class="limit" d="M{x:.1f} {TOP}V{low}"/>'
             yield f'<text class="limit-name" x="{x:.1f}" y="{TOP - 6}" text-anchor="{anchor}">{text(limit[1])}</text>'
-        for index, one in enumerate(chart.rows):
+        for index, bar in enumerate(chart.rows):
             y = TOP + ROW * index
-            yield f'<text x="{MARGIN}" y="{y + 13}">{text(_short(one.name))}</text>'
+            yield f'<text x="{MARGIN}" y="{y + 13}">{text(_short(bar.name))}</text>'
             yield (
-                _length(one, at(one.start), at(one.value), y + 19)
+                _length(bar, at(bar.start), at(bar.value), y + 19)
                 if axis.low <= 0
-                else _mark(one.series, at(one.value), y + 25)
+                else _mark(bar.series, at(bar.value), y + 25)
             )
-            if one.span:
-                yield _span(at(one.span[0]), at(one.span[1]), y + 24.5)
-            yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(one.told)}</text>'
+            if bar.span:
+                yield _span(at(bar.span[0]), at(bar.span[1]), y + 24.5)
+            yield f'<text x="{WIDE}" y="{y + 29}" text-anchor="end">{text(bar.told)}</text>'
 
     return svg(name, chart, low + BELOW - 4, marks())
 
@@ -124,9 +124,9 @@ def _short(name: str) -> str:
     return name if len(name) <= most else f"{name[: most // 2]}…{name[len(name) - most // 2 + 1 :]}"
 
 
-def _length(one: Bar, start: float, end: float, y: float) -> str:
+def _length(bar: Bar, start: float, end: float, y: float) -> str:
     left, wide = min(start, end), max(abs(end - start), 1.0)
-    return f'<rect class="f{one.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
+    return f'<rect class="f{bar.series}" x="{left:.1f}" y="{y:.1f}" width="{wide:.1f}" height="11"/>'
 
 
 def _span(low: float, high: float, y: float) -> str:
@@ -134,12 +134,12 @@ def _span(low: float, high: float, y: float) -> str:
     return f'<path class="span" d="M{low:.1f} {y - 4:.1f}v8m0 -4H{high:.1f}m0 -4v8"/>'
 
 
-def svg(name: str, one: Plot | Bars | Cells, high: float, parts: Iterable[str]) -> str:
+def svg(name: str, chart: Plot | Bars | Cells, high: float, parts: Iterable[str]) -> str:
     """The element, with its title and text alternative."""
     named = f"chart-{name}"
     return "\n".join((
         f'<svg class="chart" viewBox="0 0 {WIDE:g} {high:g}" role="img" aria-labelledby="{named}-t {named}-d">',
-        f'<title id="{named}-t">{text(one.title)}</title><desc id="{named}-d">{text(one.told)}</desc>',
+        f'<title id="{named}-t">{text(chart.title)}</title><desc id="{named}-d">{text(chart.told)}</desc>',
         *parts,
         "</svg>",
     ))  # fmt: skip
@@ -150,9 +150,9 @@ def _axes(across: Axis, up: Axis) -> Iterator[str]:
     for tick in across.ticks:
         x = LEFT + across.share(tick) * (right - LEFT)
         yield f'<path class="grid" d="M{x:.1f} {TOP}V{low}"/>'
-        told = _tick(tick, log=across.log)
-        x = min(x, WIDE - 2 - LETTER * len(told) / 2)
-        yield f'<text class="soft" x="{x:.1f}" y="{low + 17}" text-anchor="middle">{told}</text>'
+        label = _tick(tick, log=across.log)
+        x = min(x, WIDE - 2 - LETTER * len(label) / 2)
+        yield f'<text class="soft" x="{x:.1f}" y="{low + 17}" text-anchor="middle">{label}</text>'
     for tick in up.ticks:
         y = low - up.share(tick) * (low - TOP)
         yield f'<path class="grid" d="M{LEFT} {y:.1f}H{right}"/>'
@@ -163,7 +163,7 @@ def _axes(across: Axis, up: Axis) -> Iterator[str]:
 
 
 def _beside_limit(words: str, y: float, right: float) -> list[Word]:
-    """Above or below a limit, at its right or left end."""
+    """Places for a word above or below a limit, at its right or left end."""
     wide = LETTER * len(words)
     ends = ((right, "end"), (LEFT + 4, "start"))
     return [Word(x, y + down, anchor, wide) for down in (-5.0, 14.0) for x, anchor in ends]
@@ -188,7 +188,10 @@ def _written(words: str, at: Word, kind: str = "") -> str:
 
 
 def _mark(series: int, x: float, y: float) -> str:
-    """Round, square, lozenge, triangle: the first round one and the last three filled, the others hollow."""
+    """Mark of a series: round, square, lozenge, triangle.
+
+    The first round one and the last three are filled, the others hollow.
+    """
     kind = f"f{series}" if series in FILLED else f"hollow s{series}"
     match (series - 1) % 4:
         case 0:

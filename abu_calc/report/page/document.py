@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 LAST: Final = ("Conventions", "Defaults used (not in the file)", "Provenance")
 """Sections that stand at the end, behind the calculation note."""
 SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
-"""Not even by mistake does the page ask a network."""
+"""Security policy of the page: it never asks a network, not even by mistake."""
 WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
 
 
@@ -31,8 +31,8 @@ def page(outcome: "Outcome") -> str:
     head, *others = parts
     front = [part for part in others if _heading(part) not in LAST]
     back = [part for part in others if _heading(part) in LAST]
-    drawn = [one for part in (head, *front) for one in figures_of(part, extras.figures)]
-    rest = tuple(one for one in extras.figures if one not in drawn)
+    drawn = [illustration for part in (head, *front) for illustration in figures_of(part, extras.figures)]
+    rest = tuple(illustration for illustration in extras.figures if illustration not in drawn)
     repeat = _repeat(outcome)
     named = [_heading(part) for part in front]
     named += ["Figures"] * bool(rest) + ["Calculation note"] * bool(extras.note)
@@ -76,13 +76,13 @@ def _sections(parts: Sequence[Sequence[Block]], figures: Sequence[Figure]) -> It
         drawn = figures_of(part, figures)
         yield _opened(title, linked=title not in titles[:index])
         yield from map(figure, drawn)
-        yield from elements((one for one in _below(part) if not (drawn and isinstance(one, Picture))), title)
+        yield from elements((block for block in _below(part) if not (drawn and isinstance(block, Picture))), title)
         yield "</section>"
 
 
 def figures_of(part: Sequence[Block], figures: Sequence[Figure]) -> list[Figure]:
-    """Those that belong to a section."""
-    return [one for one in figures if one.section and _heading(part).startswith(one.section)]
+    """Figures that belong to a section."""
+    return [figure for figure in figures if figure.section and _heading(part).startswith(figure.section)]
 
 
 def _note(blocks: Sequence[Block]) -> Iterator[str]:
@@ -105,7 +105,7 @@ def _repeat(outcome: "Outcome") -> Iterator[str]:
 
 
 def _contents(titles: Sequence[str]) -> str:
-    """Of sections of one name the first."""
+    """Contents of the page; of sections that share a name, the first."""
     links = "".join(f'<li><a href="#{_place(title)}">{text(title)}</a></li>\n' for title in dict.fromkeys(titles))
     return f'<nav aria-label="Contents"><ul>\n{links}</ul></nav>'
 
@@ -116,7 +116,7 @@ def _opened(title: str, *, linked: bool = True) -> str:
 
 
 def _place(title: str) -> str:
-    """What links call a section: letters and digits of its title."""
+    """Link name of a section: letters and digits of its title."""
     return "-" + "".join(sign if sign.isalnum() and sign.isascii() else "-" for sign in title.lower())
 
 

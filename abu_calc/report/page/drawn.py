@@ -13,7 +13,7 @@ from abu_calc.report.page.player import player
 from abu_calc.report.page.words import text
 
 PIXELS: Final = 3.78
-"""Of a screen, for a millimetre."""
+"""Pixels of a screen per millimetre."""
 READABLE: Final = 2.1
 """Pixels for a millimetre below which writing is too small."""
 NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
@@ -21,31 +21,31 @@ NAMESPACE: Final = ' xmlns="http://www.w3.org/2000/svg"'
 
 
 class _Room(NamedTuple):
-    """What an element would like to take, and what it is never narrower than: it then scrolls in its place [px]."""
+    """Preferred width of an element, and its least width [px]; if narrower, it scrolls in its place."""
 
     wide: float
     least: float = 0.0
 
 
-def figure(one: Figure) -> str:
+def figure(figure: Figure) -> str:
     """The element with its caption."""
-    room, drawn = _drawn(one)
+    room, drawn = _drawn(figure)
     style = f"max-width:{room.wide:.0f}px" + (f";min-width:{room.least:.0f}px" if room.least else "")
     return (
         f'<figure style="max-width:{room.wide:.0f}px"><div class="wide" tabindex="0" role="group" '
-        f'aria-label="{text(one.caption)}"><div style="{style}">{drawn}</div></div>'
-        f"<figcaption>{text(one.caption)}</figcaption></figure>"
+        f'aria-label="{text(figure.caption)}"><div style="{style}">{drawn}</div></div>'
+        f"<figcaption>{text(figure.caption)}</figcaption></figure>"
     )
 
 
-def _drawn(one: Figure) -> tuple[_Room, str]:
-    match one.shown:
+def _drawn(figure: Figure) -> tuple[_Room, str]:
+    match figure.shown:
         case Plot() as chart:
-            return _Room(520.0), plot(one.name, chart)
+            return _Room(520.0), plot(figure.name, chart)
         case Bars() as chart:
-            return _Room(520.0), bars(one.name, chart)
+            return _Room(520.0), bars(figure.name, chart)
         case Cells() as chart:
-            return _Room(520.0), cells(one.name, chart)
+            return _Room(520.0), cells(figure.name, chart)
         case Motion() as motion:
             return _Room(640.0), player(motion)
         case Drawing() as drawing:

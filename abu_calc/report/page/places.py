@@ -1,4 +1,4 @@
-"""Where words stand in a chart: where they cover the least of lines, points and other words."""
+"""Placement of words in a chart: they cover the least of lines, points and other words."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
@@ -7,10 +7,10 @@ from typing import Final, NamedTuple
 
 Place = tuple[float, float]
 NEAR: Final = 3.0
-"""Between places that stand for a line [px]."""
+"""Distance between places that stand for a line [px]."""
 HIGH: Final = 10.0
 BELOW: Final = 3.0
-"""Of letters above the line they stand on, and below it [px]."""
+"""Height of letters above the line they stand on; `BELOW`: depth below it [px]."""
 
 
 class Box(NamedTuple):
@@ -22,7 +22,7 @@ class Box(NamedTuple):
     bottom: float
 
     def meets(self, other: "Box") -> bool:
-        """Whether both have anything in common."""
+        """True if both boxes have anything in common."""
         across = self.left < other.right and other.left < self.right
         return across and self.top < other.bottom and other.top < self.bottom
 
@@ -37,23 +37,23 @@ class Word(NamedTuple):
 
     @property
     def box(self) -> Box:
-        """What they take."""
+        """Box that the word takes."""
         left = self.x - {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor] * self.wide
         return Box(left, self.y - HIGH, left + self.wide, self.y + BELOW)
 
 
 class Places:
-    """What is taken in a field; words are put in one after another."""
+    """Places taken in a field; words are put in one after another."""
 
     def __init__(self, field: Box, lines: Iterable[Sequence[Place]], points: Iterable[Place]) -> None:
         self.field = field
-        self.taken = [one for line in lines for one in _along(line)]
+        self.taken = [point for line in lines for point in _along(line)]
         self.taken += [(x + dx, y + dy) for x, y in points for dx in (-4, 0, 4) for dy in (-4, 0, 4)]
         self.words: list[Box] = []
 
     def put(self, choices: Sequence[Word]) -> Word:
         """The choice that covers least, of those alike the first; it is taken from now on."""
-        chosen = min(choices, key=lambda one: self._covered(one.box))
+        chosen = min(choices, key=lambda word: self._covered(word.box))
         self.words.append(chosen.box)
         return chosen
 

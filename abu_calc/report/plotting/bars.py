@@ -20,45 +20,45 @@ CELLS: Final = 0.28, 0.55
 """Side of a cell, at least and at most; all of them beside one another take FIELD where they may."""
 FIELD: Final = 4.5
 PARTS: Final = (0.3, 0.4, 0.6, 0.78, 0.96)
-"""Of a cell that is filled, by class; class 0 is a ring."""
+"""Size of the mark in a filled cell, as a share of the cell, by class; class 0 is a ring."""
 
 
-def barred(one: Bars) -> "Figure":
+def barred(chart: Bars) -> "Figure":
     """Lengths or points below one another, each under its name, its value beside the field."""
     from matplotlib.figure import Figure
 
-    figure = Figure((WIDE, AROUND + ROW * max(len(one.rows), 2)), layout="constrained")
+    figure = Figure((WIDE, AROUND + ROW * max(len(chart.rows), 2)), layout="constrained")
     axes, color = figure.add_subplot(), colors()
-    axes.set_title(words(one.title, TITLE), pad=16 if one.limit else 6)
-    axes.set_xlim(one.axis.low, one.axis.high)
-    axes.set_ylim(len(one.rows) - 0.35, -0.75)
-    axes.set_xticks(one.axis.ticks, [tick(value) for value in one.axis.ticks])
+    axes.set_title(words(chart.title, TITLE), pad=16 if chart.limit else 6)
+    axes.set_xlim(chart.axis.low, chart.axis.high)
+    axes.set_ylim(len(chart.rows) - 0.35, -0.75)
+    axes.set_xticks(chart.axis.ticks, [tick(value) for value in chart.axis.ticks])
     axes.set_yticks([])
-    axes.set_xlabel(words(one.axis.name))
+    axes.set_xlabel(words(chart.axis.name))
     axes.tick_params(axis="x", labelcolor=color["soft"])
     axes.grid(axis="x", color=color["line"], linewidth=0.6)
-    axes.spines["left"].set_visible(one.axis.low <= 0)
-    axes.spines["left"].set_position(("data", 0.0) if one.axis.low <= 0 else ("axes", 0))
-    for index, row in enumerate(one.rows):
-        _row(axes, one, index, row)
-    if one.limit:
-        value, name = one.limit
+    axes.spines["left"].set_visible(chart.axis.low <= 0)
+    axes.spines["left"].set_position(("data", 0.0) if chart.axis.low <= 0 else ("axes", 0))
+    for index, row in enumerate(chart.rows):
+        _row(axes, chart, index, row)
+    if chart.limit:
+        value, name = chart.limit
         axes.axvline(value, color=color["fail"], linewidth=1.4, linestyle=(0, (4, 2)), zorder=1.5)
         axes.annotate(
             words(name), (value, 1), (0, 3), xycoords=axes.get_xaxis_transform(), textcoords="offset points",
-            ha="right" if one.axis.share(value) > 0.5 else "left", va="bottom", color=color["fail"],
+            ha="right" if chart.axis.share(value) > 0.5 else "left", va="bottom", color=color["fail"],
         )  # fmt: skip
     return figure
 
 
-def _row(axes: "Axes", one: Bars, index: int, row: Bar) -> None:
+def _row(axes: "Axes", chart: Bars, index: int, row: Bar) -> None:
     beside = axes.get_yaxis_transform()
     axes.annotate(
         words(row.name), (0, index - 0.3), (4, 0), xycoords=beside, textcoords="offset points", va="center", zorder=4,
         bbox=paper(),
     )  # fmt: skip
     axes.text(1.015, index + 0.08, words(row.told), transform=beside, va="center")
-    if one.axis.low > 0:
+    if chart.axis.low > 0:
         axes.plot([row.value], [index + 0.12], zorder=3, **mark(row.series))
         return
     axes.barh(index + 0.12, row.value - row.start, 0.34, row.start, color=color_of(row.series), zorder=2)
@@ -71,32 +71,32 @@ def _row(axes: "Axes", one: Bars, index: int, row: Bar) -> None:
         )  # fmt: skip
 
 
-def celled(one: Cells) -> "Figure":
+def celled(chart: Cells) -> "Figure":
     """A field of cells, which grow with their class."""
     from matplotlib.figure import Figure
 
-    columns, rows = len(one.columns), len(one.rows)
+    columns, rows = len(chart.columns), len(chart.rows)
     side = max(CELLS[0], min(CELLS[1], FIELD / columns))
     size = max(WIDE, min(side * columns + 1.2, 10.0)), max(2.4, min(side * rows, 8.0) + 1.7)
     figure = Figure(size, layout="constrained")
     axes = figure.add_subplot()
-    axes.set_title(words(one.title, TITLE), pad=20)
+    axes.set_title(words(chart.title, TITLE), pad=20)
     axes.annotate(
-        words(one.up), (0, 1), (0, 5), xycoords="axes fraction", textcoords="offset points", ha="left", va="bottom"
+        words(chart.up), (0, 1), (0, 5), xycoords="axes fraction", textcoords="offset points", ha="left", va="bottom"
     )
     axes.set_xlim(-0.5, columns - 0.5)
     axes.set_ylim(-0.5, rows - 0.5)
     axes.set_aspect("equal", anchor="W")
-    for which, names in (("x", one.columns), ("y", one.rows)):
+    for which, names in (("x", chart.columns), ("y", chart.rows)):
         some = range(0, len(names), -(-len(names) // LABELS))
         getattr(axes, f"set_{which}ticks")(some, [words(names[k]) for k in some])
-    axes.set_xlabel(words(one.across), loc="left")
+    axes.set_xlabel(words(chart.across), loc="left")
     axes.tick_params(labelcolor=colors()["soft"], length=2)
-    for row, classes in enumerate(one.classes):
+    for row, classes in enumerate(chart.classes):
         for column, kind in enumerate(classes):
             axes.add_artist(_cell(kind, column, row))
     figure.legend(
-        [_sample(kind) for kind, _ in one.words], [words(word) for _, word in one.words], loc="outside lower left",
+        [_sample(kind) for kind, _ in chart.words], [words(word) for _, word in chart.words], loc="outside lower left",
         ncols=3, handlelength=1.2,
     )  # fmt: skip
     return figure

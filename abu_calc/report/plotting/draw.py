@@ -28,7 +28,7 @@ def check_matplotlib(wanted: str = "figures") -> None:
         )
 
 
-def drawn(one: Figure) -> "Drawn":
+def drawn(figure: Figure) -> "Drawn":
     """Charts, drawings to scale, of a motion the courses of the balls; without a screen."""
     check_matplotlib()
     from abu_calc.report.plotting.bars import barred, celled
@@ -36,7 +36,7 @@ def drawn(one: Figure) -> "Drawn":
     from abu_calc.report.plotting.sheets import sheet
 
     with styled():
-        match one.shown:
+        match figure.shown:
             case Plot() as chart:
                 return plotted(chart)
             case Bars() as chart:
@@ -49,32 +49,35 @@ def drawn(one: Figure) -> "Drawn":
                 return sheet(drawing)
 
 
-def figure_file(one: Figure, suffix: str) -> str | bytes:
-    """What a file of this suffix holds: alike for alike figures, with a title and what is to be seen."""
-    if suffix == ".svg" and isinstance(one.shown, Drawing):
+def figure_file(illustration: Figure, suffix: str) -> str | bytes:
+    """Content of a figure's file with this suffix: the same for the same figure.
+
+    It has a title, and says what is to be seen.
+    """
+    if suffix == ".svg" and isinstance(illustration.shown, Drawing):
         from abu_calc.report.drawing.svg import svg_file
 
-        return svg_file((one.shown,))
-    figure, buffer = drawn(one), io.BytesIO()
+        return svg_file((illustration.shown,))
+    figure, buffer = drawn(illustration), io.BytesIO()
     with styled(), warnings.catch_warnings():
         # Signs that the font has not: the file is written all the same.
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
-        figure.savefig(buffer, format=suffix[1:], metadata=_metadata(one, suffix))
-    found = buffer.getvalue()
-    return found.decode().replace(f"font-family: '{FONT}'", f"font-family: {LIKE_IT}") if suffix == ".svg" else found
+        figure.savefig(buffer, format=suffix[1:], metadata=_metadata(illustration, suffix))
+    data = buffer.getvalue()
+    return data.decode().replace(f"font-family: '{FONT}'", f"font-family: {LIKE_IT}") if suffix == ".svg" else data
 
 
-def _metadata(one: Figure, suffix: str) -> dict[str, Any]:
-    """Without a date."""
-    shown = one.shown
+def _metadata(figure: Figure, suffix: str) -> dict[str, Any]:
+    """Metadata of a figure's file, without a date."""
+    shown = figure.shown
     match shown:
         case Motion():
-            title, told = "Angles of the balls", one.caption
+            title, description = "Angles of the balls", figure.caption
         case Drawing():
-            title, told = shown.title, f"{shown.description} {one.caption}"
+            title, description = shown.title, f"{shown.description} {figure.caption}"
         case _:
-            title, told = shown.title, f"{one.caption} {shown.told}"
-    title, told = escaped(title), escaped(told)
+            title, description = shown.title, f"{figure.caption} {shown.told}"
+    title, description = escaped(title), escaped(description)
     if suffix == ".pdf":
-        return {"Title": title, "Subject": told, "CreationDate": None}
-    return {"Title": title, "Description": told} | ({"Date": None} if suffix == ".svg" else {})
+        return {"Title": title, "Subject": description, "CreationDate": None}
+    return {"Title": title, "Description": description} | ({"Date": None} if suffix == ".svg" else {})

@@ -21,7 +21,7 @@ TITLE: Final = 66
 FILLED: Final = (1, 6, 7, 8)
 """Series whose points are."""
 LETTER: Final = 0.0135
-"""What a letter takes, as a share of the field's width, about."""
+"""Approximate width of a letter, as a share of the field's width."""
 
 
 def words(text: str, most: int = LONGEST) -> str:
@@ -29,27 +29,27 @@ def words(text: str, most: int = LONGEST) -> str:
     return shortened(escaped(text), most)
 
 
-def plotted(one: Plot) -> "Figure":
+def plotted(chart: Plot) -> "Figure":
     """A field between two axes."""
     from matplotlib.figure import Figure
 
     figure = Figure(SIZE, layout="constrained")
     axes = figure.add_subplot()
-    axes.set_title(words(one.title, TITLE))
-    _along(axes, one.across, "x")
-    _along(axes, one.up, "y")
+    axes.set_title(words(chart.title, TITLE))
+    _along(axes, chart.across, "x")
+    _along(axes, chart.up, "y")
     axes.grid(color=colors()["line"], linewidth=0.6)
-    for first, last in one.bands:
-        _band(axes, one.across, first, last)
-    if one.limit:
-        limit(axes, *one.limit)
-    named = {line.name: line.series for line in one.legend}
-    marked = {point.series for point in one.points if not point.word}
-    for line in one.lines:
+    for first, last in chart.bands:
+        _band(axes, chart.across, first, last)
+    if chart.limit:
+        limit(axes, *chart.limit)
+    named = {line.name: line.series for line in chart.legend}
+    marked = {point.series for point in chart.points if not point.word}
+    for line in chart.lines:
         x, y = zip(*line.points, strict=True)
         axes.plot(x, y, color=color_of(line.series), linestyle=dashes_of(line.series))
-    for point in one.points:
-        _point(axes, one, point)
+    for point in chart.points:
+        _point(axes, chart, point)
     if named:
         _legend(figure, named, marked)
     return figure
@@ -72,7 +72,7 @@ def paper() -> dict[str, Any]:
 
 
 def mark(series: int) -> dict[str, Any]:
-    """How points of a series look."""
+    """Style of a series's points."""
     color = color_of(series)
     return {
         "marker": marker_of(series), "markersize": 6.0, "markeredgecolor": color, "markeredgewidth": 1.5,
@@ -112,11 +112,11 @@ def _band(axes: "Axes", across: Axis, first: float, last: float) -> None:
         )  # fmt: skip
 
 
-def _point(axes: "Axes", one: Plot, point: Point) -> None:
+def _point(axes: "Axes", chart: Plot, point: Point) -> None:
     """The word stands on the side where there is room."""
     axes.plot([point.x], [point.y], clip_on=False, zorder=3, **mark(point.series))
     if point.word:
-        left = one.across.share(point.x) + LETTER * (len(point.word) + 2) > 1
+        left = chart.across.share(point.x) + LETTER * (len(point.word) + 2) > 1
         axes.annotate(
             words(point.word), (point.x, point.y), (-7 if left else 7, 0), textcoords="offset points",
             ha="right" if left else "left", va="center", bbox=paper(), zorder=4,
@@ -124,7 +124,7 @@ def _point(axes: "Axes", one: Plot, point: Point) -> None:
 
 
 def _legend(figure: "Figure", named: dict[str, int], marked: set[int]) -> None:
-    """Below the field, in as many columns as have room."""
+    """Legend below the field, in as many columns as have room."""
     from matplotlib.lines import Line2D
 
     lines = [

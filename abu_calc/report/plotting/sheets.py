@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 INCH: Final = 25.4
 POINTS: Final = 72 / INCH
-"""Of a millimetre."""
+"""Points per millimetre."""
 INK: Final = "black"
 STEPS: Final = 24
 """Chords of an arc of an outline."""
 
 
 def sheet(drawing: Drawing) -> "Figure":
-    """As large as it is on paper."""
+    """Sheet as large as it is on paper."""
     from matplotlib.figure import Figure
 
     wide, high = drawing.size

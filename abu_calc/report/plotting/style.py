@@ -12,7 +12,7 @@ SERIES: Final = 4
 """Colors of series; those beyond begin again."""
 MARKERS: Final = ("o", "s", "D", "^")
 FONT: Final = "DejaVu Sans"
-"""It comes with matplotlib."""
+"""Font of the figures; it comes with matplotlib."""
 LIKE_IT: Final = f"'{FONT}', Verdana, sans-serif"
 """Texts of SVG files are texts, in the first of these that is there: the second is as wide."""
 STYLE: Final[dict[str, Any]] = {
@@ -25,25 +25,25 @@ STYLE: Final[dict[str, Any]] = {
 
 @cache
 def colors() -> dict[str, str]:
-    """Those of the page on white, by their names there."""
+    """Colours of the page on white, by their names there."""
     first = beside("page.css").split("}", 1)[0]
     return dict(re.findall(r"--(\w+): (#[0-9a-f]{3,8})", first))
 
 
 @cache
 def _dashes() -> dict[int, tuple[float, ...]]:
-    """Of lines by series, in widths of a line, which is 2 px wide there."""
-    found = re.findall(r"\.line\.s(\d) \{ stroke-dasharray: ([\d ]+);", beside("page.css"))
-    return {int(series): tuple(float(part) / 2 for part in parts.split()) for series, parts in found}
+    """Dashes of lines by series, in widths of a line, which is 2 px wide on the page."""
+    rules = re.findall(r"\.line\.s(\d) \{ stroke-dasharray: ([\d ]+);", beside("page.css"))
+    return {int(series): tuple(float(part) / 2 for part in parts.split()) for series, parts in rules}
 
 
 def color_of(series: int) -> str:
-    """Of a series."""
+    """Colour of a series."""
     return colors()[f"c{(series - 1) % SERIES + 1}"]
 
 
 def marker_of(series: int) -> str:
-    """Round, square, lozenge, triangle."""
+    """Marker of a series: round, square, lozenge, triangle."""
     return MARKERS[(series - 1) % len(MARKERS)]
 
 

@@ -1,4 +1,7 @@
-"""What the members of a store say together. Read from the store in parts: memory does not grow with their number."""
+"""Common answers of the samples in a store.
+
+They are read from the store in parts: memory does not grow with the number of samples.
+"""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,10 +26,10 @@ from abu_calc.studies.sweeping.records import (
 from abu_calc.studies.sweeping.store import Store, quoted
 
 REASONS: Final = 20
-"""That are listed."""
+"""Most reasons that are listed."""
 CONFIDENCE: Final = 0.95
 SHARES: Final = (0.0, 0.01, 0.02, *(k / 20 for k in range(1, 20)), 0.98, 0.99, 1.0)
-"""Of members, for which a distribution is told."""
+"""Shares of samples for which a distribution is given."""
 START: Final = "start.kind"
 ANSWERED: Final = "reason IS NULL"
 TRIED: Final = f"COALESCE(reason, '') <> '{IMPATIENT}'"
@@ -39,7 +42,7 @@ def there(store: Store) -> str:
 
 
 def failed(store: Store) -> Failed:
-    """How many gave no numbers, and why."""
+    """Number of samples that gave no numbers, and the reasons."""
     query = "SELECT reason, COUNT(*), MIN(member) FROM members WHERE reason IS NOT NULL GROUP BY reason ORDER BY 2 DESC"
     rows = store.ask(f"{query}, 1 LIMIT {REASONS}")
     count = store.ask("SELECT COUNT(*) FROM members WHERE reason IS NOT NULL")[0][0]
@@ -47,12 +50,12 @@ def failed(store: Store) -> Failed:
 
 
 def left_out(store: Store) -> int:
-    """How many members were not computed since the seconds of --patience were over."""
+    """Number of samples that were not computed since the seconds of --patience were over."""
     return int(store.ask("SELECT COUNT(*) FROM members WHERE reason = ?", (IMPATIENT,))[0][0])
 
 
 def spreads(store: Store, what: What) -> dict[str, Percentiles]:
-    """Of each quantity."""
+    """Spread of each quantity."""
     return {column.name: spread(store, column.name) for column in QUANTITIES[what]}
 
 
@@ -66,12 +69,12 @@ def spread(store: Store, name: str) -> Percentiles:
 
 
 def distributions(store: Store, what: What, limits: Mapping[str, float]) -> dict[str, Distribution]:
-    """Of each quantity that is not the same for all."""
-    found = {one.name: percentiles(store, one.name, SHARES, there(store)) for one in QUANTITIES[what]}
+    """Distribution of each quantity that is not the same for all."""
+    quantiles = {column.name: percentiles(store, column.name, SHARES, there(store)) for column in QUANTITIES[what]}
     percent = tuple(round(100 * share, 1) for share in SHARES)
     return {
         name: Distribution(percent=percent, values=values, limit=limits.get(name))
-        for name, values in found.items()
+        for name, values in quantiles.items()
         if values[0] is not None and values[0] != values[-1]
     }
 
@@ -115,8 +118,8 @@ def _share(store: Store, name: str) -> Share:
 def _interval(met: int, count: int) -> tuple[float, float]:
     from scipy.stats import binomtest
 
-    found = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
-    return float(found.low), float(found.high)
+    interval = binomtest(int(met), int(count)).proportion_ci(CONFIDENCE, method="exact")
+    return float(interval.low), float(interval.high)
 
 
 def basins(store: Store) -> tuple[Basin, ...]:
@@ -137,23 +140,26 @@ def basins(store: Store) -> tuple[Basin, ...]:
 def sensitivities(
     store: Store, sample: Sample, what: What
 ) -> tuple[dict[str, tuple[Sensitivity, ...]], dict[str, float]]:
-    """By number, the deciding one first; and what nothing explains of each. Those of too few members are left out."""
-    names = list(dict.fromkeys((DECIDING[what], *(one.name for one in QUANTITIES[what]), MEETS.name)))
+    """Sensitivities by number, the deciding one first; and the unexplained share of each.
+
+    Sensitivities from too few samples are left out.
+    """
+    names = list(dict.fromkeys((DECIDING[what], *(column.name for column in QUANTITIES[what]), MEETS.name)))
     every = (_of_saltelli if sample.scheme == "saltelli" else _of_fits)(store, sample, names)
-    found: dict[str, tuple[Sensitivity, ...]] = {}
+    by_name: dict[str, tuple[Sensitivity, ...]] = {}
     unexplained: dict[str, float] = {}
     for name, indices in every.items():
         if indices is not None:
             pairs = zip(sample.factors, indices.each, strict=True)
-            rows = [Sensitivity(key=one.key, first_order=each.first_order, total=each.total) for one, each in pairs]
-            found[name] = tuple(sorted(rows, key=lambda row: -row.total))
+            rows = [Sensitivity(key=param.key, first_order=each.first_order, total=each.total) for param, each in pairs]
+            by_name[name] = tuple(sorted(rows, key=lambda row: -row.total))
             unexplained[name] = indices.unexplained
-    return found, unexplained
+    return by_name, unexplained
 
 
 def _of_fits(store: Store, sample: Sample, names: Sequence[str]) -> dict[str, Indices | None]:
     """All numbers in one pass, since their products are the same."""
-    levels = tuple(len(one.variation.values) for one in sample.factors)
+    levels = tuple(len(factor.variation.values) for factor in sample.factors)
     fits = {name: Fit(levels, sample.runs) for name in names}
     for members, columns in _parts(store, names):
         places = np.empty((len(members), len(sample.factors)))
@@ -172,13 +178,13 @@ def _of_saltelli(store: Store, sample: Sample, names: Sequence[str]) -> dict[str
     values = np.full((len(names), sample.runs), np.nan)
     for members, columns in _parts(store, names):
         values[:, members] = columns
-    found: dict[str, Indices | None] = {}
+    indices: dict[str, Indices | None] = {}
     for name, column in zip(names, values, strict=True):
         parts = column.reshape(len(sample.factors) + 2, -1)
         whole = np.flatnonzero(np.isfinite(parts).all(axis=0))
         rows = whole[np.searchsorted(whole, np.arange(parts.shape[1])) % len(whole)] if len(whole) else whole
-        found[name] = saltelli(parts[:, rows].ravel(), len(sample.factors)) if len(whole) else None
-    return found
+        indices[name] = saltelli(parts[:, rows].ravel(), len(sample.factors)) if len(whole) else None
+    return indices
 
 
 def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
@@ -194,21 +200,21 @@ def _parts(store: Store, names: Sequence[str]) -> Iterator[tuple[Any, Any]]:
 
 def chart(store: Store, sample: Sample, what: What, grid: tuple[str, str]) -> Chart:
     """Shares over two keys, the first across."""
-    across, upward = (next(one for one in sample.factors if one.key == key).variation.values for key in grid)
+    across, upward = (next(factor for factor in sample.factors if factor.key == key).variation.values for key in grid)
     flag = FLAGS[what][0].name
     # A member without an answer counts as not met; a cell without any has no share.
     met = (f"CASE WHEN COUNT({name}) THEN 1.0 * SUM({name}) / COUNT(*) END" for name in map(quoted, (flag, MEETS.name)))
     columns = f"{', '.join(map(quoted, grid))}, {', '.join(met)}, AVG({quoted(DECIDING[what])})"
     query = f"SELECT {columns} FROM members WHERE {TRIED} AND member < {store.drawn} GROUP BY 1, 2"
-    found: dict[tuple[object, object], tuple[float | None, ...]] = {
+    cells: dict[tuple[object, object], tuple[float | None, ...]] = {
         (x, y): (*cell,) for x, y, *cell in store.ask(query)
     }
 
     def field(part: int) -> tuple[tuple[float | None, ...], ...]:
-        return tuple(tuple(cell(one, other, part) for one in x) for other in y)
+        return tuple(tuple(cell(abscissa, other, part) for abscissa in x) for other in y)
 
     def cell(x: object, y: object, part: int) -> float | None:
-        return found.get((x, y), (None, None, None))[part]
+        return cells.get((x, y), (None, None, None))[part]
 
     x, y = (tuple(_plain(value) for value in values) for values in (across, upward))
     return Chart(

@@ -1,4 +1,4 @@
-"""What a sweep is asked for: the table [sweep] of the file, and what arguments put in its place."""
+"""Request of a sweep: the table [sweep] of the file, and the arguments that replace its entries."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -39,7 +39,7 @@ class Asked:
     of_table: dict[str, Place]
     """Keys that vary as the table of the file says, and where it does."""
     nothing: bool
-    """Whether neither the file nor arguments say what to vary."""
+    """True if neither the file nor arguments say what to vary."""
 
 
 def asked(source: Machine | SceneDescription, vary: Vary, **options: Any) -> Asked:
@@ -84,17 +84,17 @@ def _table(source: Machine | SceneDescription) -> Sweep:
 
 
 def _ways(vary: Vary, place: Place) -> dict[str, Variation]:
-    """How each key varies; of a list KEY=…, each of which is given once."""
+    """Variation of each key; a list has entries KEY=…, each key once."""
     if vary is None:
         return {}
     pairs = list(vary.items()) if isinstance(vary, Mapping) else [_pair(text, place) for text in vary]
-    found: dict[str, Variation] = {}
+    variations: dict[str, Variation] = {}
     for key, how in pairs:
         here = Place(place.file, place.line, f"{place.key} {key}")
-        if key in found:
+        if key in variations:
             raise InputError("it varies twice", place=here, remedy="Give each key once.")
-        found[key] = variation(how, here)
-    return found
+        variations[key] = variation(how, here)
+    return variations
 
 
 def _pair(text: object, place: Place) -> tuple[str, str]:

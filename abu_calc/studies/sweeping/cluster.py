@@ -20,7 +20,7 @@ def client_of(executor: Executor) -> Any | None:
 
 
 def threads_of(client: Any) -> int:
-    """How many members its workers compute side by side."""
+    """Number of samples that the cluster's workers compute side by side."""
     return int(sum(client.nthreads().values()))
 
 

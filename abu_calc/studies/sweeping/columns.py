@@ -1,4 +1,4 @@
-"""What a member of a sweep says: its columns, with units, as store, answers and Python have them."""
+"""Columns of a sample of a sweep, with units, as store, answers and Python have them."""
 
 from typing import Final, Literal
 
@@ -17,7 +17,7 @@ class Column:
 
     @property
     def unit(self) -> str:
-        """As printed."""
+        """Unit as shown."""
         return unit_of(self.name)
 
 
@@ -75,7 +75,7 @@ FLAGS: Final[dict[What, tuple[Column, ...]]] = {
     "design": (MEETS,),
     "scene": (BALANCES, MEETS),
 }
-"""What is met or not; the last of them is all together."""
+"""Conditions that are met or not; the last of them is all together."""
 
 DECIDING: Final[dict[What, str]] = {"build": "level_db", "design": "level_after_db", "scene": "level_db"}
 """The number whose sensitivities are told first."""

@@ -45,12 +45,12 @@ class Trials:
 
     def rows(self, numbers: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
         """What each came to, its number in place of the member's, and how long all took [s]."""
-        begun, found = time.perf_counter(), []
+        begun, rows = time.perf_counter(), []
         for number in numbers:
             study, member = self._of(number)
             ((_, *row),), _ = study.rows((member,), may_end_process)
-            found.append((number, *row))
-        return found, time.perf_counter() - begun
+            rows.append((number, *row))
+        return rows, time.perf_counter() - begun
 
     def lost(self, number: int, reason: str) -> Row:
         """The row of one that gave no numbers."""
@@ -75,13 +75,13 @@ def loosened(study: Study, store: Store, keys: Sequence[str], compute: Compute) 
     drawn = np.random.default_rng(study.sample.seed).choice(store.drawn, many, replace=False)
     members = tuple(sorted(drawn.tolist()))
     trials = Trials(tuple(replace(study, sample=_doubled(study.sample, key)) for key in keys), members)
-    found: dict[int, Row] = {}
-    compute(trials, iter(range(len(keys) * many)), lambda rows: found.update({row[0]: row for row in rows}))
+    computed: dict[int, Row] = {}
+    compute(trials, iter(range(len(keys) * many)), lambda rows: computed.update({row[0]: row for row in rows}))
     names = [DECIDING[study.what], MEETS.name]
     places = [store.names.index(name) for name in names]
     before = _before(store, names, members)
-    kept = [key for k, key in enumerate(keys) if all(found[k * many + j][-1] != IMPATIENT for j in range(many))]
-    after = {k: tuple(row[place] for place in places) for k, row in found.items()}
+    kept = [key for k, key in enumerate(keys) if all(computed[k * many + j][-1] != IMPATIENT for j in range(many))]
+    after = {k: tuple(row[place] for place in places) for k, row in computed.items()}
     return {
         key: _compared(_way(trials.studies[k].sample, key).text, before, [after[k * many + j] for j in range(many)])
         for k, key in enumerate(keys)
@@ -90,7 +90,7 @@ def loosened(study: Study, store: Store, keys: Sequence[str], compute: Compute) 
 
 
 def _way(sample: Sample, key: str) -> Variation:
-    return next(one.variation for one in sample.factors if one.key == key)
+    return next(factor.variation for factor in sample.factors if factor.key == key)
 
 
 def _before(store: Store, names: Sequence[str], members: Sequence[int]) -> list[Numbers]:
@@ -107,14 +107,14 @@ def _compared(way: str, before: Sequence[Numbers], after: Sequence[Numbers]) -> 
 
 def _kept(levels: Sequence[float | None]) -> float | None:
     """The level that 95 % keep; none where a member without one is among those about it."""
-    ordered = np.sort([math.inf if one is None else one for one in levels])
+    ordered = np.sort([math.inf if level is None else level for level in levels])
     with np.errstate(invalid="ignore"):
-        found = float(np.quantile(ordered, KEPT))
-    return found if math.isfinite(found) else None
+        quantile = float(np.quantile(ordered, KEPT))
+    return quantile if math.isfinite(quantile) else None
 
 
 def _doubled(sample: Sample, key: str) -> Sample:
-    factors = (replace(one, variation=doubled(one.variation)) if one.key == key else one for one in sample.factors)
+    factors = (replace(item, variation=doubled(item.variation)) if item.key == key else item for item in sample.factors)
     return replace(sample, factors=tuple(factors))
 
 
@@ -130,11 +130,11 @@ def doubled(way: Variation) -> Variation:
     if way.kind in ("normal", "lognormal"):
         return _written(way.kind, (first, 2 * rest[0]))
     middle = 0.0 if first == 0 else (first + rest[-1]) / 2 if way.kind == "uniform" else rest[0]
-    numbers = [middle + 2 * (one - middle) for one in way.numbers]
+    numbers = [middle + 2 * (number - middle) for number in way.numbers]
     if first > 0:  # nothing that is there becomes negative
         numbers[0] = max(numbers[0], 0.0)
     return _written(way.kind, numbers)
 
 
 def _written(kind: str, numbers: Sequence[float]) -> Variation:
-    return Variation(kind, tuple(map(float, numbers)), (), f"{kind}({', '.join(f'{one:.6g}' for one in numbers)})")
+    return Variation(kind, tuple(map(float, numbers)), (), f"{kind}({', '.join(f'{value:.6g}' for value in numbers)})")

@@ -36,14 +36,17 @@ LOT: Final = 0.5e-6
 """Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""
 
 TOLERANCE: Final = 0.02
-"""Of the one run of a member, per accuracy asked for."""
+"""Tolerance of the one run of a sample, per accuracy asked for."""
 
 Values = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
 class Study(ABC):
-    """Who varies how, and what is computed of each. Sent to workers: small, and made of plain data."""
+    """Variation of the samples, and the numbers computed of each.
+
+    A study is sent to workers: it is small, and made of plain data.
+    """
 
     what: ClassVar[What]
 
@@ -58,10 +61,10 @@ class Study(ABC):
         """The quantities of a member, then what it meets. Raises AbuError where there are none."""
 
     def rows(self, members: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
-        """What each came to, and how long all took [s]."""
+        """Rows of the samples' results, and the time for all [s]."""
         begun = time.perf_counter()
-        found = [self._row(member, may_end_process) for member in members]
-        return found, time.perf_counter() - begun
+        rows = [self._row(member, may_end_process) for member in members]
+        return rows, time.perf_counter() - begun
 
     def lost(self, member: int, reason: str) -> Row:
         """The row of one that gave no numbers."""
@@ -71,7 +74,7 @@ class Study(ABC):
 
     def _row(self, member: int, may_end_process: bool) -> Row:
         values, seed = self.sample.values(member), self.sample.member_seed(member)
-        named = {one.key: value for one, value in zip(self.sample.factors, values, strict=True)}
+        named = {factor.key: value for factor, value in zip(self.sample.factors, values, strict=True)}
         left = self.until - time.time()
         if left <= 0:
             return self.lost(member, IMPATIENT)
@@ -95,8 +98,8 @@ class Study(ABC):
         return (member, seed, *map(_plain, values), *map(_finite, numbers), None)
 
     def _in_file(self, values: Values) -> dict[Any, object]:
-        """Those that are entries of the file, by path."""
-        return {one.path: values[one.key] for one in self.sample.factors if one.path}
+        """Values that are entries of the file, by path."""
+        return {factor.path: values[factor.key] for factor in self.sample.factors if factor.path}
 
 
 @dataclass(frozen=True)
@@ -118,18 +121,18 @@ class Builds(Study):
         made, start = built(self.design, table), start_of(values)
         lot = np.random.default_rng(seed).uniform(-LOT, LOT, made.autobalancer.ball_count)
         lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
-        found = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
+        outcome = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
         limits = table.limits
-        soon, quiet = found.time <= limits.settling_time_s, found.level <= limits.vibration_level_db
-        flags = found.balanced, not found.hanging, quiet, soon
+        soon, quiet = outcome.time <= limits.settling_time_s, outcome.level <= limits.vibration_level_db
+        flags = outcome.balanced, not outcome.hanging, quiet, soon
         return (
-            found.level, found.settling, from_si(found.residual, "um"), from_si(found.imbalance, "g_mm"),
+            outcome.level, outcome.settling, from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
             made.autobalancer.capacity_ratio, *flags, all(flags),
         )  # fmt: skip
 
 
 def start_of(values: Values) -> SwitchedOn:
-    """How a member is switched on; what does not vary is usual."""
+    """Start-up of a sample; values that do not vary are usual."""
     angle, off = values.get("start.angle_deg"), values.get("start.eccentricity_deg")
     return SwitchedOn(
         values.get("start.kind", "bunched"),
@@ -147,14 +150,14 @@ class Designs(Study):
     machine: Machine
 
     def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
-        """What `abu size` says."""
-        found = size(self.machine.changed({one.key: values[one.key] for one in self.sample.factors}), self.accuracy)
-        one, many = found.autobalancer, found.ensemble
+        """Numbers that `abu size` gives."""
+        sizing = size(self.machine.changed({item.key: values[item.key] for item in self.sample.factors}), self.accuracy)
+        design, many = sizing.autobalancer, sizing.ensemble
         loudest, latest = (many.level_db.worst, many.settling_time_s.worst) if many else (None, None)
         return (
-            found.vibration.level_after_db, loudest, latest,
-            one.ball_count, one.ball_diameter_mm, one.race_radius_mm, one.mass_g, one.capacity_ratio,
-            found.status == "pass",
+            sizing.vibration.level_after_db, loudest, latest,
+            design.ball_count, design.ball_diameter_mm, design.race_radius_mm, design.mass_g, design.capacity_ratio,
+            sizing.status == "pass",
         )  # fmt: skip
 
 
@@ -173,11 +176,11 @@ class Scenes(Study):
         scene = turned(
             scene, to_si(values.get("start.angle_deg", 0.0), "deg"), 1.0 if warm is None else drag_ratio(warm)
         )
-        found = scene_once(scene, TOLERANCE * self.accuracy)
-        one = found.response
+        run = scene_once(scene, TOLERANCE * self.accuracy)
+        response = run.response
         return (
-            one.level, one.settling_time, from_si(one.axis_amplitude, "mm"),
-            from_si(one.residual_imbalance, "g_mm"), found.balanced, found.balanced,
+            response.level, response.settling_time, from_si(response.axis_amplitude, "mm"),
+            from_si(response.residual_imbalance, "g_mm"), run.balanced, run.balanced,
         )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""From what is asked of a file to the study that is computed: who varies how, the design, the integrators."""
+"""Study to compute, planned from a file and a request: the variations, the design, the integrators."""
 
 from typing import Final
 
@@ -32,7 +32,7 @@ KEYS: Final = {
 CHECKED: Final = 50
 """Listed values that are tried in the file before anything is computed."""
 ROWS: Final = 64
-"""Of Saltelli's matrices, where nothing says how many."""
+"""Rows of Saltelli's matrices, if no number is given."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Plan:
 
     study: Study
     content: dict[str, object]
-    """Of the file, with its overrides."""
+    """Content of the file, with its overrides."""
     design: Design | None
     grid: tuple[str, str] | None
     warnings: tuple[str, ...]
@@ -119,7 +119,7 @@ def _sample(ways: dict[str, Variation], ask: Asked, what: str) -> Sample:
 
 
 def _path(key: str, what: str) -> tuple[str | int, ...]:
-    """Where a key stands in the file; nothing for one of the start."""
+    """Path of a key in the file; empty for a key of the start."""
     if key.startswith(START):
         if key not in KEYS[what]:
             known = ", ".join(KEYS[what]) or "none: each machine is judged from all of its starts"
@@ -133,16 +133,16 @@ def _path(key: str, what: str) -> tuple[str | int, ...]:
 def _tried(variants: Variants[MachineFile] | Variants[SceneFile], sample: Sample) -> tuple[str, ...]:
     """Puts the ends of each value into the file, one at a time; notes of entries whose place they take."""
     notes: list[str] = []
-    for one in sample.factors:
-        values = one.variation.extremes
+    for factor in sample.factors:
+        values = factor.variation.extremes
         step = max(1, len(values) // CHECKED)
         for value in (*values[::step], values[-1]):
-            if one.path:
-                variants.table({one.path: value})
+            if factor.path:
+                variants.table({factor.path: value})
             else:
-                _check_start(one.key, value)
-        if one.path:
-            notes += variants.notes((one.path,), (one.variation.typical,))
+                _check_start(factor.key, value)
+        if factor.path:
+            notes += variants.notes((factor.path,), (factor.variation.typical,))
     return tuple(dict.fromkeys(notes))
 
 
@@ -164,7 +164,7 @@ def _grid(ask: Asked, sample: Sample) -> tuple[str, str] | None:
     """The two keys of a chart, whose values are listed."""
     if ask.grid is None:
         return None
-    listed = [one.key for one in sample.factors if one.variation.listed]
+    listed = [factor.key for factor in sample.factors if factor.variation.listed]
     for key in ask.grid:
         if key not in listed:
             raise InputError(

@@ -1,4 +1,4 @@
-"""What to tighten, and what may be loosened, each with what it does to the level that 95 % of members keep."""
+"""Values to tighten or to loosen, each with its effect on the level that 95 % of samples keep."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ LEAST: Final = 40
 KEPT: Final = 0.95
 """Share of members whose level is told."""
 LITTLE: Final = 0.5
-"""What the level may rise by, and a value may still be loosened [dB]."""
+"""Largest rise of the level with which a value may still be loosened [dB]."""
 
 
 class Halves(NamedTuple):
@@ -33,18 +33,18 @@ class Halves(NamedTuple):
 
     @property
     def idle(self) -> bool:
-        """Whether it decides nothing as it is, so that more scatter is worth a trial."""
+        """True if the value decides nothing as it is, so that more scatter is worth a trial."""
         return self.within_chance and self.row.total < FIRST
 
 
 def halves(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Halves, ...]:
-    """For each value of the file that is drawn as a number."""
+    """Halves for each value of the file that is drawn as a number."""
     (whole,) = percentiles(store, DECIDING[what], (KEPT,), there(store))
     if whole is None:
         return ()
-    drawn = {one.key for one in sample.factors if one.path and one.variation.numbers}
-    found = (_halves(store, DECIDING[what], row, whole) for row in ranked if row.key in drawn)
-    return tuple(one for one in found if one is not None)
+    drawn = {factor.key for factor in sample.factors if factor.path and factor.variation.numbers}
+    splits = (_halves(store, DECIDING[what], row, whole) for row in ranked if row.key in drawn)
+    return tuple(split for split in splits if split is not None)
 
 
 def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves | None:
@@ -68,18 +68,18 @@ def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves |
     return Halves(row, better, middle, whole - level, cost, highest is None or whole <= highest)
 
 
-def prices(found: Sequence[Halves], tried: Mapping[str, Loosened]) -> tuple[Price, ...]:
-    """With the advice that follows: of loosening after it was tried only."""
-    return tuple(_price(one, tried.get(one.row.key)) for one in found)
+def prices(splits: Sequence[Halves], tried: Mapping[str, Loosened]) -> tuple[Price, ...]:
+    """Prices with the advice that follows; loosening is advised only after it was tried."""
+    return tuple(_price(split, tried.get(split.row.key)) for split in splits)
 
 
-def _price(one: Halves, tried: Loosened | None) -> Price:
+def _price(split: Halves, tried: Loosened | None) -> Price:
     loosen = tried is not None and tried.rise is not None and tried.rise <= LITTLE and tried.fail <= 0
     loosened: dict[str, Any] = {} if tried is None else {
         "loosened_to": tried.way, "loosened_db": tried.rise, "loosened_fail": tried.fail, "loosened_of": tried.members,
     }  # fmt: skip
     return Price(
-        key=one.row.key, better=one.better, median=one.median, gain_db=one.gain, cost_db=one.cost,
-        within_chance=one.within_chance, **loosened,
-        advice="may be loosened" if loosen else "" if one.within_chance else "tighten",
+        key=split.row.key, better=split.better, median=split.median, gain_db=split.gain, cost_db=split.cost,
+        within_chance=split.within_chance, **loosened,
+        advice="may be loosened" if loosen else "" if split.within_chance else "tighten",
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What a sweep answers, as results hold it."""
+"""Answers of a sweep, as results hold them."""
 
 from typing import Annotated
 
@@ -28,7 +28,7 @@ class Distribution(Record):
 
 @record
 class Basin(Record):
-    """Of the starts of one kind the share that balances."""
+    """Share of the start cases of one kind that balances."""
 
     start: Annotated[str, Quantity("start")]
     share: Annotated[float, Quantity("balances", "", 4, "", percent=True)]
@@ -39,7 +39,7 @@ class Basin(Record):
 
 @record
 class Share(Record):
-    """Of all members; one without an answer counts as not met."""
+    """Share of all samples; one without an answer counts as not met."""
 
     share: Annotated[float, Quantity("share", "", 4, "", percent=True)]
     confidence_interval: Annotated[
@@ -88,10 +88,10 @@ class Sensitivity(Record):
 
 @record
 class Price(Record):
-    """What one value is worth: the level that 95 % of members keep if it stays in its better half, or its worse one.
+    """Price of one value: the level that 95 % of samples keep if it stays in its better or worse half.
 
-    Told by the members that lie there. `loosened_db`: what it rises by where the scatter is doubled, of members that
-    were computed once more for that; `loosened_fail`: how many more of them miss a limit than before.
+    The samples that lie there give it. `loosened_db`: rise of the level if the scatter is doubled, of samples
+    that were computed once more for that; `loosened_fail`: how many more of them miss a limit than before.
     """
 
     key: Annotated[str, Quantity("value")]

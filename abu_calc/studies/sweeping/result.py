@@ -1,4 +1,4 @@
-"""What a sweep returns: its answers, and its members as arrays."""
+"""Return value of a sweep: its answers, and its samples as arrays."""
 
 import os
 import shutil
@@ -85,7 +85,7 @@ def _remove(folder: Path, owner: int) -> None:
 
 @record
 class SweepResult(Result):
-    """What the members of a sweep say together."""
+    """Common answers of a sweep's samples."""
 
     command: ClassVar[str] = "sweep"
     left_out: ClassVar[frozenset[str]] = Result.left_out | {"members"}

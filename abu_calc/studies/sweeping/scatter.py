@@ -1,4 +1,4 @@
-"""What scatters in any case: how a machine is switched on; and by the drawing's tolerances and in use."""
+"""Scatter in every case: start-up of a machine; and scatter by the drawing's tolerances and in use."""
 
 from collections.abc import Iterator
 from typing import Final
@@ -41,10 +41,10 @@ def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Vari
 
     `building`: the design is fixed; one that is made anew has no balls or race yet that could be off, and no start.
     """
-    case, one, tables = design.case, design.autobalancer, design.case.table
+    case, autobalancer, tables = design.case, design.autobalancer, design.case.table
     ways: dict[str, str] = {}
     if building:
-        diameter, radius = from_si(one.ball_diameter, "mm"), from_si(one.race_radius, "mm")
+        diameter, radius = from_si(autobalancer.ball_diameter, "mm"), from_si(autobalancer.race_radius, "mm")
         ways["autobalancer.ball_diameter_mm"] = f"uniform({diameter - GAUGE!r}, {diameter + GAUGE!r})"
         ways["autobalancer.race_radius_mm"] = f"uniform({radius - BOTTOM!r}, {radius + BOTTOM!r})"
         ways[WARMTH] = "triangular(15, 40, 70)"
@@ -63,12 +63,12 @@ def of_tolerances(design: Design, *, building: bool) -> Iterator[tuple[str, Vari
 
 def _hands(tables: MachineFile) -> dict[str, str]:
     """The natural frequencies of springs that stand for hands; both alike where the file has both alike."""
-    found, key = tables.suspension.frequencies, "suspension.natural_frequencies_hz"
-    if found is None:
+    frequencies, key = tables.suspension.frequencies, "suspension.natural_frequencies_hz"
+    if frequencies is None:
         return {}
-    if found[0] == found[1]:
-        return {key: f"lognormal({found[0]!r}, {HELD})"}
-    return {f"{key}[{k}]": f"lognormal({one!r}, {HELD})" for k, one in enumerate(found)}
+    if frequencies[0] == frequencies[1]:
+        return {key: f"lognormal({frequencies[0]!r}, {HELD})"}
+    return {f"{key}[{k}]": f"lognormal({frequency!r}, {HELD})" for k, frequency in enumerate(frequencies)}
 
 
 def _ways(ways: dict[str, str]) -> Iterator[tuple[str, Variation]]:

@@ -28,7 +28,7 @@ def software() -> dict[str, str]:
 
 
 def worker_name() -> str:
-    """This process, as stores and errors name it."""
+    """Name of this process, as stores and errors give it."""
     return f"{platform.node()}:{os.getpid()}"
 
 

@@ -45,7 +45,7 @@ TABLES: Final = {
     "checksums": "member INTEGER PRIMARY KEY, checksum INTEGER",
     "study": "key TEXT PRIMARY KEY, value TEXT",
 }
-"""Beside `members`, whose columns are those of the study."""
+"""Tables beside `members`, whose columns are those of the study."""
 
 
 class Store:
@@ -149,7 +149,7 @@ class Store:
 
     @property
     def done(self) -> int:
-        """How many members are there, without those to be tried again."""
+        """Number of samples in the store, without those to be tried again."""
         return int(self.ask(f"SELECT COUNT(*) FROM members WHERE NOT {self._again}")[0][0])
 
     def missing(self) -> Iterator[int]:
@@ -392,7 +392,7 @@ def _refuse_another(path: Path, there: Mapping[str, Any], wanted: Identity) -> N
 
 
 def differences(there: object, wanted: object, path: str = "") -> list[str]:
-    """Where two studies differ, in words.
+    """Differences between two studies, in words.
 
     >>> differences({"machine": {"mass_kg": 5.6}}, {"machine": {"mass_kg": 5.7}})
     ['machine.mass_kg is 5.6 there and 5.7 here']

@@ -1,4 +1,4 @@
-"""Who computes a sweep: this process, several, or somebody else's executor; and what stands of it in the store."""
+"""Workers of a sweep: this process, several, or another's executor; and their record in the store."""
 
 import os
 import platform
@@ -51,7 +51,7 @@ class Hands:
 
 
 def described(workers: int | None, executor: Executor | None) -> str:
-    """Who computes, for the store."""
+    """Description of the workers, for the store."""
     who = type(executor).__name__ if executor is not None else f"{workers or 1} of this machine"
     return f"{who}; Python {platform.python_version()}, {platform.system()} {platform.machine()}"
 

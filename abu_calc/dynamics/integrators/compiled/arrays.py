@@ -16,9 +16,12 @@ GAPS, PAIRS, TURNS, TOUCHING, LEAST, JOINED = 12, 13, 14, 15, 16, 17
 ONE_SIDED, TOUCHES = 18, 19
 """One-sided contact: its watched number (−1 without) and its mode."""
 APPARENT, SEEN, ORDER, BEHIND = 20, 21, 22, 23
-"""From where on, for each watched number that `apparent` gives, the place stands of how many states it asks for, and
-which (−1: it is not given); how many it gives, and from where on these stand, and then all others; the ball behind each
-gap, then the ball ahead of each."""
+"""Places of the numbers that `apparent` gives, of the watched numbers in order, and of neighbours.
+
+APPARENT: from there on, for each watched number, the place of the count of states that it needs and of
+these states (−1: it is not given). SEEN: how many numbers are given. ORDER: from there on the given
+numbers, then all others. BEHIND: the ball behind each gap, then the ball ahead of each.
+"""
 
 # Constants of a run.
 LONGEST, END, REST, SLOW, RESTITUTION, KICK, STALLED, UNIT, LIFTED = 0, 1, 2, 3, 4, 5, 6, 7, 8
@@ -29,7 +32,7 @@ SCALES = 9
 
 # The clock of a run.
 TIME, STEP, BEGUN = 0, 1, 2
-"""Where it is, the step to try, and when the modes were last decided."""
+"""Time reached, step to try, and time at which the modes were last decided."""
 
 # The counts of a run.
 DONE, STEPS, EVALUATIONS, EVENTS, FOUND, STALLS, MOST, SAMPLES, GENERAL, START, PAUSE = 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10
@@ -39,11 +42,11 @@ the evaluations at which to come back, so that an interrupt is heard."""
 COUNTS = 11
 
 REACHED, UNDECIDED, TOO_MUCH, NOT_FINITE, TOO_SMALL, STALL, PAUSED = 0, 1, 2, 3, 4, 5, 6
-"""How a run comes back."""
+"""Reasons for which a run returns."""
 
 
 def setup(numbers: Reals, par: Reals) -> None:
-    """What the equations use of the numbers."""
+    """Compute the parameters that the equations use from the numbers."""
     raise NotImplementedError
 
 
@@ -58,5 +61,5 @@ def watched(t: float, y: Reals, par: Reals, dy: Reals, w: Reals) -> None:
 
 
 def apparent(t: float, y: Reals, par: Reals, w: Reals) -> None:
-    """Of what is watched, the numbers that the state gives nearly by itself; the others stay."""
+    """Write the watched numbers that the state gives nearly by itself; the others stay."""
     raise NotImplementedError

@@ -21,7 +21,7 @@ FOLDER = "ABU_CALC_CACHE"
 """Environment variable that names another folder."""
 
 MOST_BYTES = 50_000_000
-"""What is kept, some thousand structures; what was used longest ago goes first."""
+"""Bytes that are kept, some thousand structures; the least recently used goes first."""
 
 OURS = re.compile(r"[0-9a-f]{64}\.o(\.[0-9a-f]+)?")
 """Names of our files; a folder that somebody chose may hold others."""
@@ -40,7 +40,10 @@ class Cache:
 
     @classmethod
     def own(cls) -> "Cache":
-        """Where programs of this system keep what they can make again; a folder without a home cannot be used."""
+        """Cache in the folder where programs of this system keep what they can make again.
+
+        A folder without a home cannot be used.
+        """
         chosen = os.environ.get(FOLDER)
         try:
             return cls(Path(chosen).expanduser() if chosen else _base() / "abu-calc" / "compiled")
@@ -48,7 +51,7 @@ class Cache:
             return cls(NOWHERE / str(chosen))
 
     def read(self, key: str) -> bytes | None:
-        """What was written under a key, None where that is not there or not whole."""
+        """Content written under a key; None if it is missing or incomplete."""
         try:
             data = self.place(key).read_bytes()
         except FileNotFoundError:
@@ -86,15 +89,15 @@ class Cache:
     def _bound(self) -> None:
         """Delete what was used longest ago; others may be deleting, too."""
         files = []
-        for one in self.folder.iterdir():
-            if OURS.fullmatch(one.name):
+        for file in self.folder.iterdir():
+            if OURS.fullmatch(file.name):
                 with contextlib.suppress(FileNotFoundError):
-                    files.append((one.stat().st_mtime, one.stat().st_size, one))
+                    files.append((file.stat().st_mtime, file.stat().st_size, file))
         total = sum(size for _, size, _ in files)
-        for _, size, one in sorted(files):
+        for _, size, file in sorted(files):
             if total <= MOST_BYTES:
                 return
-            one.unlink(missing_ok=True)
+            file.unlink(missing_ok=True)
             total -= size
 
     def _unusable(self, error: OSError) -> None:
@@ -106,12 +109,12 @@ class Cache:
 
 
 def _digest(key: str, content: bytes) -> bytes:
-    """Of the content under this key: a file under another's name is not its own."""
+    """Digest of the content under this key; a file under another key's name does not match it."""
     return hashlib.sha256(key.encode() + content).digest()
 
 
 def _base() -> Path:
-    """Of this system; or nowhere, where there is no home."""
+    """Cache folder of this system; nowhere if there is no home."""
     places = {"win32": ("LOCALAPPDATA", "~/AppData/Local"), "darwin": ("", "~/Library/Caches")}
     variable, usual = places.get(sys.platform, ("XDG_CACHE_HOME", "~/.cache"))
     chosen = os.environ.get(variable, "") if variable else ""

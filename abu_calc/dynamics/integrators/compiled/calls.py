@@ -7,7 +7,7 @@ from abu_calc.dynamics.integrators.compiled.writer import Value, constant, shown
 
 
 class Calls(Expressions):
-    """What a function may call."""
+    """Translation of the calls that a function may make."""
 
     def of_Call(self, node: ast.Call) -> Value:  # noqa: N802
         """Any call."""
@@ -32,7 +32,7 @@ class Calls(Expressions):
         result, kinds = self.known[name]
         if len(kinds) != len(node.args):
             self.refuse(node, f"{len(kinds)} arguments")
-        given = [f"{shown(kind)} {self.number(one, kind)}" for one, kind in zip(node.args, kinds, strict=True)]
+        given = [f"{shown(kind)} {self.number(operand, kind)}" for operand, kind in zip(node.args, kinds, strict=True)]
         place = self.new(f"load ptr, ptr @{name}.at") if name in self.outside else f"@{name}"
         call = f"call {shown(result)} {place}({', '.join(given)})"
         if result == "void":
@@ -45,20 +45,20 @@ class Calls(Expressions):
         each = node.args[0] if len(node.args) == 1 else None
         if not isinstance(each, ast.GeneratorExp) or len(each.generators) != 1 or each.generators[0].ifs:
             self.refuse(node, "one condition for … in range(…)")
-        found = ast.Name(self.label("truth"))
-        self.store(found, constant(every))
+        truth = ast.Name(self.label("truth"))
+        self.store(truth, constant(every))
         test = ast.UnaryOp(ast.Not(), each.elt) if every else each.elt
-        body: list[ast.stmt] = [ast.Assign([found], ast.Constant(not every)), ast.Break()]
-        (one,) = each.generators
-        loop = ast.For(one.target, one.iter, [ast.If(test, body, [])], [])
+        body: list[ast.stmt] = [ast.Assign([truth], ast.Constant(not every)), ast.Break()]
+        (generator,) = each.generators
+        loop = ast.For(generator.target, generator.iter, [ast.If(test, body, [])], [])
         self.statement(ast.fix_missing_locations(ast.copy_location(loop, node)))
-        return self.load(found)
+        return self.load(truth)
 
     def extreme(self, name: str, node: ast.Call) -> Value:
         """The smaller or larger of two."""
         if len(node.args) != 2:
             self.refuse(node, "two arguments")
-        a, b = (self.value(one) for one in node.args)
+        a, b = (self.value(argument) for argument in node.args)
         kind = "i64" if a[0] == b[0] == "i64" else "double"
         left, right = self.as_kind(a, kind, node), self.as_kind(b, kind, node)
         less = "lt" if name == "min" else "gt"

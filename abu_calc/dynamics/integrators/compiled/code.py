@@ -25,7 +25,7 @@ from abu_calc.version import __version__
 TRANSLATOR: tuple[ModuleType, ...] = (language, calls, expressions, writer, machine, arrays)
 
 NAMES = {"inf": math.inf}
-"""What their text knows beside its own."""
+"""Names that the compiled texts know besides their own."""
 
 POINTERS = 10
 """Arguments of `loop.go`."""
@@ -50,21 +50,21 @@ class Code:
 
     def go(self, *given: np.ndarray) -> int:
         """`loop.go` on these arrays."""
-        return self._call(*[one.ctypes.data for one in given])
+        return self._call(*[array.ctypes.data for array in given])
 
     def check(self, equations: Equations, acting: Acting, numbers: np.ndarray) -> None:
         """Raise CompilerError unless it gives the rates of the plain equations, at a place that is not special."""
         y = np.array(equations.initial) + np.array(equations.scales) * np.cos(np.arange(len(equations.initial)))
-        par, found = np.empty(self.program.parameters), np.empty(len(y))
+        par, rates = np.empty(self.program.parameters), np.empty(len(y))
         self._equations.function("setup", 2)(numbers.ctypes.data, par.ctypes.data)
-        self._equations.rates("rates", 3)(0.0, y.ctypes.data, par.ctypes.data, found.ctypes.data)
+        self._equations.rates("rates", 3)(0.0, y.ctypes.data, par.ctypes.data, rates.ctypes.data)
         true = np.asarray(rhs(np, 0.0, y, acting), dtype=float)
-        if not np.allclose(found, true, rtol=ROUNDING, atol=ROUNDING * float(np.abs(true).max(initial=0.0))):
+        if not np.allclose(rates, true, rtol=ROUNDING, atol=ROUNDING * float(np.abs(true).max(initial=0.0))):
             raise CompilerError("compiled code does not give what the equations do")
 
 
 def code(structure: object, equations: Equations, acting: Acting, numbers: np.ndarray, method: Method) -> Code:
-    """That of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
+    """Code of a structure; `acting` and `numbers` of any scene that has it. Raises CompilerError."""
 
     def make() -> Code:
         made = Code(text(structure, equations, acting), method)
@@ -81,12 +81,12 @@ def text(structure: object, equations: Equations, acting: Acting) -> Program:
 
 
 def known(structure: object, method: Method) -> bool:
-    """Whether this process has it."""
+    """True if this process has the code of a structure."""
     return (structure, method) in _codes
 
 
 def installed() -> bool:
-    """Whether there is a compiler."""
+    """True if there is a compiler."""
     return importlib.util.find_spec("llvmlite") is not None
 
 
@@ -96,7 +96,7 @@ def _text(module: ModuleType) -> str:
 
 
 def _key(parts: list[language.Part]) -> str:
-    """Of all that the machine code depends on: texts, the numbers they name, translator, processor."""
+    """Key of all that the machine code depends on: texts, the numbers they name, translator, processor."""
     rules: list[Any] = [__version__, machine.described(), *map(_text, TRANSLATOR)]
     rules += [(text, sorted(language.numbers(names).items())) for text, names in parts]
     return hashlib.sha256(repr(rules).encode()).hexdigest()

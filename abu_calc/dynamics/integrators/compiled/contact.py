@@ -33,17 +33,17 @@ def gap(p: int, y: Reals, numbers: Reals, lay: Integers) -> float:
 
 
 def touches(p: int, y: Reals, numbers: Reals, lay: Integers) -> bool:
-    """Whether a gap is closed."""
+    """True if a gap is closed."""
     return numbers[lay[JOINED] + p] > 0.0 or gap(p, y, numbers, lay) - numbers[lay[TOUCHING] + p] <= CLOSED
 
 
 def opening(p: int, lay: Integers, row: Reals) -> float:
-    """What is ahead of a gap less what is behind, of the balls' part of states or rates."""
+    """Difference across a gap, ball ahead less ball behind, in the balls' part of states or rates."""
     return row[lay[RATES] + lay[BEHIND + lay[PAIRS] + p]] - row[lay[RATES] + lay[BEHIND + p]]
 
 
 def pressed(y: Reals, numbers: Reals, lay: Integers, con: Reals, k: Reals, w: Reals, still: Reals) -> bool:
-    """Whether pairs had to be joined or opened, of those that touch with equal speeds (`still`)."""
+    """True if pairs had to be joined or opened, among those that touch with equal speeds (`still`)."""
     joined, fell, pairs = numbers[lay[JOINED] :], lay[GAPS], lay[PAIRS]
     levered = con[SCALES + 2 * lay[STATES] :]
     changed = False
@@ -61,7 +61,10 @@ def pressed(y: Reals, numbers: Reals, lay: Integers, con: Reals, k: Reals, w: Re
 
 
 def stilled(y: Reals, numbers: Reals, lay: Integers, con: Reals, still: Reals) -> None:
-    """Which gaps are closed and neither open nor close; joined ones that do are joined no more."""
+    """Mark the gaps that are closed and neither open nor close.
+
+    Joined gaps that open or close are joined no more.
+    """
     for p in range(lay[PAIRS]):
         still[p] = 0.0
         if touches(p, y, numbers, lay):

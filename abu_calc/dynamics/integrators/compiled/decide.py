@@ -34,14 +34,14 @@ from abu_calc.dynamics.integrators.compiled.impact import approaching, meeting
 ROUNDS = 16
 
 CLEAR = 1e-9
-"""Of depths and gaps of wheel and work, relative to what is usual: less than this is nothing."""
+"""Depth or gap of wheel and workpiece, relative to the usual one, below which it counts as nothing."""
 
 
 def decided(
     t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
     room: Reals,
 ) -> bool:  # fmt: skip
-    """Whether a next mode was found; `k`, `w` are then rates and watched numbers to go on with.
+    """True if a next mode was found; `k`, `w` are then rates and watched numbers to go on with.
 
     Otherwise state and modes are as before.
     """
@@ -67,7 +67,10 @@ def switched(
     t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, k: Reals, w: Reals,
     room: Reals,
 ) -> bool:  # fmt: skip
-    """What the number that fell says by itself, or a start; False for effects whose modes are not known here."""
+    """Apply the mode that follows directly from the number that fell, or from a start.
+
+    False for effects whose modes are not known here.
+    """
     fell, pairs = count[FOUND], lay[PAIRS]
     if fell < 0:
         if lay[GAPS] >= 0 and approaching(y, numbers, lay, con):

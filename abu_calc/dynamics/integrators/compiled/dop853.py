@@ -10,7 +10,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import Reals, rates, watched
 
 METHOD_ORDER = 8
 EXPONENT = -1 / 8
-"""Of the error in the factor on the next step."""
+"""Exponent of the error in the factor on the next step."""
 STAGES, EXTRA = 12, 3
 """Evaluations of a step, and of its dense output."""
 KEPT, LAST, BETWEEN = 16, 12, 7
@@ -18,7 +18,10 @@ KEPT, LAST, BETWEEN = 16, 12, 7
 
 
 def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Reals, w: Reals) -> None:
-    """From y, whose rates are the first of k, to the end: thirteen rates, the last with what is watched there."""
+    """Compute one step from y, whose rates are the first of k, to the end: thirteen rates.
+
+    The last rates come with the watched numbers there.
+    """
     k1, k2, k3, k4, k5, k6 = k, k[n:], k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :]
     k7, k8, k9, k10, k11, k12 = k[6 * n :], k[7 * n :], k[8 * n :], k[9 * n :], k[10 * n :], k[11 * n :]
     for i in range(n):
@@ -103,7 +106,7 @@ def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, rel
 
 
 def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Reals, between: Reals, at: Reals) -> None:
-    """What the dense output of a step needs."""
+    """Prepare the dense output of a step."""
     k1, k6, k7, k8, k9, k10 = k, k[5 * n :], k[6 * n :], k[7 * n :], k[8 * n :], k[9 * n :]
     k11, k12, k13, k14, k15, k16 = k[10 * n :], k[11 * n :], k[12 * n :], k[13 * n :], k[14 * n :], k[15 * n :]
     for i in range(n):
@@ -153,10 +156,10 @@ def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Re
         seventh[i] = h * more
 
 
-def dense(x: float, n: int, y: Reals, between: Reals, found: Reals) -> None:
+def dense(x: float, n: int, y: Reals, between: Reals, state: Reals) -> None:
     """The state at a share x of a step."""
     for i in range(n):
-        found[i] = within(i, x, n, y, between)
+        state[i] = within(i, x, n, y, between)
 
 
 def within(i: int, x: float, n: int, y: Reals, between: Reals) -> float:

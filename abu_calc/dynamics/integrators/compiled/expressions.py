@@ -15,8 +15,8 @@ class Expressions(Writer):
 
     def value(self, node: ast.expr) -> Value:
         """Type and text of an expression."""
-        found: Value = self.handler("of", node)(node)
-        return found
+        translation: Value = self.handler("of", node)(node)
+        return translation
 
     def number(self, node: ast.expr, kind: str) -> str:
         """An expression of this type."""
@@ -34,7 +34,7 @@ class Expressions(Writer):
         return ELEMENTS[kind], self.new(f"getelementptr {ELEMENTS[kind]}, ptr {base}, i64 {index}")
 
     def array(self, node: ast.Subscript) -> Value:
-        """What a subscript is taken of."""
+        """Array whose element a subscript takes."""
         if not isinstance(node.value, ast.Name):
             self.refuse(node, "elements are those of a named array")
         kind, base = self.load(node.value)
@@ -65,7 +65,7 @@ class Expressions(Writer):
         return "double", self.new(f"{REAL_SIGNS[sign]} double {left}, {right}")
 
     def of_UnaryOp(self, node: ast.UnaryOp) -> Value:  # noqa: N802
-        """Not, or minus."""
+        """Logical negation, or minus."""
         if isinstance(node.op, ast.Not):
             return "i1", self.new(f"xor i1 {self.truth(node.operand)}, true")
         kind, text = self.value(node.operand)
@@ -74,7 +74,7 @@ class Expressions(Writer):
         return kind, self.new(f"fneg double {text}" if kind == "double" else f"sub i64 0, {text}")
 
     def of_Compare(self, node: ast.Compare) -> Value:  # noqa: N802
-        """Of two numbers; nothing that is no number is less, greater or equal."""
+        """Comparison of two numbers; a value that is no number is neither less, greater nor equal."""
         if len(node.ops) != 1 or type(node.ops[0]) not in COMPARED:
             self.refuse(node, "one comparison of two numbers")
         a, b, word = self.value(node.left), self.value(node.comparators[0]), COMPARED[type(node.ops[0])]
@@ -88,18 +88,18 @@ class Expressions(Writer):
     def of_BoolOp(self, node: ast.BoolOp) -> Value:  # noqa: N802
         """The second is looked at only where the first does not decide."""
         end, is_and = self.label("end"), isinstance(node.op, ast.And)
-        found = ast.Name(self.label("truth"))
-        self.kinds[found.id] = "i1"
-        for k, one in enumerate(node.values):
-            text = self.truth(one)
-            self.put(f"store i1 {text}, ptr %{found.id}")
+        truth = ast.Name(self.label("truth"))
+        self.kinds[truth.id] = "i1"
+        for k, operand in enumerate(node.values):
+            text = self.truth(operand)
+            self.put(f"store i1 {text}, ptr %{truth.id}")
             if k + 1 < len(node.values):
                 onward = self.label("onward")
                 self.branch(text, *((onward, end) if is_and else (end, onward)))
                 self.block(onward)
         self.jump(end)
         self.block(end)
-        return self.load(found)
+        return self.load(truth)
 
     def of_IfExp(self, node: ast.IfExp) -> Value:  # noqa: N802
         """The other side is not computed."""
@@ -112,14 +112,14 @@ class Expressions(Writer):
             sides.append((*value, len(self.body)))
             self.jump(end)
         kind = sides[0][0] if sides[0][0] == sides[1][0] else "double"
-        found = ast.Name(self.label("either"))
-        self.kinds[found.id] = kind
+        choice = ast.Name(self.label("either"))
+        self.kinds[choice.id] = kind
         for have, text, at in reversed(sides):  # the later one first, so that places stay where they are
             here, self.body = self.body, []
-            self.put(f"store {shown(kind)} {self.as_kind((have, text), kind, node)}, ptr %{found.id}")
+            self.put(f"store {shown(kind)} {self.as_kind((have, text), kind, node)}, ptr %{choice.id}")
             self.body = [*here[:at], *self.body, *here[at:]]
         self.block(end)
-        return self.load(found)
+        return self.load(choice)
 
     def of_Subscript(self, node: ast.Subscript) -> Value:  # noqa: N802
         """An element, or the same array from a place on."""

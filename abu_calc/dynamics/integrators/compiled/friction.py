@@ -47,7 +47,7 @@ def together(y: Reals, numbers: Reals, lay: Integers) -> None:
 
 
 def rubbed(y: Reals, numbers: Reals, lay: Integers, k: Reals, w: Reals) -> bool:
-    """Whether balls had to be given another side or, being at rest, another way."""
+    """True if balls had to be given another side or, being at rest, another direction."""
     n, first, fell, pulls = lay[BALLS], lay[RATES], lay[FRICTION], lay[PULLS]
     turn, side = numbers[lay[DIRECTION] :], numbers[lay[SIDE] :]
     changed = False

@@ -34,7 +34,7 @@ from abu_calc.dynamics.switching.touching import MOST_IMPACTS
 
 
 def approaching(y: Reals, numbers: Reals, lay: Integers, con: Reals) -> bool:
-    """Whether any touching pair does."""
+    """True if any touching pair approaches."""
     return any(touches(p, y, numbers, lay) and opening(p, lay, y) < -0.1 * con[REST] for p in range(lay[PAIRS]))
 
 
@@ -101,7 +101,10 @@ def squeezed(
     many: int, near: Reals, closes: Reals, speed: Reals, torque: Reals, right: Reals, matrix: Reals, work: Reals,
     chosen: Integers,
 ) -> None:  # fmt: skip
-    """With what torques pairs that touch press, by their relative accelerations without any: never to hold them."""
+    """Compute the torques with which touching pairs press, from their relative accelerations without any.
+
+    The torques never hold pairs together.
+    """
     for a in range(many):
         near[a] = 1.0
     for _ in range(2 * many + 4):
@@ -154,7 +157,7 @@ def evened(
 
 def closing(
     t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, count: Integers, k: Reals, many: int,
-    met: Integers, saved: Reals, found: Reals,
+    met: Integers, saved: Reals, answers: Reals,
 ) -> None:  # fmt: skip
     """Relative accelerations of the pairs that touch, were none held together."""
     joined = numbers[lay[JOINED] :]
@@ -166,14 +169,17 @@ def closing(
     for p in range(lay[PAIRS]):
         joined[p] = saved[p]
     for a in range(many):
-        found[a] = opening(met[a], lay, k)
+        answers[a] = opening(met[a], lay, k)
 
 
 def responses(
     t: float, y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, count: Integers, free: Reals,
     saved: Reals, many: int, met: Integers, kicks: Reals,
 ) -> None:  # fmt: skip
-    """What unit torques that part the pairs do to all rates, with all balls free and no friction."""
+    """Compute the changes of all rates by unit torques that separate the pairs.
+
+    All balls are free, and there is no friction.
+    """
     n, pairs, states, modes = lay[BALLS], lay[PAIRS], lay[STATES], lay[DIRECTION]
     push, levered, joined = numbers[lay[PUSH] :], con[SCALES + 2 * states :], numbers[lay[JOINED] :]
     for p in range(pairs):

@@ -24,7 +24,7 @@ STEP_NAMES: Final = ("METHOD_ORDER", "EXPONENT", "STAGES", "EXTRA", "KEPT", "LAS
 
 
 def kernels(method: Method) -> tuple[ModuleType, ...]:
-    """In the order in which they import each other."""
+    """Modules of the compiled loop, in the order in which they import each other."""
     return (METHODS[method], step_size, locate, friction, contact, impact, decide, loop)
 
 

@@ -29,7 +29,7 @@ def _parsed(text: str) -> list[ast.stmt]:
 
 
 def numbers(names: Mapping[str, Any]) -> dict[str, float]:
-    """Those names that are numbers."""
+    """Names whose values are numbers."""
     return {name: value for name, value in names.items() if isinstance(value, int | float)}
 
 
@@ -39,17 +39,17 @@ def translated(parts: Sequence[Part], exported: Collection[str], given: str = ""
     `given`: functions, as their text declares them, that another module exports; their addresses are given to
     `connect`, in order. Raises LanguageError where a text is more than the language.
     """
-    outside = {one.name: signature(one) for one in _parsed(given) if isinstance(one, ast.FunctionDef)}
+    outside = {node.name: signature(node) for node in _parsed(given) if isinstance(node, ast.FunctionDef)}
     functions = [
-        (one, numbers(names)) for text, names in parts for one in _parsed(text)
-        if isinstance(one, ast.FunctionDef)
+        (node, numbers(names)) for text, names in parts for node in _parsed(text)
+        if isinstance(node, ast.FunctionDef)
     ]  # fmt: skip
-    known = outside | {one.name: signature(one) for one, _ in functions}
+    known = outside | {node.name: signature(node) for node, _ in functions}
     lines = [f"declare double @{name}(double) memory(none) nounwind willreturn" for name in FUNCTIONS.values()]
     lines.append("declare double @llvm.pow.f64(double, double)")
     lines += [f"@{name}.at = internal global ptr null" for name in outside]
-    for one, constants in functions:
-        lines += _Function(one, known, constants, outside).lines(one.name in exported)
+    for function, constants in functions:
+        lines += _Function(function, known, constants, outside).lines(function.name in exported)
     stored = [f"  store ptr %{name}, ptr @{name}.at" for name in outside]
     arguments = ", ".join(f"ptr %{name}" for name in outside)
     return "\n".join([*lines, f"define void @connect({arguments}) {{", *stored, "  ret void", "}", ""])
@@ -84,9 +84,9 @@ class _Function(Calls):
             return self.store(target, self.value(node.value))
         if not isinstance(node.value, ast.Tuple) or len(node.value.elts) != len(target.elts):
             self.refuse(node, "as many values as names")
-        values = [self.value(one) for one in node.value.elts]
-        for one, value in zip(target.elts, values, strict=True):
-            self.store(one, value)
+        values = [self.value(expression) for expression in node.value.elts]
+        for element, value in zip(target.elts, values, strict=True):
+            self.store(element, value)
         return None
 
     def do_AnnAssign(self, node: ast.AnnAssign) -> None:  # noqa: N802
@@ -113,8 +113,8 @@ class _Function(Calls):
         self.branch(self.truth(node.test), yes, no)
         for label, body in ((yes, node.body), (no, node.orelse)):
             self.block(label)
-            for one in body:
-                self.statement(one)
+            for statement in body:
+                self.statement(statement)
             self.jump(end)
         self.block(end)
 
@@ -133,7 +133,7 @@ class _Function(Calls):
         counts = isinstance(call, ast.Call) and ast.unparse(call.func) == "range" and len(call.args) in (1, 2)
         if not counts or not isinstance(call, ast.Call) or not isinstance(target, ast.Name):
             self.refuse(node, "for name in range(one or two numbers)")
-        bounds = [self.number(one, "i64") for one in call.args]
+        bounds = [self.number(argument, "i64") for argument in call.args]
         counter = ast.Name(self.label("counter"))  # the name itself keeps its last value, as Python's does
         self.store(counter, ("i64", bounds[0] if len(bounds) == 2 else "0"))
         test, body, onward, end = (self.label(name) for name in ("test", "body", "onward", "end"))
@@ -154,8 +154,8 @@ class _Function(Calls):
         if node.orelse:
             self.refuse(node, "loops have no else")
         self.loops.append((onward, end))
-        for one in node.body:
-            self.statement(one)
+        for statement in node.body:
+            self.statement(statement)
         self.loops.pop()
 
     def do_Break(self, node: ast.Break) -> None:  # noqa: N802

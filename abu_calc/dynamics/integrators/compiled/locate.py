@@ -28,14 +28,17 @@ CHECKS = 4
 NEVER = 2.0
 """No event in the step."""
 PRESSED = 0.5
-"""Where the race presses on all balls with so much of what it presses most with, and of what keeps a ball on its way
-round with the rotor, at both ends of a step, none leaves it in between."""
+"""Least share of two forces, at both ends of a step, with which no ball leaves the race in between.
+
+The race must press on all balls with this share of its largest normal force, and of the force that
+keeps a ball on its way round with the rotor.
+"""
 FINE = 2e-16
 """Share of a step, or of the time itself, to which an event is located."""
 
 
 def moving(lay: Integers, before: Reals, after: Reals) -> int:
-    """How many of the watched numbers, in their order, may fall within a step; by all of them at its ends."""
+    """Number of watched numbers, in their order, that may fall within a step, by all of them at its ends."""
     first, balls = lay[FRICTION] + 2 * lay[BALLS], lay[BALLS] if lay[FRICTION] >= 0 else 0
     for k in range(lay[SEEN], lay[WATCHED]):
         i = lay[lay[ORDER] + k]
@@ -88,9 +91,10 @@ def crossing(
     index: int, above: float, high: float, below: float, low: float, t: float, h: float, y: Reals, par: Reals,
     lay: Integers, count: Integers, between: Reals, at: Reals, dy: Reals, w: Reals,
 ) -> float:  # fmt: skip
-    """Where a number falls below zero, between two places; itself a place where it has.
+    """Place between two others at which a number falls below zero; the number is below zero there.
 
-    Source: Chandrupatla 1997, Advances in Engineering Software 28(3), 145: inverse quadratic where that is safe.
+    Source: Chandrupatla 1997, Advances in Engineering Software 28(3), 145: inverse quadratic where that is
+    safe.
     """
     a, fa, b, fb, c, fc = below, low, above, high, above, high
     share = fa / (fa - fb)
@@ -120,7 +124,7 @@ def dips(
     at: Reals, dy: Reals, w: Reals, rows: Reals,
 ) -> float:  # fmt: skip
     """The first event of the numbers that fall and rise again within the last two quarters."""
-    values, found = lay[VALUES], NEVER
+    values, event = lay[VALUES], NEVER
     first, second, third = rows[(check - 2) * values :], rows[(check - 1) * values :], rows[check * values :]
     for k in range(many):
         i = lay[lay[ORDER] + k]
@@ -135,10 +139,10 @@ def dips(
                     above = (check - 2) / CHECKS if lowest < 1.0 else (check - 1) / CHECKS
                     high = first[i] if lowest < 1.0 else second[i]
                     x = crossing(i, above, high, x, w[i], t, h, y, par, lay, count, between, at, dy, w)
-                    if x < found:
-                        found = x
+                    if x < event:
+                        event = x
                         count[FOUND] = i
-    return found
+    return event
 
 
 def fallen(
@@ -150,7 +154,7 @@ def fallen(
     Looked for is the one that a straight line says is first, then any that is below zero there: in between others may
     have fallen and risen again, such as what presses balls together shortly before another hits them.
     """
-    values, start, found = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
+    values, start, event = lay[VALUES], (check - 1) / CHECKS, check / CHECKS
     before, low = rows[(check - 1) * values :], rows[check * values :]
     which = earliest(many, lay, before, low, -1)
     if which < 0:
@@ -159,20 +163,21 @@ def fallen(
         count[FOUND] = which
         if before[which] <= 0.0:
             return start
-        x = crossing(which, start, before[which], found, low[which], t, h, y, par, lay, count, between, at, dy, w)
-        if x > found - resolved(t, h):
+        x = crossing(which, start, before[which], event, low[which], t, h, y, par, lay, count, between, at, dy, w)
+        if x > event - resolved(t, h):
             return x
-        found = x
-        look(many, found, t, h, y, par, lay, count, between, at, dy, w)
+        event = x
+        look(many, event, t, h, y, par, lay, count, between, at, dy, w)
         low = w
         which = earliest(many, lay, before, low, which)
-    return found
+    return event
 
 
 def earliest(many: int, lay: Integers, before: Reals, here: Reals, known: int) -> int:
-    """Of the numbers below zero but one, the one that falls first by a straight line; −1 where none is.
+    """Index of the number that falls below zero first by a straight line; −1 if there is none.
 
-    Those that cost next to nothing come before all others: few of these are below zero where the first of them is.
+    One number is left out. Numbers that cost next to nothing come before all others: few of the others are
+    below zero where the first of them is.
     """
     which, least = -1, NEVER
     for k in range(many):
@@ -195,14 +200,14 @@ def located(
     for check in range(1, CHECKS + 1):
         if check < CHECKS:
             look(many, check / CHECKS, t, h, y, par, lay, count, between, at, dy, rows[check * lay[VALUES] :])
-        found = NEVER
+        event = NEVER
         if check > 1:
-            found = dips(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
+            event = dips(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
         which = count[FOUND]
         other = fallen(many, check, t, h, y, par, lay, count, between, at, dy, w, rows)
-        if found < other:
+        if event < other:
             count[FOUND] = which
-            return found
+            return event
         if other < NEVER:
             return other
     return NEVER

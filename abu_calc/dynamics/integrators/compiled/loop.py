@@ -55,14 +55,17 @@ from abu_calc.dynamics.integrators.run import LOOP_EVENT, MOST_STALLED
 SMALLEST = 4e-15
 """Steps below this share of the time are lost in rounding."""
 CLOSER = 1e-4
-"""Of the longest step: in shorter ones, a number that does not rise from the start has not been switched rightly."""
+"""Share of the longest step below which a number that does not rise was switched wrongly.
+
+It applies to a number that does not rise from the start of the step.
+"""
 
 
 def go(
     y: Reals, numbers: Reals, par: Reals, lay: Integers, con: Reals, run: Reals, count: Integers, samples: Reals,
     states: Reals, room: Reals,
 ) -> int:  # fmt: skip
-    """From where the run is toward its end; how it comes back."""
+    """Integrate a run from its present time toward its end; return how it comes back."""
     n, values = lay[STATES], lay[VALUES]
     end, at, dy = room[KEPT * n :], room[(KEPT + 1) * n :], room[(KEPT + 2) * n :]
     between, rows = room[(KEPT + 3) * n :], room[(KEPT + 3 + BETWEEN) * n :]
@@ -145,5 +148,5 @@ def go(
 
 
 def finite(n: int, y: Reals) -> bool:
-    """Whether all states are numbers."""
+    """True if all states are numbers."""
     return all(y[i] - y[i] == 0.0 for i in range(n))

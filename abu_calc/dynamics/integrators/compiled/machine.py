@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any
 
 LEVEL = 2
-"""Of optimisation."""
+"""Level of optimisation."""
 
 
 class CompilerError(Exception):
@@ -43,13 +43,13 @@ def _library() -> Any:
 
 @cache
 def _features() -> str:
-    """What this processor knows."""
-    found: str = _library().get_host_cpu_features().flatten()
-    return found
+    """Features of this processor."""
+    features: str = _library().get_host_cpu_features().flatten()
+    return features
 
 
 def _target() -> Any:
-    """This machine; each engine takes one of its own."""
+    """Target machine for this computer; each engine takes one of its own."""
     llvm = _library()
     return llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(
         cpu=llvm.get_host_cpu_name(),
@@ -62,7 +62,7 @@ def _target() -> Any:
 
 @cache
 def described() -> str:
-    """What machine code depends on beside its text. Raises CompilerError."""
+    """Description of all that machine code depends on besides its text. Raises CompilerError."""
     with guarded("llvmlite"):
         llvm = _library()
         name = llvm.get_host_cpu_name()
@@ -95,12 +95,12 @@ class Loaded:
             self._engine.finalize_object()
 
     def address(self, name: str) -> int:
-        """Where a function is. Raises CompilerError."""
+        """Address of a function. Raises CompilerError."""
         with guarded("loading compiled code"):
-            found: int = self._engine.get_function_address(name)
-        if not found:
+            pointer: int = self._engine.get_function_address(name)
+        if not pointer:
             raise CompilerError(f"compiled code has no {name}")
-        return found
+        return pointer
 
     def function(self, name: str, pointers: int) -> Callable[..., int]:
         """One that takes so many arrays, by their places, and gives a whole number."""

@@ -23,8 +23,8 @@ def in_order(equations: Equations) -> tuple[Equations, Places]:
         return equations, places
     races = tuple(_renumbered(race, order) for race, order in zip(scene.races, orders, strict=True))
     initial = tuple(np.array(equations.initial)[places].tolist())
-    found = assemble(replace(scene, races=races))
-    return replace(found, initial=initial, longest_step=equations.longest_step, breaks=equations.breaks), places
+    reordered = assemble(replace(scene, races=races))
+    return replace(reordered, initial=initial, longest_step=equations.longest_step, breaks=equations.breaks), places
 
 
 def _order(race: Race) -> Places:
@@ -46,7 +46,7 @@ def _renumbered(race: Race, order: Places) -> Race:
 
 
 def _places(equations: Equations, balls: Places) -> Places:
-    """Of all states: support, angles, speeds and further states of the balls, rotor."""
+    """Places of all states: support, angles, speeds and further states of the balls, rotor."""
     p = equations.parameters
     first, blocks = 2 * p.size, 2 + len(equations.scene.ball_states)
     places = np.arange(len(equations.states))

@@ -30,7 +30,10 @@ EQUATIONS = ("setup", "rates", "watched", "apparent")
 """Functions of a structure, in the order in which `arrays` declares them."""
 
 CHEAP = 1 / 20
-"""Of the operations of all watched numbers: one that takes fewer is worth a function without the others."""
+"""Share of the operations of all watched numbers.
+
+A number that takes fewer is worth a function without the others.
+"""
 
 STATE = re.compile(r"\by(\d+)\b")
 """A state in an expression."""
@@ -63,15 +66,15 @@ class Program:
     numbers: int
     parameters: int
     watched: tuple[int, ...]
-    """How many numbers each effect watches, in order."""
+    """Number of watched numbers of each effect, in order."""
     criteria: tuple[int, ...]
-    """How many numbers its rule chooses by."""
+    """Number of values by which the rule of each effect chooses."""
     apparent: Mapping[int, tuple[int, ...]]
-    """Which of the watched numbers cost next to nothing, and what states they ask for."""
+    """Watched numbers that cost next to nothing, and the states that they need."""
 
     @property
     def values(self) -> int:
-        """What `watched` gives."""
+        """Number of values that `watched` gives."""
         return sum(self.watched) + sum(self.criteria)
 
 
@@ -121,16 +124,16 @@ def _function(name: str, arguments: str, graph: Graph, results: Mapping[str, Map
 
 
 def _states(texts: tuple[list[str], list[str]]) -> tuple[int, ...]:
-    """Which of them are in assignments and results."""
-    return tuple(sorted({int(one) for rows in texts for text in rows for one in STATE.findall(text)}))
+    """Indices of the states that occur in assignments and results."""
+    return tuple(sorted({int(index) for rows in texts for text in rows for index in STATE.findall(text)}))
 
 
 def places(modes: Modes) -> list[dict[str, int]]:
-    """Where the numbers of each effect's mode are, by field ("" where the mode is a number or an array itself).
+    """Places of each effect's mode numbers, by field ("" if the mode is a number or an array itself).
 
     Counted from the end of all numbers, where they stand in the order in which `Numbers` flattens them.
     """
-    found: list[dict[str, int]] = []
+    rows: list[dict[str, int]] = []
     place = 0
     for mode in modes:
         row: dict[str, int] = {}
@@ -141,5 +144,5 @@ def places(modes: Modes) -> list[dict[str, int]]:
             if isinstance(value, float | np.ndarray):
                 row[name] = place
                 place += int(np.size(value))
-        found.append(row)
-    return [{name: at - place for name, at in row.items()} for row in found]
+        rows.append(row)
+    return [{name: at - place for name, at in row.items()} for row in rows]

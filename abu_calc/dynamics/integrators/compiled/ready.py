@@ -1,4 +1,4 @@
-"""Whether compiled code runs here, and whether that of a scene is ready to run."""
+"""Readiness of compiled code: whether it runs here, and whether that of a scene is ready to run."""
 
 import warnings
 
@@ -22,7 +22,7 @@ def missing() -> str | None:
 
 
 def loaded(equations: Equations, method: Method) -> bool:
-    """Whether this process has the code of a scene."""
+    """True if this process has the code of a scene."""
     _, structure, _ = described(in_order(equations)[0])
     return code.known(structure, method)
 

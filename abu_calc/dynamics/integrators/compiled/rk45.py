@@ -10,7 +10,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import Reals, rates, watched
 
 METHOD_ORDER = 5
 EXPONENT = -1 / 5
-"""Of the error in the factor on the next step."""
+"""Exponent of the error in the factor on the next step."""
 STAGES, EXTRA = 6, 0
 """Evaluations of a step, and of its dense output."""
 KEPT, LAST, BETWEEN = 7, 6, 4
@@ -18,7 +18,10 @@ KEPT, LAST, BETWEEN = 7, 6, 4
 
 
 def stages(t: float, h: float, n: int, y: Reals, par: Reals, k: Reals, end: Reals, w: Reals) -> None:
-    """From y, whose rates are the first of k, to the end: seven rates, the last with what is watched there."""
+    """Compute one step from y, whose rates are the first of k, to the end: seven rates.
+
+    The last rates come with the watched numbers there.
+    """
     a, b, c, d, e, f = k, k[n:], k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :]
     for i in range(n):
         end[i] = y[i] + h * (1 / 5 * a[i])
@@ -56,7 +59,7 @@ def error(h: float, n: int, y: Reals, end: Reals, k: Reals, absolute: Reals, rel
 
 
 def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Reals, between: Reals, at: Reals) -> None:
-    """What the dense output of a step needs."""
+    """Prepare the dense output of a step."""
     c, d, e, f, g = k[2 * n :], k[3 * n :], k[4 * n :], k[5 * n :], k[6 * n :]
     second, third, fourth = between[n:], between[2 * n :], between[3 * n :]
     for i in range(n):
@@ -71,12 +74,12 @@ def prepared(t: float, h: float, n: int, y: Reals, par: Reals, end: Reals, k: Re
         fourth[i] = h * more
 
 
-def dense(x: float, n: int, y: Reals, between: Reals, found: Reals) -> None:
+def dense(x: float, n: int, y: Reals, between: Reals, state: Reals) -> None:
     """The state at a share x of a step."""
     z = 1.0 - x
     second, third, fourth = between[n:], between[2 * n :], between[3 * n :]
     for i in range(n):
-        found[i] = y[i] + x * (between[i] + z * (second[i] + x * (third[i] + z * fourth[i])))
+        state[i] = y[i] + x * (between[i] + z * (second[i] + x * (third[i] + z * fourth[i])))
 
 
 def within(i: int, x: float, n: int, y: Reals, between: Reals) -> float:

@@ -22,7 +22,7 @@ from abu_calc.dynamics.tracing.traced import Numbers, cached
 from abu_calc.dynamics.trajectory import Times, Trajectory
 
 WAYS = {True: "compiled", False: "plain"}
-"""What names of integrators begin with, with a compiler and without."""
+"""First words of the integrators' names, with a compiler and without."""
 
 AT_ONCE = 20_000
 """Evaluations between two returns from compiled code, within which no interrupt is heard: some hundredths of a
@@ -68,8 +68,8 @@ class _Run(Run):
         super().__post_init__()
         equations = self.equations
         self.modes = at_break(equations, 0.0, equations.first_modes)
-        found: tuple[Code | Plain, Array] = (prepared if self.compiled else written)(equations, self.method)
-        self.code, self.numbers = found
+        parts: tuple[Code | Plain, Array] = (prepared if self.compiled else written)(equations, self.method)
+        self.code, self.numbers = parts
         program = self.code.program
         wide = widened(equations, self.modes)
         self.places = numbers_places(wide.modes, len(self.numbers))
@@ -131,7 +131,7 @@ class _Run(Run):
         while how == arrays.PAUSED:
             how = self._go_on()
         self.steps, self.evaluations, self.events = (
-            int(self.counts[one]) for one in (arrays.STEPS, arrays.EVALUATIONS, arrays.EVENTS)
+            int(self.counts[index]) for index in (arrays.STEPS, arrays.EVALUATIONS, arrays.EVENTS)
         )
         now = float(self.clock[arrays.TIME])
         if how == arrays.TOO_MUCH:

@@ -1,7 +1,8 @@
-"""Whether compiled code runs on a system on which nobody has tried it: asked once of a process that may crash.
+"""Trial of compiled code on a system that nobody has tried, once, in a process that may crash.
 
-What a compiler gets wrong may end the process that runs it. So a process of its own compiles a scene with friction and
-contact, and compares with the same loop in plain Python; that it did stands in the folder of compiled code.
+An error of a compiler may end the process that runs its code. So a separate process compiles a scene
+with friction and contact, and compares it with the same loop in plain Python. Its success is recorded
+in the folder of compiled code.
 """
 
 import hashlib
@@ -34,9 +35,9 @@ def passed() -> None:
             words = [sys.executable, "-m", __name__]
             seen = subprocess.run(words, capture_output=True, timeout=LONGEST, check=False)
         folder.write(key, PASSED if seen.returncode == 0 else f"it ended with status {seen.returncode}".encode())
-    found = folder.read(key)
-    if found != PASSED:
-        raise machine.CompilerError(f"its trial: {'cannot be kept' if found is None else found.decode()}")
+    record = folder.read(key)
+    if record != PASSED:
+        raise machine.CompilerError(f"its trial: {'cannot be kept' if record is None else record.decode()}")
 
 
 def main() -> None:

@@ -34,8 +34,8 @@ def constant(value: float) -> Value:
 
 
 def signature(function: ast.FunctionDef) -> Signature:
-    """By its annotations."""
-    kinds = [ast.unparse(node) if node else "nothing" for node in (one.annotation for one in function.args.args)]
+    """Signature of a function by its annotations."""
+    kinds = [ast.unparse(node) if node else "nothing" for node in (param.annotation for param in function.args.args)]
     result = ast.unparse(function.returns) if function.returns else "None"
     for kind in (result, *kinds):
         if kind not in TYPES:
@@ -58,7 +58,7 @@ class Writer:
     ) -> None:
         self.node, self.known, self.numbers, self.outside = node, known, numbers, outside
         self.result, kinds = known[node.name]
-        self.kinds = dict(zip((one.arg for one in node.args.args), kinds, strict=True))
+        self.kinds = dict(zip((param.arg for param in node.args.args), kinds, strict=True))
         self.arguments = dict(self.kinds)
         self.body: list[str] = []
         self.count = 0
@@ -70,9 +70,9 @@ class Writer:
         raise LanguageError(f"{self.node.name}, line {line}: {ast.unparse(node)!r}: {reason}")
 
     def handler(self, prefix: str, node: ast.AST) -> Any:
-        """What writes a node of this kind."""
-        found = getattr(self, f"{prefix}_{type(node).__name__}", None)
-        return found or self.refuse(node, "the compiled language has no such word")
+        """Method that writes a node of this kind."""
+        method = getattr(self, f"{prefix}_{type(node).__name__}", None)
+        return method or self.refuse(node, "the compiled language has no such word")
 
     def put(self, line: str) -> None:
         """One instruction."""
