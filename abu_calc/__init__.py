@@ -14,30 +14,30 @@ from typing import TYPE_CHECKING, Final
 from abu_calc.version import __version__
 
 if TYPE_CHECKING:
-    from abu_calc.checks import Check
     from abu_calc.dynamics.race import Race
     from abu_calc.dynamics.scene import Scene
     from abu_calc.dynamics.supports.planar import planar
-    from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
-    from abu_calc.spec.read import Machine, read
-    from abu_calc.spec.read_readings import Readings, read_readings
-    from abu_calc.spec.read_recording import read_recording
-    from abu_calc.spec.read_scene import SceneDescription, read_scene
-    from abu_calc.spec.recording import Recording
-    from abu_calc.studies.accuracy import AccuracyResult, accuracy
-    from abu_calc.studies.balance import BalanceResult, balance
-    from abu_calc.studies.check_fit import CheckFitResult, check_fit
-    from abu_calc.studies.compare import CompareResult, compare
-    from abu_calc.studies.effects import EffectsResult, effects
-    from abu_calc.studies.factory import FactoryResult, factory
-    from abu_calc.studies.grinding import GrindingResult, grinding
-    from abu_calc.studies.levels import LevelsResult, levels
-    from abu_calc.studies.simulate import SimulateResult, simulate
-    from abu_calc.studies.size import SizeResult, size
-    from abu_calc.studies.stability import StabilityResult, stability
-    from abu_calc.studies.sweep import sweep
-    from abu_calc.studies.sweeping.result import SweepResult
-    from abu_calc.studies.verify import VerifyResult, verify
+    from abu_calc.features.accuracy.study import AccuracyResult, accuracy
+    from abu_calc.features.balancing.read import Readings, read_readings
+    from abu_calc.features.balancing.study import BalanceResult, balance
+    from abu_calc.features.compare.study import CompareResult, compare
+    from abu_calc.features.design.study import SizeResult, size
+    from abu_calc.features.effects.study import EffectsResult, effects
+    from abu_calc.features.factory.study import FactoryResult, factory
+    from abu_calc.features.grinding.study import GrindingResult, grinding
+    from abu_calc.features.levels.study import LevelsResult, levels
+    from abu_calc.features.seats.study import CheckFitResult, check_fit
+    from abu_calc.features.simulate.study import SimulateResult, simulate
+    from abu_calc.features.stability.study import StabilityResult, stability
+    from abu_calc.features.sweep.result import SweepResult
+    from abu_calc.features.sweep.study import sweep
+    from abu_calc.features.verify.study import VerifyResult, verify
+    from abu_calc.foundation.checks import Check
+    from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, RangeError
+    from abu_calc.inputs.read_machine import Machine, read
+    from abu_calc.inputs.recording import Recording
+    from abu_calc.inputs.recording_files import read_recording
+    from abu_calc.inputs.scene import SceneDescription, read_scene
 
 _ROOMS: Final = {
     "checks": ("Check",),

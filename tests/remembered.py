@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.spec.document import Reading
+from abu_calc.inputs.reading.document import FileReading
 
 STUDIES = ("effects", "grinding", "levels", "simulate", "size", "stability")
 NO_MATTER = {"progress", "workers"}
@@ -39,13 +39,13 @@ def remembered() -> Iterator[None]:
         yield
 
 
-def recalled(name: str, reading: Reading, *arguments: Any, **named: Any) -> Any:
+def recalled(name: str, reading: FileReading, *arguments: Any, **named: Any) -> Any:
     """What the study of this name returns, for tests of what is made of it."""
     return _recalled(getattr(importlib.import_module(f"abu_calc.studies.{name}"), name), reading, *arguments, **named)
 
 
 def _recalled(study: Callable[..., Any], source: Any, *arguments: Any, **named: Any) -> Any:
-    if not isinstance(source, Reading):
+    if not isinstance(source, FileReading):
         return study(source, *arguments, **named)
     key = _key(study, source, *arguments, **named)
     if key not in _made:
@@ -53,7 +53,7 @@ def _recalled(study: Callable[..., Any], source: Any, *arguments: Any, **named: 
     return _made[key]
 
 
-def _key(study: Callable[..., Any], reading: Reading, *arguments: Any, **named: Any) -> str:
+def _key(study: Callable[..., Any], reading: FileReading, *arguments: Any, **named: Any) -> str:
     given = inspect.signature(study).bind(reading, *arguments, **named)
     given.apply_defaults()
     others = [(name, repr(value)) for name, value in list(given.arguments.items())[1:] if name not in NO_MATTER]

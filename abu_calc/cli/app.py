@@ -8,11 +8,10 @@ from typing import Final
 
 import typer
 
-from abu_calc.cli.deliver import fail
+from abu_calc.cli.output import fail
 from abu_calc.cli.streams import make_safe
-from abu_calc.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place
-from abu_calc.escapes import escaped, shortened
-from abu_calc.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
+from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place, escaped, shortened
+from abu_calc.foundation.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
 from abu_calc.version import __version__
 
 FIRST_STEPS: Final = """\

@@ -1,24 +1,134 @@
 """A command is a function that returns an Outcome; this adds the options that all commands share.
 
 Its parameters are called like the arguments of the study it asks, so that an error about an argument names the option.
+
+Options that several commands about scenes share; a parameter is called like the argument of the study it becomes.
+
+The command line that gives a result again, from what was asked for.
+
+The files that a command was asked for, written when all is computed.
 """
 
 import inspect
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import os
+import shlex
+import subprocess
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
 from contextlib import contextmanager
 from dataclasses import replace
+from inspect import Parameter
+from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Final, get_args
 
 import typer
 
-from abu_calc.cli.asked import asked
-from abu_calc.cli.deliver import Delivery, deliver
-from abu_calc.cli.figures import asked_figures, figure_option
-from abu_calc.cli.filing import write_files
-from abu_calc.errors import InputError, Place
-from abu_calc.patience import limited
-from abu_calc.report.outcome import Outcome
+from abu_calc.cli.output import Delivery, asked_figures, deliver, figure_option
+from abu_calc.cli.progress import progress
+from abu_calc.foundation.errors import InputError, OutputError, Place
+from abu_calc.foundation.patience import limited
+from abu_calc.foundation.progress import Progress, Stage
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.charts.figure import Figure
+
+SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
+"""Scenes of a machine; written out here so that `--help` loads no numerics."""
+
+File = Annotated[
+    str, typer.Argument(metavar="MACHINE|SCENE", help="A machine file, the name of a preset, or a scene file.")
+]
+WhichScene = Annotated[str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}.")]
+WhichStart = Annotated[
+    str | None, typer.Option("--start", help="Balls: bunched (default), behind, spread, standstill, settled.")
+]
+Accuracy = Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the results.")]
+Duration = Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")]
+With = Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help="Take an effect in; repeatable.")]
+Without = Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Leave one out; repeatable.")]
+
+
+def asked(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, Any]) -> str:
+    """The command with its arguments, and those options that are not as they are anyway; quoted for a shell."""
+    words = [
+        "abu",
+        name,
+        *(word for key, parameter in parameters.items() if key != "how" for word in _words(parameter, given[key])),
+    ]
+    return subprocess.list2cmdline(words) if os.name == "nt" else shlex.join(words)
+
+
+def _words(parameter: Parameter, value: Any) -> Iterator[str]:
+    """Command-line words of one parameter; none if its default is in force."""
+    if value is None or value == parameter.default:
+        return
+    option = _option(parameter)
+    for each in value if isinstance(value, (list, tuple)) else [value]:
+        if option is None:
+            yield str(each)
+        elif isinstance(each, bool):
+            yield option if each else option.replace("--", "--no-", 1)
+        else:
+            yield from (option, str(each))
+
+
+def _option(parameter: Parameter) -> str | None:
+    """Name of a parameter's option; None for an argument."""
+    for extra in get_args(parameter.annotation)[1:]:
+        # What is declared first stands where typer puts a default, as long as it has not looked at it.
+        declared = (getattr(extra, "default", None), *(getattr(extra, "param_decls", None) or ()))
+        flags = [each for each in declared if isinstance(each, str) and each.startswith("--")]
+        if flags:
+            return flags[0]
+    return None
+
+
+def write_files(outcome: Outcome, how: Delivery) -> bool:
+    """Write all of them; False: there are none. Where one cannot be written, what was computed is told all the same."""
+    if how.output is None and not outcome.further and not how.figures:
+        return False
+    from abu_calc.reporting.files import as_file
+    from abu_calc.reporting.write import Target, write
+
+    own = () if how.output is None else (Target(how.output, as_file(outcome, how.output.suffix.lower())),)
+    try:
+        with progress(how) as tell:
+            named = _figures(outcome, how)
+            files = chain(outcome.further, own, (Target(path, _drawn(figure, path)) for figure, path in named))
+            targets = (Target(path, _told(text, f"writing {path}", tell)) for path, text in files)
+            write(targets, force=how.force)
+    except (InputError, OutputError) as error:
+        computed = f"What was computed: {outcome.status}, exit status {outcome.exit_status} without the file."
+        error.remedy = " ".join(part for part in (error.remedy, computed) if part)
+        raise
+    return True
+
+
+def _figures(outcome: Outcome, how: Delivery) -> "list[tuple[Figure, Path]]":
+    """Requested figures; raises InputError for one that this result does not have."""
+    if not how.figures:
+        return []
+    from abu_calc.registry import named
+
+    there = outcome.extras().figures if outcome.extras else ()
+    return [(named(outcome.command, there, name), path) for name, path in how.figures]
+
+
+def _drawn(figure: "Figure", path: Path) -> Iterator[str | bytes]:
+    from abu_calc.reporting.charts.matplotlib_draw import figure_file
+
+    yield figure_file(figure, path.suffix.lower())
+
+
+def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) -> Iterator[str | bytes]:
+    """The pieces of a text, each told before it is written."""
+    pieces = [text] if isinstance(text, (str, bytes)) else text
+    total = len(pieces) if isinstance(pieces, Sized) else 0
+    for done, piece in enumerate(pieces):
+        tell(Stage(what, done / total) if total else what)
+        yield piece
+
 
 Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="A machine file, or the name of a preset.")]
 Overrides = Annotated[

@@ -13,9 +13,9 @@ from itertools import cycle
 from time import monotonic
 from typing import Final, TextIO
 
-from abu_calc.cli.deliver import Delivery
-from abu_calc.escapes import escaped, shortened
-from abu_calc.progress import Progress, Stage, silent
+from abu_calc.cli.output import Delivery
+from abu_calc.foundation.errors import escaped, shortened
+from abu_calc.foundation.progress import Progress, Stage, silent
 
 SOON = 0.7
 """Seconds that pass in silence: most commands are done by then."""

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.frozen import dataclass
 
-Array = NDArray[Any]
+AnyArray = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,9 +23,9 @@ class Chains:
     """
 
     rings: tuple[tuple[int, ...], ...]
-    joined: Array
+    joined: AnyArray
 
-    def sums(self, x: Array) -> Array:
+    def sums(self, x: AnyArray) -> AnyArray:
         """Sum over the chain of each ball.
 
         >>> Chains(((0, 1, 2, 3),), np.array((1.0, 0.0, 0.0, 1.0))).sums(np.array((1.0, 2.0, 4.0, 8.0))).tolist()
@@ -33,11 +33,11 @@ class Chains:
         """
         return x + self._gathered(x, self._gaps) + self._gathered(x, self._turned)
 
-    def behind(self, x: Array) -> Array:
+    def behind(self, x: AnyArray) -> AnyArray:
         """Sum over each ball and all of its chain behind it."""
         return x + self._gathered(x, self._gaps)
 
-    def ahead(self, x: Array) -> Array:
+    def ahead(self, x: AnyArray) -> AnyArray:
         """Sum over each ball and all of its chain ahead of it."""
         return x + self._gathered(x, self._turned)
 
@@ -55,7 +55,7 @@ class Chains:
         """The same, the other way round."""
         return [(ring[::-1], [*gaps[-2::-1], gaps[-1]]) for ring, gaps in self._gaps]
 
-    def leads(self, balls: int) -> Array:
+    def leads(self, balls: int) -> AnyArray:
         """1 for the last ball of each chain, 0 for those that have a joined gap behind them."""
         flags: list[Any] = [1.0] * balls
         for ring, gaps in self._gaps:
@@ -63,12 +63,12 @@ class Chains:
                 flags[ball] = 1.0 - gaps[place - 1]
         return np.array(flags)
 
-    def together(self, balls: int) -> Array:
+    def together(self, balls: int) -> AnyArray:
         """n × n: 1 for balls of one chain; for numbers alone."""
         unity = np.eye(balls)
         return np.array([self.sums(row) for row in unity])
 
-    def _gathered(self, x: Array, rings: list[tuple[tuple[int, ...], list[Any]]]) -> Array:
+    def _gathered(self, x: AnyArray, rings: list[tuple[tuple[int, ...], list[Any]]]) -> AnyArray:
         """Sum over the chain before each ball in its ring; zero if that gap is open."""
         sums: list[Any] = [0.0] * len(x)
         for ring, gaps in rings:

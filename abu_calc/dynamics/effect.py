@@ -10,12 +10,12 @@ from typing import Any, ClassVar, Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.circumstances import Circumstances, Holding
-from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Modes, Parameters
-from abu_calc.dynamics.rotor import STEADY, Rotor
+from abu_calc.dynamics.rotor import STEADY, Rotation
+from abu_calc.dynamics.scene_context import Circumstances, Holding
 from abu_calc.dynamics.trajectory import Samples
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.frozen import dataclass
 
 Kind = Literal["conservative", "dissipative", "driven"]
 
@@ -27,7 +27,7 @@ ACROSS_RATE = "across'"
 
 
 @dataclass(frozen=True)
-class Weight:
+class EffectInfluence:
     """Estimated influence of an effect: the change if it is left out.
 
     It is measured as accuracy measures errors; None without a cheap estimate.
@@ -153,7 +153,7 @@ class Effect:
     # Properties others ask an effect for, so that nobody needs to ask which effect it is.
 
     @property
-    def rotor(self) -> Rotor:
+    def rotor(self) -> Rotation:
         """Way of turning that the effect requires of the rotor; the most that any effect requires counts."""
         return STEADY
 
@@ -208,7 +208,7 @@ class Effect:
     def act(self, m: Motion, mode: Any, own: Any, levers: Levers, loads: Loads, p: Parameters) -> None:
         """Add what it does to levers and loads."""
 
-    def rates(self, m: Motion, own: Any, solved: Solved) -> Array:
+    def rates(self, m: Motion, own: Any, solved: Solved) -> AnyArray:
         """Time derivatives of its own states."""
         raise NotImplementedError
 
@@ -274,6 +274,6 @@ class Effect:
         """
         return ()
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Estimated influence: the change if the effect is left out."""
-        return Weight(None, "")
+        return EffectInfluence(None, "")

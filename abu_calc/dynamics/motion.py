@@ -6,9 +6,9 @@ from typing import Any
 from numpy.typing import NDArray
 
 from abu_calc.dynamics.chains import Chains
-from abu_calc.errors import InputError
+from abu_calc.foundation.errors import InputError
 
-Array = NDArray[Any]
+AnyArray = NDArray[Any]
 """Array of numbers, complex numbers or symbols."""
 
 
@@ -25,18 +25,18 @@ class Motion:
 
     xp: Any
     t: Any
-    support: Array
-    theta: Array
-    rate: Array
+    support: AnyArray
+    theta: AnyArray
+    rate: AnyArray
     turn: Any
     speed: Any
     own_speed: Any
     acceleration: Any
-    sin: Array
-    cos: Array
-    swing: Array
-    radii: Array
-    static_moments: Array
+    sin: AnyArray
+    cos: AnyArray
+    swing: AnyArray
+    radii: AnyArray
+    static_moments: AnyArray
     offset: Any = None
     rolled: Any = None
 
@@ -58,8 +58,8 @@ class Axial:
 class Leaning:
     """A race that leans: where its balls stand along the spindle, and how fast [m, m/s]."""
 
-    height: Array
-    rise: Array
+    height: AnyArray
+    rise: AnyArray
 
 
 @dataclass(slots=True)
@@ -73,9 +73,9 @@ class Levers:
     their race tilts.
     """
 
-    along: Array
-    outward: Array
-    mass: Array | None
+    along: AnyArray
+    outward: AnyArray
+    mass: AnyArray | None
     carried_along: Any = None
     carried_outward: Any = None
     axial: Axial | None = None
@@ -99,10 +99,10 @@ class Across:
     `Loads`, set by the same effect as there.
     """
 
-    along: Array
+    along: AnyArray
     inertia: Any
-    drive: Array
-    outward: Array
+    drive: AnyArray
+    outward: AnyArray
     grip: Any = None
     free: Any = None
 
@@ -113,17 +113,17 @@ class Across:
 
 
 @dataclass(slots=True)
-class Bound:
+class Constraint:
     """A constraint row · A = value; its reaction acts on the frame along `force`.
 
     `holds`: 1, or 0 while it does not; `beside`: one more, which has none beside it.
     """
 
-    row: Array
+    row: AnyArray
     value: Any
-    force: Array
+    force: AnyArray
     holds: Any = 1.0
-    beside: "Bound | None" = None
+    beside: "Constraint | None" = None
 
 
 @dataclass(slots=True)
@@ -149,7 +149,7 @@ class Loads:
     leads: Any = None
     hold: Any = None
     across: Across | None = None
-    bound: Bound | None = None
+    bound: Constraint | None = None
 
     def add(self, **more: Any) -> None:
         """Add to `pull`, `press` or `frame`."""
@@ -175,9 +175,9 @@ class Solved:
     move together or stick; `across_left` (n): all force in the second direction.
     """
 
-    frame: Array
-    balls: Array
-    support: Array
+    frame: AnyArray
+    balls: AnyArray
+    support: AnyArray
     normal: Any
     across: Any
     rotor: Any

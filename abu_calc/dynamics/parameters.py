@@ -3,9 +3,9 @@
 from abc import ABC, abstractmethod
 from typing import Any
 
-from abu_calc.dynamics.motion import Array, Levers, Motion
-from abu_calc.dynamics.rotor import Rotor
-from abu_calc.frozen import dataclass
+from abu_calc.dynamics.motion import AnyArray, Levers, Motion
+from abu_calc.dynamics.rotor import Rotation
+from abu_calc.foundation.frozen import dataclass
 
 Modes = tuple[Any, ...]
 """Present mode of each effect (sticking, touching …); None if it has only one way to act."""
@@ -15,21 +15,21 @@ Modes = tuple[Any, ...]
 class Frame:
     """The frame: the d accelerations of a support that balls feel, and what force and mass stand behind them."""
 
-    mass: Array
+    mass: AnyArray
     """d × d: what the frame weighs with the support behind it, (P M⁻¹ Pᵀ)⁻¹; with the row of a driven rotor."""
-    held: Array
+    held: AnyArray
     """d × 2N: the force of springs and dampers on the frame is `held @ (q, q')`."""
     turning: tuple[int, ...] = ()
     """Rows that turn the rotor and its races."""
-    whole: Array | None = None
+    whole: AnyArray | None = None
     """`mass` with balls at rest in their races, where that is constant."""
-    held_spinning: Array | None = None
+    held_spinning: AnyArray | None = None
     """Likewise to `held` the gyroscopic force, per unit speed."""
-    rest: Array | None = None
+    rest: AnyArray | None = None
     """N × 2N, with the next: q'' = rest @ (q, q') + carry @ frame accelerations; None where these are the same."""
-    carry: Array | None = None
-    rest_spinning: Array | None = None
-    steady_force: Array | None = None
+    carry: AnyArray | None = None
+    rest_spinning: AnyArray | None = None
+    steady_force: AnyArray | None = None
     """d: constant forces on the frame."""
 
 
@@ -42,16 +42,16 @@ class Geometry(ABC):
         """Levers of the frame, with the rows of the rotor."""
 
     @abstractmethod
-    def imbalance(self, m: Motion, p: "Parameters") -> tuple[Array, Array | None]:
+    def imbalance(self, m: Motion, p: "Parameters") -> tuple[AnyArray, AnyArray | None]:
         """Force of the imbalance on the frame, and what it weighs there."""
 
-    def turning(self, support: Array) -> tuple[Any, Any] | None:
+    def turning(self, support: AnyArray) -> tuple[Any, Any] | None:
         """Turn and speed of the rotor's carrier by the support; None if the support does not turn it."""
         return None
 
     # Where work is pressed to a wheel: only of supports that answer by `Support.plane`.
 
-    def plane(self, z: Any) -> Array:
+    def plane(self, z: Any) -> AnyArray:
         """2 × N: x and y at a place z along the spindle per unit of each coordinate."""
         raise NotImplementedError
 
@@ -59,7 +59,7 @@ class Geometry(ABC):
         """Forces at such a place as the frame feels them."""
         raise NotImplementedError
 
-    def rates(self, m: Motion, p: "Parameters") -> Array:
+    def rates(self, m: Motion, p: "Parameters") -> AnyArray:
         """Velocities of the frame."""
         raise NotImplementedError
 
@@ -71,29 +71,29 @@ class Parameters:
     size: int
     """N, the support's coordinates."""
     balls: int
-    rotor: Rotor
+    rotor: Rotation
     geometry: Geometry
     frame: Frame
     speed: Any
-    masses: Array
-    radii: Array
+    masses: AnyArray
+    radii: AnyArray
     """R_p of each ball."""
-    static_moments: Array
+    static_moments: AnyArray
     """m R_p of each ball."""
-    drags: Array
+    drags: AnyArray
     """R_p h₀ of each ball."""
-    braking: Array
+    braking: AnyArray
     """−R_p h₀ of each ball."""
-    inertia_factors: Array
-    mobilities: Array
+    inertia_factors: AnyArray
+    mobilities: AnyArray
     """1/J of each ball."""
-    reduced_masses: Array
+    reduced_masses: AnyArray
     """m/J of each ball."""
-    spins: Array
+    spins: AnyArray
     """(J − 1) r of each ball: its own turning when the rotor's speed changes."""
-    spin_inertia: Array | None
+    spin_inertia: AnyArray | None
     """d × d: Σ m (J − 1) r², what that weighs in the turning of rotor and arm."""
-    places: Array
+    places: AnyArray
     """z of each ball's race."""
     imbalance: Any
     imbalance_angle: Any

@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 LARGEST: Final = sys.float_info.max
 NON_NEGATIVE: Final = (0.0, LARGEST)

@@ -9,10 +9,10 @@ from typing import Any, ClassVar, Final, final
 
 import numpy as np
 
-from abu_calc.dynamics.motion import Array, Levers, Motion
+from abu_calc.dynamics.motion import AnyArray, Levers, Motion
 
 
-class Rotor(ABC):
+class Rotation(ABC):
     """One way of turning. Turn and speed are counted from what carries the rotor, an arm for instance."""
 
     states: ClassVar[tuple[str, ...]] = ("turn", "turn'")
@@ -33,11 +33,11 @@ class Rotor(ABC):
         """States of the rotor at t = 0."""
         return (0.0, speed)
 
-    def rates(self, y: Any, acceleration: Any) -> list[Array]:
+    def rates(self, y: Any, acceleration: Any) -> list[AnyArray]:
         """Time derivatives of its states."""
         return [np.array((y[-1], acceleration))]
 
-    def acceleration(self, m: Motion, A: Array) -> Any:
+    def acceleration(self, m: Motion, A: AnyArray) -> Any:
         """Acceleration of the rotor [rad/s²], from that of the frame."""
         return m.acceleration
 
@@ -47,20 +47,20 @@ class Rotor(ABC):
 
     @abstractmethod
     def unbalanced(
-        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
-    ) -> tuple[Array, Any]:
+        self, m: Motion, force: AnyArray, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[AnyArray, Any]:
         """Force of an imbalance on the frame and what it weighs there, by those on the support at constant speed.
 
         `coupling` (d): its inertia between frame and turning; `own`: torque on the rotor at a constant speed [N m].
         """
 
-    def on_frame(self, forces: Any, torque: Any) -> Array:
+    def on_frame(self, forces: Any, torque: Any) -> AnyArray:
         """Forces on the frame with a torque on the rotor."""
         return np.array(forces)
 
 
 @final
-class Steady(Rotor):
+class SteadyRotation(Rotation):
     """Rotation at constant speed: the turn is speed times time."""
 
     states = ()
@@ -73,19 +73,19 @@ class Steady(Rotor):
         """There are none."""
         return ()
 
-    def rates(self, y: Any, acceleration: Any) -> list[Array]:
+    def rates(self, y: Any, acceleration: Any) -> list[AnyArray]:
         """There are none."""
         return []
 
     def unbalanced(
-        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
-    ) -> tuple[Array, Any]:
+        self, m: Motion, force: AnyArray, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[AnyArray, Any]:
         """Force and weight, unchanged."""
         return force, weight
 
 
 @final
-class Guided(Rotor):
+class Guided(Rotation):
     """Rotation with a given acceleration: turn and speed are states."""
 
     given = True
@@ -102,14 +102,14 @@ class Guided(Rotor):
         return levers
 
     def unbalanced(
-        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
-    ) -> tuple[Array, Any]:
+        self, m: Motion, force: AnyArray, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[AnyArray, Any]:
         """Less what it takes to accelerate the imbalance."""
         return force - m.acceleration * coupling(), weight
 
 
 @final
-class Driven(Rotor):
+class Driven(Rotation):
     """Rotation by torques: turn and speed are states.
 
     The acceleration is one of the frame's, the last.
@@ -121,7 +121,7 @@ class Driven(Rotor):
         """The last two states."""
         return y[-2], y[-1]
 
-    def acceleration(self, m: Motion, A: Array) -> Any:
+    def acceleration(self, m: Motion, A: AnyArray) -> Any:
         """The frame's last."""
         return A[-1]
 
@@ -135,24 +135,24 @@ class Driven(Rotor):
         return levers
 
     def unbalanced(
-        self, m: Motion, force: Array, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
-    ) -> tuple[Array, Any]:
+        self, m: Motion, force: AnyArray, weight: Any, coupling: Callable[[], Any], own: Callable[[], Any]
+    ) -> tuple[AnyArray, Any]:
         """Force and weight with one more row."""
         beside = coupling()
         rows = np.zeros((len(force), len(force))) if weight is None else weight
         bordered = [[*row, more] for row, more in zip(rows, beside, strict=True)]
         return np.append(force, own()), np.array([*bordered, [*beside, 0.0]])
 
-    def on_frame(self, forces: Any, torque: Any) -> Array:
+    def on_frame(self, forces: Any, torque: Any) -> AnyArray:
         """The torque turns the rotor."""
         return np.array([*forces, torque])
 
 
-STEADY: Final[Rotor] = Steady()
-GUIDED: Final[Rotor] = Guided()
-DRIVEN: Final[Rotor] = Driven()
+STEADY: Final[Rotation] = SteadyRotation()
+GUIDED: Final[Rotation] = Guided()
+DRIVEN: Final[Rotation] = Driven()
 
 
-def most_demanding(rotors: Iterable[Rotor]) -> Rotor:
+def most_demanding(rotors: Iterable[Rotation]) -> Rotation:
     """The way that asks for most: a torque before a given acceleration before none, which is there without any."""
     return max(rotors, key=lambda rotor: (rotor.rows, rotor.given), default=STEADY)

@@ -4,13 +4,13 @@ import math
 from collections.abc import Collection
 from dataclasses import replace
 
-from abu_calc.dynamics.circumstances import Circumstances, Holding
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.race import Race
-from abu_calc.dynamics.rotor import Rotor, most_demanding
+from abu_calc.dynamics.rotor import Rotation, most_demanding
+from abu_calc.dynamics.scene_context import Circumstances, Holding
 from abu_calc.dynamics.support import Support
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
 
 __all__ = ["Effect", "Race", "Scene", "Support", "only", "parted_angles", "placed", "with_parted_balls", "without"]
 
@@ -25,7 +25,7 @@ class Scene(Circumstances):
     effects: tuple[Effect, ...] = ()
 
     @property
-    def rotor(self) -> Rotor:
+    def rotor(self) -> Rotation:
         """The one that asks for most: a torque before a given acceleration before none."""
         return most_demanding(effect.rotor for effect in self.effects)
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from abu_calc.dynamics.parameters import Frame, Geometry
 from abu_calc.dynamics.race import Balls, Race
-from abu_calc.errors import InputError, NotTrustworthyError
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
 
 if TYPE_CHECKING:
     from abu_calc.formulas.swing_arm import Arm

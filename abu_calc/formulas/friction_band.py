@@ -1,9 +1,14 @@
-"""Largest distance from its place at which dry rolling friction can hold the axis."""
+"""Largest distance at which dry rolling friction can hold the axis, over all ball arrangements.
+
+Largest distance from its place at which dry rolling friction can hold the axis.
+"""
 
 import math
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
-from abu_calc.formula import formula
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
 
 
 @formula(
@@ -30,3 +35,228 @@ def friction_band(arm: float, pitch_radius: float, ball_radius: float, angles: t
     gap = max(after - before for before, after in pairwise([*directions, directions[0] + math.pi]))
     in_line = math.pi - gap < 1e-9
     return math.inf if in_line else arm * pitch_radius / ball_radius / math.cos(gap / 2)
+
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Reals = NDArray[np.float64]
+    Complexes = NDArray[np.complex128]
+
+GRID = 48
+"""Displacements tried at first."""
+FINER = 96
+"""Displacements tried between the two that an end lies between, twice: to 1e-5."""
+SWEEPS = 12
+"""Rounds in which each ball moves once."""
+MOST_CORNERS = 12
+"""Beginnings of an arc. With one for each ball the work would grow with the fourth power of their number."""
+SLACK, STILL = 1e-9, 1e-6
+"""Slack on imbalances in m·R_p; `STILL`: change of them by a round at which the search ends."""
+
+
+@dataclass(frozen=True)
+class WorstFriction:
+    """Largest displacement [m] at which the balls can rest, and their angles from the imbalance [rad] there."""
+
+    displacement: float
+    angles: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class _Split:
+    """Split of the balls: `near` ones in the displacement's direction, `far` ones in the opposite one.
+
+    Lengths are in bands, imbalances in m·R_p.
+    """
+
+    near: int
+    far: int
+    pull: complex
+    imbalance: float
+
+
+@formula(
+    "Largest displacement at which dry rolling friction can hold the balls in any arrangement",
+    "largest w ≥ w_f with u_min(w) ≤ U/(m·R_p) ≤ u_max(w)",
+    "m",
+    shown="um",
+    signs="G",
+    where=(
+        "At the displacement w each ball rests within arcsin(w_f/w) of the displacement's direction or of the "
+        "opposite one; for each split of the balls u_min and u_max are the least and the largest |w/(G·m·R_p) − Σ of "
+        "the balls' directions|. Counted is the interval of w that begins at w_f; of two balls also the one with a "
+        "ball on either side, where 5–10 % of starts end. Not counted: two balls bunched opposite the imbalance (one "
+        "start in 400), and all on the heavy side."
+    ),
+    assumed="ball contact left out; w small against R_p",
+    source="derived; confirmed by integration from random starts",
+)
+def worst_friction(count: int, moment: float, band: float, imbalance: float, receptance: complex) -> WorstFriction:
+    """`moment`: m·R_p of one ball, `imbalance`: U that they balance [kg m]; `band`: b [m]; `receptance`: h [1/kg].
+
+    >>> worst = worst_friction(4, 4.084e-3 * 26e-3, 10.4e-6, 300e-6, -1 / 5.6)
+    >>> round(1e6 * worst.displacement, 1)
+    25.5
+    """
+    import numpy as np
+
+    worst = WorstFriction(band, ())
+    if band == 0:
+        return worst
+    for far in range(count + 1):
+        split = _Split(count - far, far, -band / (receptance * moment), imbalance / moment)
+        if count > 2 and worst.angles and not _possible(split, np.array([worst.displacement / band]), every=True)[0]:
+            continue  # its interval ends before that of another split
+        end = _end(split)
+        if end is not None and (end * band > worst.displacement or not worst.angles):
+            worst = WorstFriction(end * band, _arrangement(split, end))
+    return worst
+
+
+def _end(split: _Split) -> float | None:
+    """End of the interval of displacements that begins at b; None if b is not in it.
+
+    With one ball on either side, the last interval counts.
+    """
+    import numpy as np
+
+    u, reach = split.imbalance, abs(split.pull)
+    narrow = [abs(abs(split.far - split.near) + sign * u) / reach for sign in (-1, 1)]
+    most = 1.01 * max((u + split.near + split.far) / reach, 1.0)
+    grid = np.array(sorted({*np.geomspace(1.0, most, GRID).tolist(), *(edge for edge in narrow if 1 < edge < most)}))
+    first = 0
+    if split.near == split.far == 1:
+        first = int(max(np.flatnonzero(_possible(split, grid)), default=0))
+    inside = _before_impossible(split, grid[first:]) + first
+    if inside < first:
+        return None
+    for _ in range(2):
+        grid = np.linspace(grid[inside], grid[inside + 1], FINER)
+        inside = max(_before_impossible(split, grid), 0)
+    return float(grid[inside])
+
+
+def _before_impossible(split: _Split, grid: "Reals") -> int:
+    """Index before the first displacement that is not possible, each that seems so looked at again."""
+    import numpy as np
+
+    seems = np.flatnonzero(~_possible(split, grid))
+    return next((int(at) for at in seems if not _possible(split, grid[at : at + 1], every=True)[0]), len(grid) - 1) - 1
+
+
+def _possible(split: _Split, rho: "Reals", *, every: bool = False) -> "NDArray[np.bool_]":
+    """Mask of the displacements at which the balls can carry the imbalance.
+
+    The imbalance then lies between the least and the largest that the balls can carry in their resting places.
+    """
+    import numpy as np
+
+    possible = np.abs(_carried(split, rho, _farthest(split, rho))) >= split.imbalance - SLACK
+    # What all balls together cannot make up for needs no arrangement.
+    possible &= abs(split.pull) * rho - split.near - split.far <= split.imbalance + SLACK
+    where = np.flatnonzero(possible)
+    least = np.abs(_carried(split, rho[where], _nearest(split, rho[where], every=every)))
+    possible[where] = least <= split.imbalance + SLACK
+    return np.asarray(possible)
+
+
+def _carried(split: _Split, rho: "Reals", angles: "Reals") -> "Complexes":
+    """z = Kd + Σe^{iφ}; balls stand along the last axis of the angles."""
+    import numpy as np
+
+    return np.asarray(split.pull * rho + np.exp(1j * angles).sum(axis=-1))
+
+
+def _farthest(split: _Split, rho: "Reals") -> "Reals":
+    """Angles of the balls that carry most: those of an arc together, at one of its corners or along the sum."""
+    import numpy as np
+
+    half = np.arcsin(1 / rho)
+    corners = np.array([[-1.0], [1.0]]) * half
+    near, far = np.repeat(corners, 2, axis=0), np.tile(corners, (2, 1))
+    rest = split.pull * rho
+    along_near = np.clip(np.angle(rest - split.far * np.exp(1j * corners)), -half, half)
+    along_far = np.clip(np.angle(-rest - split.near * np.exp(1j * corners)), -half, half)
+    near, far = np.concatenate([near, along_near, corners]), np.concatenate([far, corners, along_far])
+    sums = np.abs(rest + split.near * np.exp(1j * near) - split.far * np.exp(1j * far))
+    best = sums.argmax(axis=0), np.arange(len(rho))
+    return np.repeat(np.stack([near[best], far[best] + np.pi], axis=-1), [split.near, split.far], axis=-1)
+
+
+def _nearest(split: _Split, rho: "Reals", *, every: bool = True) -> "Reals":
+    """Angles of the balls that carry least: each ball in turn moves against the sum of the rest, from every beginning
+    or from the best.
+    """
+    import numpy as np
+
+    half, turns = np.arcsin(1 / rho), np.repeat([1.0, -1.0], [split.near, split.far])
+    near, far = _beginnings(split, rho)
+    if not every:
+        total = split.pull * rho + np.exp(1j * near).sum(axis=-1) - np.exp(1j * far).sum(axis=-1)
+        best = np.abs(total).argmin(axis=0), np.arange(len(rho))
+        near, far = near[best][None], far[best][None]
+    units = np.concatenate([np.exp(1j * near), -np.exp(1j * far)], axis=-1)
+    total = split.pull * rho + units.sum(axis=-1)
+    for _ in range(SWEEPS):
+        before = total
+        for ball, turn in enumerate(turns):
+            rest = total - units[..., ball]
+            units[..., ball] = turn * np.exp(1j * np.clip(np.angle(-turn * rest), -half, half))
+            total = rest + units[..., ball]
+        if np.abs(total - before).max(initial=0.0) < STILL:
+            break
+    least = units[np.abs(total).argmin(axis=0), np.arange(len(rho))]
+    return np.asarray(np.angle(turns * least) + np.where(turns > 0, 0.0, np.pi))
+
+
+def _beginnings(split: _Split, rho: "Reals") -> "tuple[Reals, Reals]":
+    """Angles of either group within its arc: each at the corners in all ways, or against such a sum of the other."""
+    import numpy as np
+
+    half, pull = np.arcsin(1 / rho), split.pull * rho
+    near, far = _at_corners(split.near, half), _at_corners(split.far, half)
+    far_against = _against(pull + np.exp(1j * near).sum(axis=-1), split.far, half)
+    near_against = _against(np.exp(1j * far).sum(axis=-1) - pull, split.near, half)
+    both = np.repeat(near, len(far), axis=0), np.tile(far, (len(near), 1, 1))
+    return np.concatenate([both[0], near, near_against]), np.concatenate([both[1], far_against, far])
+
+
+def _against(pulled: "Complexes", balls: int, half: "Reals") -> "Reals":
+    """Balls in the direction of what they are to cancel, fanned where together they would be too much."""
+    import numpy as np
+
+    odd = balls % 2
+    fan = np.arccos(np.clip((np.abs(pulled) - odd) / max(balls - odd, 1), 0.0, 1.0))
+    sides = np.array([0.0] * odd + [1.0, -1.0] * (balls // 2))
+    return np.asarray(np.clip(np.angle(pulled)[..., None] + fan[..., None] * sides, -half[:, None], half[:, None]))
+
+
+def _at_corners(balls: int, half: "Reals") -> "Reals":
+    """Corner arrangements: n balls at the upper corner of their arc, the rest at the lower one.
+
+    The number n runs from none to all. If there are many balls, some of these numbers stand for the others,
+    since each ball moves on from there.
+    """
+    import numpy as np
+
+    counts = np.array(sorted({*np.linspace(0, balls, min(balls, MOST_CORNERS) + 1).round().tolist()}))
+    upper = np.arange(balls) < counts[:, None]
+    return np.asarray(np.where(upper, 1.0, -1.0)[:, None, :] * half[:, None])
+
+
+def _arrangement(split: _Split, end: float) -> tuple[float, ...]:
+    """Angles from the imbalance, on the way from the least to the largest sum where it carries the imbalance."""
+    import numpy as np
+
+    rho = np.array([end])
+    low, high = _nearest(split, rho), _farthest(split, rho)
+    for _ in range(60):
+        middle = (low + high) / 2
+        if abs(_carried(split, rho, middle)[0]) < split.imbalance:
+            low = middle
+        else:
+            high = middle
+    turned = high[0] + np.pi - np.angle(_carried(split, rho, high))
+    return tuple(((turned + np.pi) % (2 * np.pi) - np.pi).tolist())

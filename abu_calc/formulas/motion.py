@@ -5,8 +5,8 @@ These are formulas of modules that are heavy to import.
 
 from typing import Final
 
-from abu_calc.formula import Formula, register
-from abu_calc.validity import Range
+from abu_calc.foundation.formula import Formula, register
+from abu_calc.foundation.validity import Range
 
 ACCURACY: Final = Range("accuracy", 1e-8, 0.5, key="accuracy")
 """Accuracy that may be asked of a simulation, relative."""

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from abu_calc.formula import formula
-from abu_calc.roots import root
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.roots import root
 
 
 @formula(

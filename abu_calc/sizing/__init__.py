@@ -6,22 +6,20 @@ Steps that few files ask for (bearing seats, swing arm) are imported when they a
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from abu_calc.checks import Check
+from abu_calc.foundation.checks import Check
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.advice import candidate_checks, design_warnings, power_checks
-from abu_calc.sizing.balls import Candidate, Choice, choose_for_motor
+from abu_calc.sizing.balls import AutobalancerChoice, Candidate, choose_for_motor
 from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.drawing import drawing
-from abu_calc.sizing.frequency import frequency_region
+from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
-from abu_calc.sizing.level_check import vibration_checks
+from abu_calc.sizing.operating_speed import frequency_region
 from abu_calc.sizing.track import track, track_checks
-from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels
-from abu_calc.sizing.worst import worst_residuals
-from abu_calc.spec.machine import MachineFile
+from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
 if TYPE_CHECKING:
-    from abu_calc.fits.seats import BearingSeats
+    from abu_calc.features.seats.seats import BearingSeats
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 __all__ = ["Design", "instead", "size"]
@@ -45,7 +43,7 @@ def instead(design: Design, candidate: Candidate, why: str) -> Design:
     return _designed(design.case, design.imbalance, choice)
 
 
-def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
+def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:
     machine, best = case.table, choice.best
     frequency = frequency_region(case, best.ball_mass, best.mass)
     race = track(case, best, frequency.natural_frequencies)
@@ -76,7 +74,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: Choice) -> Design:
 def _motor(case: Case) -> tuple[Check, ...]:
     if case.idle_speed is None:
         return ()
-    from abu_calc.sizing.motor import motor_checks
+    from abu_calc.sizing.operating_speed import motor_checks
 
     return motor_checks(case)
 
@@ -84,7 +82,7 @@ def _motor(case: Case) -> tuple[Check, ...]:
 def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":
     if not machine.bearing:
         return ()
-    from abu_calc.fits.each import seat_bearings
+    from abu_calc.features.seats.seats import seat_bearings
 
     return seat_bearings(machine.bearing)
 

@@ -1,13 +1,13 @@
 """The checks of the chosen autobalancer, and what a reader must be warned of."""
 
-from abu_calc.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
-from abu_calc.sizing.vibration import Loaded
+from abu_calc.sizing.vibration import LevelsUnderLoad
 from abu_calc.standards.balls import stock_diameter
-from abu_calc.units import from_si
 
 
 def candidate_checks(case: Case, imbalance: float, chosen: Candidate) -> tuple[Check, ...]:
@@ -79,7 +79,7 @@ def power_checks(case: Case) -> tuple[Check, ...]:
     )  # fmt: skip
 
 
-def design_warnings(case: Case, candidate: Candidate, loaded: Loaded | None) -> tuple[str, ...]:
+def design_warnings(case: Case, candidate: Candidate, loaded: LevelsUnderLoad | None) -> tuple[str, ...]:
     """Warnings that a reader must know and that no check gives."""
     return (
         *_body_warnings(case),
@@ -90,7 +90,7 @@ def design_warnings(case: Case, candidate: Candidate, loaded: Loaded | None) -> 
     )
 
 
-def _loaded_warnings(loaded: Loaded | None) -> list[str]:
+def _loaded_warnings(loaded: LevelsUnderLoad | None) -> list[str]:
     if loaded is None or loaded.steady.after is not None:
         return []
     return [

@@ -1,14 +1,19 @@
-"""Step 5: which balls, how many, on which race radius."""
+"""Step 5: which balls, how many, on which race radius.
+
+Choices of the search: the envelope, stock sizes, and values that the file has pinned.
+"""
 
 from bisect import bisect_left
 from dataclasses import replace
 
-from abu_calc.formula import formula
-from abu_calc.formulas.ball_ring import best_count, capacity, corrector_mass, half_angle, most_balls
-from abu_calc.frozen import dataclass
+from abu_calc.formulas.balls import best_count, capacity, corrector_mass, half_angle, most_balls
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.budget import (
-    AccuracyBudget,
-    Balls,
+    CandidateBalls,
+    ResidualBudget,
     budget_where_worst,
     fan,
     oval_rest,
@@ -16,12 +21,101 @@ from abu_calc.sizing.budget import (
 )
 from abu_calc.sizing.capacity import Requirement, required_capacity
 from abu_calc.sizing.case import Case, working_speeds
-from abu_calc.sizing.housing import Housing, housing
-from abu_calc.sizing.pins import ball_counts, ball_diameters, impossible, race_radii
-from abu_calc.sizing.roundness import Roundness, roundness
-from abu_calc.sizing.strength import Strength, strength
-from abu_calc.standards.balls import material
-from abu_calc.units import from_si, to_si
+from abu_calc.sizing.housing import Housing, greatest_race_radius, housing, least_race_radius, width
+from abu_calc.sizing.strength import Roundness, Strength, roundness, strength
+from abu_calc.standards.balls import material, stock_diameter, stock_diameters
+
+RADIUS_STEP_MM = 0.5
+MOST_BALLS = 64
+"""Nobody counts in more; only very large races would hold them."""
+
+
+def ball_diameters(case: Case) -> tuple[float, ...]:
+    """Stock diameters [m] that fit the envelope, or the pinned one; refused when none fits."""
+    abu = case.autobalancer
+    if abu.ball_diameter_mm is not None:
+        return (_pinned_diameter(case, abu.ball_diameter_mm),)
+    stock = stock_diameters(abu.ball_sizes)
+    fitting = tuple(d for d in stock if _fits_width(case, d) and race_radii(case, d))
+    if fitting:
+        return fitting
+    if abu.race_radius_mm is not None:
+        raise impossible("race_radius_mm", abu.race_radius_mm, "no stock ball runs on this race in this envelope")
+    smallest = stock[0]
+    if not _fits_width(case, smallest):
+        least = from_si(width(abu.design, smallest), "mm")
+        raise impossible("max_width_mm", abu.max_width_mm, "too narrow for the smallest ball", f"at least {least:.1f}")
+    least = 2 * from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), smallest), "mm")
+    least += abu.max_outer_diameter_mm - 2 * from_si(_greatest(case), "mm")
+    raise impossible(
+        "max_outer_diameter_mm", abu.max_outer_diameter_mm, "no room for balls round this bore", f"at least {least:.1f}"
+    )
+
+
+def race_radii(case: Case, diameter: float) -> tuple[float, ...]:
+    """Race radii [m] to try for one ball: every half millimetre in the envelope and its largest, or the pinned one."""
+    abu = case.autobalancer
+    least = least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter)
+    greatest = _greatest(case)
+    if abu.race_radius_mm is not None:
+        pinned = to_si(abu.race_radius_mm, "mm")
+        return (pinned,) if least - 1e-9 <= pinned <= greatest + 1e-9 else ()
+    if least > greatest:
+        return ()
+    step = to_si(RADIUS_STEP_MM, "mm")
+    first, last = int(least // step) + 1, int(greatest // step)
+    return tuple(sorted({*(k * step for k in range(first, last + 1)), greatest}))
+
+
+def ball_counts(case: Case, diameter: float, race_radius: float) -> range:
+    """Counts to try on the largest race: 2 … n*, or the pinned one; refused when that many do not fit."""
+    beta = half_angle(diameter / 2, race_radius - diameter / 2)
+    count = case.autobalancer.ball_count
+    if count is None:
+        return range(2, min(MOST_BALLS, max(2, best_count(beta))) + 1)
+    if count <= most_balls(beta):
+        return range(count, count + 1)
+    if case.autobalancer.ball_diameter_mm is None:
+        return range(0)
+    raise impossible("ball_count", count, "so many do not fit round the race", f"2 … {most_balls(beta)}")
+
+
+def _greatest(case: Case) -> float:
+    abu = case.autobalancer
+    return greatest_race_radius(abu.design, to_si(abu.max_outer_diameter_mm, "mm"), to_si(abu.min_wall_mm, "mm"))
+
+
+def _fits_width(case: Case, diameter: float) -> bool:
+    return width(case.autobalancer.design, diameter) <= to_si(case.autobalancer.max_width_mm, "mm") + 1e-9
+
+
+def _pinned_diameter(case: Case, given_mm: float) -> float:
+    """The stock size meant by the pinned one (sources round 19.844 to 19.84), or itself when it is no stock size."""
+    abu, given = case.autobalancer, to_si(given_mm, "mm")
+    diameter = stock_diameter(given) or given
+    if not _fits_width(case, diameter):
+        allowed = abu.max_width_mm - from_si(width(abu.design, diameter) - diameter, "mm")
+        raise impossible("ball_diameter_mm", given_mm, "wider than the envelope", f"up to {allowed:.1f}")
+    if not race_radii(case, diameter):
+        least = from_si(least_race_radius(abu.design, to_si(abu.bore_diameter_mm, "mm"), diameter), "mm")
+        greatest = from_si(_greatest(case), "mm")
+        key = "race_radius_mm" if abu.race_radius_mm is not None else "ball_diameter_mm"
+        pinned_mm = given_mm if abu.race_radius_mm is None else abu.race_radius_mm
+        allowed_text = f"race radius {least:.2f} … {greatest:.2f}" if least <= greatest else "a smaller ball"
+        raise impossible(key, pinned_mm, "hub, ball and wall do not fit one inside the other", allowed_text)
+    return diameter
+
+
+def impossible(key: str, given: float, message: str, allowed: str | None = None) -> InputError:
+    """The error that refuses a choice that no geometry allows."""
+    return InputError(
+        f"geometrically impossible: {message}",
+        place=Place(key=f"autobalancer.{key}"),
+        found=f"{given:g}",
+        allowed=allowed,
+        remedy="Change it, or widen autobalancer.max_outer_diameter_mm or max_width_mm.",
+    )
+
 
 RUNNERS_UP = 4
 LARGER_RACES = 12
@@ -45,8 +139,8 @@ class Candidate:
     capacity: float
     requirement: Requirement
     housing: Housing
-    balls: Balls
-    budget: AccuracyBudget
+    balls: CandidateBalls
+    budget: ResidualBudget
     strength: Strength
     roundness: Roundness
     stays_round: bool
@@ -74,7 +168,7 @@ class Candidate:
 
 
 @dataclass(frozen=True)
-class Choice:
+class AutobalancerChoice:
     """The chosen autobalancer, the runners-up, each with the reason why it lost, and how many were looked at."""
 
     best: Candidate
@@ -90,7 +184,7 @@ class Choice:
         "smallest sufficient race stands for the rest: a larger one is heavier."
     ),
 )
-def choose(case: Case, imbalance: float) -> Choice:
+def choose(case: Case, imbalance: float) -> AutobalancerChoice:
     ranking = sorted(candidates(case, imbalance), key=lambda candidate: _rank(case, candidate))
     if not ranking:
         raise impossible("ball_count", case.autobalancer.ball_count or 2, "so many do not fit round any race")
@@ -98,10 +192,12 @@ def choose(case: Case, imbalance: float) -> Choice:
     first = {id(candidate) for candidate in _front([candidate for candidate in ranking if sound(case, candidate)])}
     picked = sorted(others, key=lambda candidate: id(candidate) not in first)[:RUNNERS_UP]
     picked.sort(key=lambda candidate: _rank(case, candidate))
-    return Choice(best, tuple((candidate, _why_not(case, candidate, best)) for candidate in picked), len(ranking))
+    return AutobalancerChoice(
+        best, tuple((candidate, _why_not(case, candidate, best)) for candidate in picked), len(ranking)
+    )
 
 
-def choose_for_motor(case: Case, imbalance: float) -> Choice:
+def choose_for_motor(case: Case, imbalance: float) -> AutobalancerChoice:
     """The choice for all speeds judged, or, if none of these candidates is sound, that for the working speeds alone.
 
     A motor may idle so far above the working speeds that no candidate holds there. Then the one that holds at the
@@ -120,7 +216,7 @@ def choose_for_motor(case: Case, imbalance: float) -> Choice:
 
     best = judged(other.best)
     others = [judged(runner_up) for runner_up, _ in other.runners_up]
-    return Choice(
+    return AutobalancerChoice(
         best,
         tuple((runner_up, _why_not(case, runner_up, best)) for runner_up in others),
         choice.examined + other.examined,
@@ -156,7 +252,7 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     angles = fan(count, imbalance * abs(need.plane_ratio) / (ball_mass * pitch), beta)
     stress = strength(case, ball_mass, diameter, race_radius, body.outer_diameter)
     oval = roundness(case, stress.ball_force, race_radius, diameter)
-    balls = Balls(count, ball_mass, diameter / 2, pitch, held, oval.lobes)
+    balls = CandidateBalls(count, ball_mass, diameter / 2, pitch, held, oval.lobes)
     budget = budget_where_worst(case, imbalance, need, balls, angles)
     stays_round = oval_rest(oval.unaided) <= permitted_displacement(case, mass, case.speed_range[1])
     share = mass / case.machine_mass

@@ -3,19 +3,19 @@
 import math
 from bisect import bisect_left
 
-from abu_calc.formula import formula
 from abu_calc.formulas.friction_band import friction_band
 from abu_calc.formulas.suspension import resonance_factor
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.sizing.capacity import Requirement, plane_ratio
 from abu_calc.sizing.case import Case
-from abu_calc.units import level_from_velocity, velocity_from_level
 
 FAN_STEPS = 512
 
 
 @dataclass(frozen=True)
-class AccuracyBudget:
+class ResidualBudget:
     """Displacements 0–peak at the wheel [m] that stay when the balls have settled, and what the limit permits.
 
     `speed`: at which [rad/s]; `rolling_friction` of balls fanned evenly, which is typical.
@@ -43,7 +43,7 @@ class AccuracyBudget:
 
 
 @dataclass(frozen=True)
-class Balls:
+class CandidateBalls:
     """The balls of one candidate [SI]: how many, mass and radius of one, pitch radius, what they can carry [kg m].
 
     `lobes`: amplitude [m] of the race's two lobes under two opposite balls at the top of the speed range.
@@ -108,10 +108,10 @@ def accuracy_budget(
     case: Case,
     imbalance: float,
     need: Requirement,
-    balls: Balls,
+    balls: CandidateBalls,
     angles: tuple[float, ...],
     speed: float,
-) -> AccuracyBudget:
+) -> ResidualBudget:
     """The parts of the residual at one speed [rad/s] where balls rest at these angles.
 
     Friction can hold no more than all balls in one place would cause. The race's ovality is that of two opposite balls.
@@ -119,7 +119,7 @@ def accuracy_budget(
     carried = imbalance * abs(need.plane_ratio)
     band = friction_band(case.friction_arm, balls.pitch_radius, balls.radius, angles)
     missing = max(0.0, carried - balls.capacity) / need.effective_mass
-    return AccuracyBudget(
+    return ResidualBudget(
         speed=speed,
         race_eccentricity=case.race_eccentricity,
         rolling_friction=min(band, (balls.count * balls.moment + carried) / need.effective_mass),
@@ -132,8 +132,8 @@ def accuracy_budget(
 
 
 def budget_where_worst(
-    case: Case, imbalance: float, need: Requirement, balls: Balls, angles: tuple[float, ...]
-) -> AccuracyBudget:
+    case: Case, imbalance: float, need: Requirement, balls: CandidateBalls, angles: tuple[float, ...]
+) -> ResidualBudget:
     """Budget at the judged speed whose residual is nearest to the limit's permitted one, or most above it."""
     budgets = [accuracy_budget(case, imbalance, need, balls, angles, speed) for speed in judged_speeds(case)]
     return max(budgets, key=lambda budget: budget.residual * budget.speed)

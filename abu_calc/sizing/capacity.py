@@ -1,11 +1,11 @@
 """Step 3: the capacity that the balls must have, m(R−r)·… ≥ m₀e + Mε, exactly."""
 
-from abu_calc.formula import formula
-from abu_calc.formulas.contact import SteadyContact
+from abu_calc.formulas.balls import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 from abu_calc.sizing.case import Case
-from abu_calc.validity import Range
 
 FRICTION = Range("cutting coefficient f", 0.0, 2.0, key="grinding.cutting_coefficient")
 

@@ -1,22 +1,73 @@
-"""A machine file in SI. Elsewhere sizing asks the tables only which of several ways people have chosen."""
+"""A machine file in SI. Elsewhere sizing asks the tables only which of several ways people have chosen.
+
+The mass that really moves: the machine as a rigid body, felt at places along its spindle axis.
+"""
 
 from typing import Final, Literal
 
-from abu_calc.errors import InputError, Place
-from abu_calc.formulas.ball_ring import INERTIA_FACTORS
-from abu_calc.formulas.suspension import Hands, Springs, Suspension
-from abu_calc.frozen import dataclass
-from abu_calc.sizing.body import Body
-from abu_calc.spec.machine import Autobalancer, Grinding, MachineFile, Motor
-from abu_calc.standards.hands import hand
-from abu_calc.units import to_si
+from abu_calc.formulas.balls import INERTIA_FACTORS
+from abu_calc.formulas.suspension import Hands, Springs, SuspensionReaction
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import to_si
+from abu_calc.inputs.machine import Autobalancer, Grinding, MachineFile, Motor
+from abu_calc.standards.vibration import hand
+
+
+@dataclass(frozen=True)
+class RigidMachine:
+    """Machine and wheel without the autobalancer; places [m] from the centre of mass, toward the wheel positive.
+
+    A point mass is the body whose `inverse_inertia` [1/(kg m²)] is zero: every place then moves alike.
+    """
+
+    mass: float
+    inverse_inertia: float
+    wheel: float
+
+    @property
+    def is_rigid(self) -> bool:
+        """True if transverse inertia and the place of the wheel are known."""
+        return self.inverse_inertia > 0
+
+    @formula(
+        "Acceleration at one place per force at another",
+        "I_a = 1/M + a_p·a_q/J_c",
+        "1/kg",
+        where=("`added` is what the autobalancer adds to M."),
+        assumed="well above the suspension's frequencies",
+        source="Newton–Euler of a free rigid body in the plane",
+    )
+    def inertance(self, at: float, force_at: float, added: float = 0.0) -> float:
+        """
+        >>> round(1 / RigidMachine(6.4, 1 / 0.10, 0.2).inertance(0.2, 0.2), 1)
+        1.8
+        """
+        return 1 / (self.mass + added) + at * force_at * self.inverse_inertia
+
+    @formula(
+        "Mass felt at a place, that of the wheel unless another is named",
+        "1/m_eff = 1/M + a_p²/J_c",
+        "kg",
+        assumed="well above the suspension's frequencies",
+        source="Newton–Euler of a free rigid body in the plane",
+    )
+    def effective_mass(self, added: float = 0.0, at: float | None = None) -> float:
+        place = self.wheel if at is None else at
+        return 1 / self.inertance(place, place, added)
+
+    def transmission(self, at: float, added: float = 0.0) -> float:
+        """Motion at a place per motion at the wheel, both caused by a force at the wheel [1]."""
+        return abs(self.inertance(at, self.wheel, added)) / self.inertance(self.wheel, self.wheel, added)
+
 
 EQUAL_SPEEDS: Final = 1e-3
 """Relative difference of two speeds that counts as none: 0.01 dB of a level, 0.2 % of a stress."""
 
 
 @dataclass(frozen=True)
-class Contact:
+class WorkContact:
     """Wheel and work under load; `stiffness` is zero unless the contact is compliant."""
 
     kind: Literal["compliant", "rigid", "face"]
@@ -27,7 +78,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Handle:
+class HandlePlace:
     """Place at which levels are wanted: a name and a place [m] from the centre of mass."""
 
     name: str
@@ -41,14 +92,14 @@ class Case:
     table: MachineFile
     autobalancer: Autobalancer
     machine_mass: float
-    body: Body
-    suspension: Suspension
+    body: RigidMachine
+    suspension: SuspensionReaction
     speed: float
     speed_range: tuple[float, float]
     """Lowest and highest speed judged [rad/s]: the working speeds of the file, and the motor's idle speed."""
     runout: float
-    contact: Contact | None
-    handles: tuple[Handle, ...]
+    contact: WorkContact | None
+    handles: tuple[HandlePlace, ...]
     race_eccentricity: float
     drag: float
     friction_arm: float
@@ -97,7 +148,7 @@ def read_case(machine: MachineFile) -> Case:
         speed_range=_judged_range(working_speeds(machine), idle),
         runout=to_si(machine.wheel.runout, "mm"),
         contact=_contact(machine.grinding),
-        handles=tuple(Handle(h.name, to_si(h.from_center_of_mass_mm, "mm")) for h in top.handle),
+        handles=tuple(HandlePlace(h.name, to_si(h.from_center_of_mass_mm, "mm")) for h in top.handle),
         race_eccentricity=eccentricity,
         drag=abu.rolling_drag_per_s,
         friction_arm=to_si(abu.rolling_friction_mm, "mm"),
@@ -124,7 +175,7 @@ def _judged_range(working: tuple[float, float], idle: float | None) -> tuple[flo
     return min(low, idle), max(high, idle)
 
 
-def _idle_speed(motor: Motor | None, suspension: Suspension, displacement: float) -> float | None:
+def _idle_speed(motor: Motor | None, suspension: SuspensionReaction, displacement: float) -> float | None:
     """The idle speed [rad/s] of a machine whose settled balls leave a displacement [m]; None without a motor."""
     if motor is None:
         return None
@@ -136,15 +187,15 @@ def _idle_speed(motor: Motor | None, suspension: Suspension, displacement: float
     return idle_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), displacement, reaction)
 
 
-def _body(machine: MachineFile) -> Body:
+def _body(machine: MachineFile) -> RigidMachine:
     top = machine.machine
     mass = top.mass_kg + machine.wheel.mass_kg
     if top.transverse_inertia_kg_m2 is None or top.center_of_mass_to_wheel_mm is None:
-        return Body(mass, 0.0, 0.0)
-    return Body(mass, 1 / top.transverse_inertia_kg_m2, to_si(top.center_of_mass_to_wheel_mm, "mm"))
+        return RigidMachine(mass, 0.0, 0.0)
+    return RigidMachine(mass, 1 / top.transverse_inertia_kg_m2, to_si(top.center_of_mass_to_wheel_mm, "mm"))
 
 
-def _suspension(machine: MachineFile, mass: float) -> Suspension:
+def _suspension(machine: MachineFile, mass: float) -> SuspensionReaction:
     table = machine.suspension
     if table.frequencies is None or table.dampings is None:
         return Hands((hand("x"), hand("z")))
@@ -153,10 +204,10 @@ def _suspension(machine: MachineFile, mass: float) -> Suspension:
     return Springs((mass * wx**2, mass * wy**2), (2 * zx * mass * wx, 2 * zy * mass * wy))
 
 
-def _contact(grinding: Grinding | None) -> Contact | None:
+def _contact(grinding: Grinding | None) -> WorkContact | None:
     if grinding is None:
         return None
-    return Contact(
+    return WorkContact(
         kind=grinding.contact,
         press_force=grinding.press_force_N,
         cutting_coefficient=grinding.cutting_coefficient,

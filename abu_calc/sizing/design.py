@@ -1,20 +1,25 @@
-"""The finished design: every step's frozen result, side by side."""
+"""One machine built to a design: its own balls, race, wheel and hands, the choice of the design kept.
 
+The finished design: every step's frozen result, side by side.
+"""
+
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from abu_calc.checks import Check
-from abu_calc.frozen import dataclass
-from abu_calc.sizing.balls import Candidate, Choice
-from abu_calc.sizing.case import Case
-from abu_calc.sizing.drawing import Advice
-from abu_calc.sizing.frequency import FrequencyRegion
-from abu_calc.sizing.imbalance import Imbalance
-from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import Loaded, SpeedLevels, Vibration
-from abu_calc.sizing.worst import WorstResidual
+from abu_calc.foundation.checks import Check
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import to_si
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.sizing.balls import AutobalancerChoice, Candidate, evaluate
+from abu_calc.sizing.case import Case, read_case
+from abu_calc.sizing.drawing_requirements import DrawingRequirement
+from abu_calc.sizing.imbalance import Imbalance, find_imbalance
+from abu_calc.sizing.operating_speed import FrequencyRegion, frequency_region
+from abu_calc.sizing.track import Track, track
+from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, VibrationLevels, WorstResidual, worst_residuals
 
 if TYPE_CHECKING:
-    from abu_calc.fits.seats import BearingSeats
+    from abu_calc.features.seats.seats import BearingSeats
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
@@ -25,16 +30,16 @@ class Design:
     case: Case
     frequency: FrequencyRegion
     imbalance: Imbalance
-    choice: Choice
+    choice: AutobalancerChoice
     track: Track
     runner_up_tracks: tuple[Track, ...]
-    idle: Vibration
+    idle: VibrationLevels
     worst: tuple[WorstResidual, ...]
     speed_levels: SpeedLevels | None
-    loaded: Loaded | None
+    loaded: LevelsUnderLoad | None
     seats: "tuple[BearingSeats, ...]"
     swing_arm: "SwingArmBounds | None"
-    drawing: tuple[Advice, ...]
+    drawing: tuple[DrawingRequirement, ...]
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]
 
@@ -47,3 +52,31 @@ class Design:
     def system_mass(self) -> float:
         """Machine, wheel, autobalancer with its balls [kg]."""
         return self.case.body.mass + self.autobalancer.mass
+
+
+def built(design: Design, machine: MachineFile) -> Design:
+    """The design as it came out in one machine, whose file may pin the balls and the race that were made.
+
+    What judges a design (checks, runners-up, advice, levels over the speed range) is left out, and the worst
+    arrangement of balls, too, which takes longer than all the rest: see `with_worst`.
+    """
+    case = read_case(machine)
+    imbalance, chosen, own = find_imbalance(case), design.autobalancer, case.autobalancer
+    made = evaluate(
+        case,
+        imbalance.value,
+        chosen.ball_count if own.ball_count is None else own.ball_count,
+        chosen.ball_diameter if own.ball_diameter_mm is None else to_si(own.ball_diameter_mm, "mm"),
+        chosen.race_radius if own.race_radius_mm is None else to_si(own.race_radius_mm, "mm"),
+    )
+    frequency = frequency_region(case, made.ball_mass, made.mass)
+    return replace(
+        design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
+        track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
+        loaded=None, seats=(), swing_arm=None, drawing=(), checks=(), warnings=(),
+    )  # fmt: skip
+
+
+def with_worst(design: Design) -> Design:
+    """The same with the arrangements at which friction holds the axis farthest off."""
+    return replace(design, worst=worst_residuals(design.case, design.imbalance.value, design.autobalancer))

@@ -3,9 +3,9 @@
 import math
 from typing import Final, Literal
 
-from abu_calc.formula import formula
-from abu_calc.frozen import dataclass
-from abu_calc.units import to_si
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import to_si
 
 Design = Literal["one-piece", "bearing-ring", "light"]
 

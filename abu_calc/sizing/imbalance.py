@@ -2,15 +2,15 @@
 
 import math
 
-from abu_calc.errors import InputError, Place
-from abu_calc.formula import formula
 from abu_calc.formulas.suspension import resonance_factor
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
+from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.instruments import in_words, velocity_shown
-from abu_calc.spec.measured import Shown
-from abu_calc.standards.balance import permissible_imbalance
-from abu_calc.units import level_from_velocity, to_si, velocity_from_level
+from abu_calc.standards.vibration import permissible_imbalance
 
 NODE_SHARE = 0.05
 """A handle that moves by less than this share of a point mass's motion says nothing of the imbalance."""

@@ -3,12 +3,12 @@
 import math
 from statistics import fmean
 
-from abu_calc.errors import InputError
-from abu_calc.formula import formula
-from abu_calc.frozen import dataclass
-from abu_calc.spec.measured import Shown
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, level_from_velocity, to_si, velocity_from_level
+from abu_calc.inputs.wheel import Shown
 from abu_calc.standards.vibration import hand_arm_weight
-from abu_calc.units import from_si, level_from_velocity, to_si, velocity_from_level
 
 UNITS = {
     "measured_level_db": "dB",
@@ -20,7 +20,7 @@ UNITS = {
 
 
 @dataclass(frozen=True)
-class Readings:
+class InstrumentValues:
     """Instrument readings of an rms velocity [m/s] at one frequency, all rms; without W_h no `weighted`.
 
     `weighted`: a_h of one axis; `total`: a_hv [m/s²], the vector sum of the two axes that an imbalance moves
@@ -43,7 +43,7 @@ class Readings:
     assumed="one harmonic at Ω; two axes alike",
     source="ISO 5349-1:2001 for W_h; the harmonic is ours",
 )
-def readings(velocity: float, speed: float) -> Readings:
+def readings(velocity: float, speed: float) -> InstrumentValues:
     """
     >>> found = readings(velocity_from_level(111), to_si(5800, "rpm"))
     >>> [round(each, 2) for each in (1e6 * found.displacement, found.acceleration, found.weighted, found.total)]
@@ -55,7 +55,7 @@ def readings(velocity: float, speed: float) -> Readings:
     except InputError:
         weighted = None
     total = None if weighted is None else math.sqrt(2) * weighted
-    return Readings(velocity, velocity / speed, acceleration, weighted, total)
+    return InstrumentValues(velocity, velocity / speed, acceleration, weighted, total)
 
 
 @formula(

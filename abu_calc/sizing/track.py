@@ -2,16 +2,16 @@
 
 import math
 
-from abu_calc.checks import Check, coded, verdict
-from abu_calc.formula import formula
 from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_drag, slow_stiffness
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import GRAVITY, from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import oval_rest, permitted_displacement
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import groove_radius
-from abu_calc.units import GRAVITY, from_si
 
 LEAST_HARDNESS_HRC = 58.0
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from abu_calc.errors import AbuError
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.balls import Candidate, choose, sound
 from abu_calc.sizing.case import Case
-from abu_calc.units import from_si
 
 ROOM = (1.1, 1.25, 1.5)
 """Factors on the envelope."""

@@ -1,18 +1,58 @@
-"""Step 7: velocity levels before and after, idle and under load, at every handle."""
+"""The idle level against its limit over the speed range, and what a truer race would do to it.
+
+Worst residual displacement: friction holds the axis farthest off, and all parts are in line.
+
+Step 7: velocity levels before and after, idle and under load, at every handle.
+"""
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
-from abu_calc.formula import formula
-from abu_calc.formulas.suspension import resonance_factor
-from abu_calc.frozen import dataclass
+from abu_calc.formulas.friction_band import worst_friction
+from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import EQUAL_SPEEDS, Case
-from abu_calc.sizing.worst import WorstResidual
+
+_friction = lru_cache(maxsize=64)(worst_friction)
+"""Worst friction, cached: races that differ only in their eccentricity have the same."""
+
+
+@dataclass(frozen=True)
+class WorstResidual:
+    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad]."""
+
+    speed: float
+    rolling_friction: float
+    angles: tuple[float, ...]
+    residual: float
+
+
+def worst_residuals(case: Case, imbalance: float, candidate: Candidate) -> tuple[WorstResidual, ...]:
+    """Worst residual displacements at each of the judged speeds, in their order."""
+    return tuple(_worst(case, imbalance, candidate, speed) for speed in judged_speeds(case))
+
+
+def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> WorstResidual:
+    """Plain sum of the parts, the race made oval by all balls in two opposite groups."""
+    balls, need = candidate.balls, candidate.requirement
+    usual = accuracy_budget(case, imbalance, need, balls, candidate.budget.resting_angles, speed)
+    mass, carried = case.body.effective_mass(candidate.mass, case.race_place), imbalance * abs(need.plane_ratio)
+    flexible = [speed**2 / dynamic_stiffness(case.suspension, axis, speed, mass) for axis in (0, 1)]
+    band = case.friction_arm * balls.pitch_radius / balls.radius
+    held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
+    friction = max(held.displacement, usual.rolling_friction)
+    parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.plane_offset
+    return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.shortfall)
+
 
 CURVE_STEPS = 6
 """Steps of the speed range in the curve of level against speed."""
@@ -34,7 +74,7 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Place:
+class LevelPlace:
     """A handle, or the wheel plane; `effective_mass` [kg] is imbalance at the wheel over the motion it makes here."""
 
     name: str
@@ -51,13 +91,13 @@ class LevelAtSpeed:
 
 
 @dataclass(frozen=True)
-class Vibration:
+class VibrationLevels:
     """Levels at the rated speed where the machine is held (the wheel plane when no handle is given).
 
     `worst` is the loudest place; `lowered`: whether the wheel itself moves less with the autobalancer.
     """
 
-    places: tuple[Place, ...]
+    places: tuple[LevelPlace, ...]
     worst: Levels
     lowered: bool
 
@@ -86,7 +126,7 @@ class SpeedLevels:
     assumed="steady state",
     source="Kladiev 1996 (level and limit); the rigid body and the budget are ours",
 )
-def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Vibration:
+def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> VibrationLevels:
     mass = case.body.effective_mass()
     before = imbalance / mass * resonance_factor(case.suspension, case.speed, mass)
     return handle_levels(
@@ -133,7 +173,7 @@ def _residual(case: Case, imbalance: float, candidate: Candidate, speed: float) 
 
 
 @dataclass(frozen=True)
-class Loaded:
+class LevelsUnderLoad:
     """Levels under load, pressed to the work when the balls have settled.
 
     `steady`: the loudest levels by steady contact, which hold unless wheel and work part, without or with the
@@ -141,11 +181,11 @@ class Loaded:
     another, louder state that stays.
     """
 
-    levels: Vibration
+    levels: VibrationLevels
     steady: Levels
     parts_before: bool
     parts_after: bool
-    hasty: Vibration | None = None
+    hasty: VibrationLevels | None = None
     stays: bool = False
 
 
@@ -163,13 +203,13 @@ class Loaded:
     assumed="no separation of wheel and work",
     source="derived",
 )
-def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> Loaded | None:
+def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> LevelsUnderLoad | None:
     if case.contact is None:
         return None
     bare, loaded = steady_contact(case, 0.0, damped=True), steady_contact(case, candidate.mass, damped=True)
     if bare is None or loaded is None:
         idle = idle_vibration(case, imbalance, candidate, possible)
-        return Loaded(idle, idle.worst, parts_before=False, parts_after=False)
+        return LevelsUnderLoad(idle, idle.worst, parts_before=False, parts_after=False)
     runout, press = cmath.rect(case.runout, math.radians(case.table.wheel.runout_angle_deg)), case.contact.press_force
     before, after = max(map(abs, bare.axis(imbalance, runout))), None
     balancing = loaded.balancing_imbalance(runout)
@@ -182,10 +222,10 @@ def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possibl
     parts_before = abs(bare.normal_force(imbalance, runout)) > press
     parts_after = balanced and abs(loaded.normal_force(balancing, runout)) > press
     valid = handle_levels(case, None if parts_before else before, None if parts_after else after, candidate.mass)
-    return Loaded(valid, levels.worst, parts_before, parts_after)
+    return LevelsUnderLoad(valid, levels.worst, parts_before, parts_after)
 
 
-def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> Vibration:
+def handle_levels(case: Case, before: float | None, after: float | None, added_mass: float) -> VibrationLevels:
     """Levels at every handle of displacements at the wheel [m] at the rated speed, None: not known."""
     handles = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
     places = []
@@ -193,9 +233,9 @@ def handle_levels(case: Case, before: float | None, after: float | None, added_m
         bare = None if before is None else _level(case, before * case.body.transmission(place))
         fitted = None if after is None else _level(case, after * case.body.transmission(place, added_mass))
         inertance = abs(case.body.inertance(place, case.body.wheel, added_mass))
-        places.append(Place(name, 1 / inertance if inertance else None, Levels(bare, fitted)))
+        places.append(LevelPlace(name, 1 / inertance if inertance else None, Levels(bare, fitted)))
     worst = Levels(_loudest(each.levels.before for each in places), _loudest(each.levels.after for each in places))
-    return Vibration(tuple(places), worst, before is not None and after is not None and after < before)
+    return VibrationLevels(tuple(places), worst, before is not None and after is not None and after < before)
 
 
 def _loudest(levels: Iterable[float | None]) -> float | None:
@@ -214,3 +254,100 @@ def level_at_loudest(case: Case, candidate: Candidate, displacement: float) -> f
 
 def _level(case: Case, displacement: float) -> float:
     return displacement_level(displacement, case.speed, case.background_level)
+
+
+SHARES = (0.5, 0.25)
+"""Shares of the race's eccentricity and of the friction's lever arm that are tried."""
+
+
+def vibration_checks(
+    case: Case,
+    imbalance: float,
+    candidate: Candidate,
+    idle: VibrationLevels,
+    levels: SpeedLevels | None,
+    worst: Sequence[WorstResidual],
+) -> tuple[Check, ...]:
+    """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
+    limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
+    if after is None or levels is None:
+        reason = "not known, since the balls cannot balance at these speeds"
+        allowed = {"ABU401": limit, "ABU402": before}
+        return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
+    remedy = None
+    if not idle.lowered:
+        remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
+        if candidate.budget.shortfall:
+            remedy = "What gives the balls enough capacity, see ABU201."
+        elif candidate.budget.rolling_friction > candidate.budget.race_eccentricity:
+            remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
+    message = "with the autobalancer against without, idle"
+    return (
+        _level_check(case, imbalance, candidate, levels, worst),
+        coded("ABU402", verdict(idle.lowered), message, after, before, "dB", remedy),
+    )
+
+
+def _level_check(
+    case: Case, imbalance: float, candidate: Candidate, levels: SpeedLevels, worst: Sequence[WorstResidual]
+) -> Check:
+    """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
+    limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
+    kept, safe = highest.after <= limit, arranged.after <= limit
+    of_range = "" if len(levels.by_speed) == 1 else ", the worst of the range"
+    message = f"expected with the autobalancer at the worst handle, at {_rpm(highest)}{of_range}"
+    if kept and not safe:
+        there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
+        message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
+    remedy = None if kept and safe else _remedy(case, imbalance, candidate, None if kept else worst)
+    return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", remedy)
+
+
+def _remedy(case: Case, imbalance: float, candidate: Candidate, held: Sequence[WorstResidual] | None) -> str:
+    """The least truer race that keeps the limit, by the same formulas.
+
+    `held`: where friction holds the balls worst, which is not asked about; None: that is what has to keep it.
+    """
+    background, limit = case.background_level, case.level_limit
+    if background is not None and background >= limit:
+        return (
+            f"The background alone is {background:.4g} dB, which no autobalancer lowers: a quieter machine, or another "
+            "limits.vibration_level_db."
+        )
+
+    def level(other: Case) -> float:
+        levels = speed_levels(
+            other, imbalance, candidate, held or worst_residuals(other, imbalance, candidate), possible=True
+        )
+        return math.inf if levels is None else (levels.highest if held else levels.arranged).after
+
+    *others, (words, truest) = _truer(case)
+    if (least := level(truest)) > limit:
+        return (
+            f"Tried without success: {1 / SHARES[-1]:g} times less eccentricity and friction of the race. What is "
+            f"left: {_left(candidate)}a heavier machine, or another limits.vibration_level_db."
+        )
+    tried = ((each, level(other)) for each, other in others)
+    words, new_level = next((pair for pair in tried if pair[1] <= limit), (words, least))
+    return f"Tried: {words} gives {new_level:.1f} dB."
+
+
+def _left(candidate: Candidate) -> str:
+    """Actions on the other residuals at the wheel: enough capacity, or a race nearer to the wheel's plane."""
+    capacity = "enough capacity (ABU201), " if candidate.budget.shortfall else ""
+    return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
+
+
+def _truer(case: Case) -> Iterator[tuple[str, Case]]:
+    """A race less eccentric, or with less friction, or both."""
+    for share in SHARES:
+        less, smoother = share * case.race_eccentricity, share * case.friction_arm
+        true = f"race_eccentricity_mm = {from_si(less, 'mm'):.3g}"
+        hard = f"rolling_friction_mm = {from_si(smoother, 'mm'):.3g} (harder, cleaner)"
+        yield true, replace(case, race_eccentricity=less)
+        yield hard, replace(case, friction_arm=smoother)
+        yield f"{true} with {hard}", replace(case, race_eccentricity=less, friction_arm=smoother)
+
+
+def _rpm(level: LevelAtSpeed) -> str:
+    return f"{from_si(level.speed, 'rpm'):.6g} rpm"

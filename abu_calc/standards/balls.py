@@ -1,10 +1,15 @@
-"""Balls: stock diameters and materials."""
+"""Hardness of steel: Rockwell C to Vickers.
 
+Balls: stock diameters and materials.
+"""
+
+from bisect import bisect_left
 from functools import cache
 from typing import Literal, NamedTuple
 
+from abu_calc.foundation.units import to_si
+from abu_calc.foundation.validity import Range
 from abu_calc.standards.tables import toml_table, unknown
-from abu_calc.units import to_si
 
 STOCK_TOLERANCE = 0.01e-3
 """Largest difference [m] between a diameter and the stock size it means.
@@ -82,3 +87,18 @@ def _material(group: str, name: str) -> Material:
     if name not in materials:
         raise unknown("material", name, materials)
     return Material(name, **materials[name])
+
+
+def vickers(hrc: float) -> float:
+    """Vickers hardness HV of a Rockwell C hardness, linear between the rows of the table (20 … 68 HRC).
+
+    Source: ASTM E140-12b, table 1 (non-austenitic steels), as stated in the data file.
+
+    >>> vickers(60)
+    697.0
+    """
+    rows: list[tuple[float, float]] = toml_table("hardness")["rows"]
+    Range("hardness", rows[0][0], rows[-1][0], "HRC", key="autobalancer.race_hardness_HRC").check(hrc)
+    upper = max(1, bisect_left(rows, hrc, key=lambda row: row[0]))
+    (low, low_hv), (high, high_hv) = rows[upper - 1], rows[upper]
+    return float(low_hv + (hrc - low) / (high - low) * (high_hv - low_hv))

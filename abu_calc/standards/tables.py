@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from abu_calc.errors import InputError
+from abu_calc.foundation.errors import InputError
 
 _DATA = Path(__file__).parent / "data"
 

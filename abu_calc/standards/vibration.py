@@ -1,14 +1,20 @@
-"""Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure."""
+"""The hand as a mechanical system, as data; `sizing` says how its elements connect.
+
+Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure.
+
+Balance quality grades.
+"""
 
 import math
 from functools import cache
 from typing import Any
 
-from abu_calc.errors import RangeError
-from abu_calc.formula import formula
-from abu_calc.frozen import dataclass
-from abu_calc.standards.tables import toml_table
-from abu_calc.units import from_si, to_si
+from abu_calc.foundation.errors import RangeError
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.validity import Range
+from abu_calc.standards.tables import toml_table, unknown
 
 
 @dataclass(frozen=True)
@@ -179,3 +185,61 @@ def daily_exposure(total: float, seconds: float) -> float:
     2.5
     """
     return total * math.sqrt(seconds / WORKING_DAY)
+
+
+_MASS = Range("rotor mass", 0.0, 1e6, "kg", open_low=True)
+_SPEED = Range("rotor speed", 0.0, 1e5, "rad/s", open_low=True)
+
+
+def balance_grades() -> dict[str, float]:
+    """The grades by name, coarsest first, with e·Ω [m/s]. Source: ISO 21940-11:2016.
+
+    >>> balance_grades()["G6.3"]
+    0.0063
+    """
+    return {f"G{grade:g}": grade / 1000 for grade in toml_table("balance_grades")["grades"]}
+
+
+@formula(
+    "Permissible residual imbalance of a rotor",
+    "U_per = G_e·m_R/Ω",
+    "kg m",
+    where="In user units U_per = 9549·G_e·m_R/Ω in g·mm, by the grade in mm/s, kg and rpm.",
+    checked=(_MASS, _SPEED, "a grade of the list"),
+    assumed="rotors in a constant (rigid) state",
+    source="ISO 21940-11:2016",
+)
+def permissible_imbalance(grade: str, mass: float, speed: float) -> float:
+    """
+    >>> from abu_calc.foundation.units import to_si
+    >>> round(1e6 * permissible_imbalance("G6.3", 2.0, to_si(10000, "rpm")), 2)
+    12.03
+    """
+    grades = balance_grades()
+    if grade not in grades:
+        raise unknown("balance grade", grade, grades)
+    return grades[grade] * _MASS.check(mass) / _SPEED.check(speed)
+
+
+_Four = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Hand:
+    """One hand along one axis: m1 … m4 [kg], k1 … k4 [N/m], c1 … c4 [N·s/m]."""
+
+    masses: _Four
+    stiffness: _Four
+    damping: _Four
+
+
+def hand(axis: str) -> Hand:
+    """One hand along x, y or z of the hand. Source: ISO 10068:2012, Annex C, model 2, table C.1.
+
+    >>> hand("z").stiffness
+    (1000.0, 12000.0, 43635.0, 174542.0)
+    """
+    table = toml_table("hands")
+    if axis not in ("x", "y", "z"):
+        raise unknown("axis of the hand", axis, ("x", "y", "z"))
+    return Hand(**{key: tuple(values) for key, values in table[axis].items()})

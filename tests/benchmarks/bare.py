@@ -6,7 +6,7 @@ import numpy as np
 
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.compiled import arrays, code
-from abu_calc.dynamics.integrators.compiled.order import in_order
+from abu_calc.dynamics.integrators.compiled.program import in_order
 from abu_calc.dynamics.integrators.compiled.run import prepared
 
 AGAIN = 50_000

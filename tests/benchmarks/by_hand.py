@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.effects.gravity import Gravity
-from abu_calc.dynamics.effects.grinding_contact import GrindingContact
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.linear import LinearSupport
+from abu_calc.dynamics.supports.planar import LinearSupport
 from tests.benchmarks.measuring import Array
 
 STEADY_INERTIA = 1e6
@@ -59,7 +59,7 @@ def planar(scene: Scene) -> Planar | None:
     diagonal = all(np.array_equal(A, np.diag(np.diag(A))) for A in (M, K, B)) and M[0, 0] == M[1, 1]
     if not (known and diagonal and len(set(race.ball_masses)) == 1):
         return None
-    off = eccentricity if isinstance(eccentricity, RaceEccentricity) else None
+    off = eccentricity if isinstance(eccentricity, RaceEccentricityEffect) else None
     return Planar(
         M=float(M[0, 0]),
         k=(float(K[0, 0]), float(K[1, 1])),
@@ -72,7 +72,7 @@ def planar(scene: Scene) -> Planar | None:
         R=race.pitch_radius,
         h0=race.drag,
         J=race.inertia_factor,
-        g=gravity.acceleration if isinstance(gravity, Gravity) else 0.0,
+        g=gravity.acceleration if isinstance(gravity, GravityEffect) else 0.0,
         delta=off.magnitude if off else 0.0,
         phi=off.angle if off else 0.0,
     )
@@ -124,7 +124,7 @@ Push = Callable[[float, float], tuple[float, float]]
 """(turn, y) → force on the rotor along x and y [N]."""
 
 
-def pressed_to_work(contact: GrindingContact) -> Push:
+def pressed_to_work(contact: GrindingContactEffect) -> Push:
     """A spring that only presses, max(0, N₀ − c h) with h = y + ε sin(turn + φ₀), as scripts write it: no events."""
     c, N0, s = contact.contact_stiffness, contact.press_force, contact.drag
     runout, place = contact.runout, contact.runout_angle

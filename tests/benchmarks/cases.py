@@ -11,16 +11,16 @@ from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.integrators.run import MOST_EVALUATIONS
 from abu_calc.dynamics.scene import Scene, only
-from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.switching.modes import watches
-from abu_calc.scenes.from_design import scene_of_design
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.inputs.reading.document import open_document
+from abu_calc.inputs.reading.kinds import kind_of
+from abu_calc.inputs.reading.sources import names
+from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
-from abu_calc.spec.document import open_document
-from abu_calc.spec.kinds import kind_of
-from abu_calc.spec.machine import MachineFile
-from abu_calc.spec.presets import names
-from abu_calc.spec.read import read_machine
 from tests.benchmarks.equations import grinder
 from tests.benchmarks.measuring import Array, Run
 
@@ -117,7 +117,7 @@ def resonance(preset: str = "swing-arm-grinder") -> Case:
     """The arm pressed to the work, at the speed at which it resonates with its balls."""
     scene = with_effects(scene_of_design(design(preset), "swing-arm-cutting"), SMOOTH)
     arm = scene.support
-    if not isinstance(arm, SwingArm):
+    if not isinstance(arm, SwingArmSupport):
         raise TypeError("the resonance is that of a swing arm")
     square = arm.length**2
     speed = math.sqrt(arm.stiffness * square / (arm.inertia + sum(scene.ball_masses) * square))

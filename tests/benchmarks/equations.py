@@ -14,10 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from abu_calc.dynamics.codegen.tracer import Numbers, functions
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.tracing.plain import functions
-from abu_calc.dynamics.tracing.traced import Numbers
 from tests.benchmarks.by_hand import planar, with_floats
 from tests.dynamics.scenes import straight_grinder
 

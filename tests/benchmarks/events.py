@@ -11,14 +11,14 @@ import math
 import time
 from dataclasses import replace
 
-from abu_calc.analysis.response import needed_times
-from abu_calc.dynamics.effects.ball_contact import BallContact
-from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.simulation.response import needed_times
 from tests.benchmarks.bare import evaluation_times
 from tests.benchmarks.measuring import keep, machine
 from tests.dynamics.scenes import straight_grinder, with_effects
@@ -37,7 +37,7 @@ def scene(balls: int) -> Scene:
         base.races[0], ball_masses=(0.067 / balls,) * balls, start_angles=angles, start_speeds=(0.0,) * balls
     )
     bare = replace(base, races=(race,), duration=0.5)
-    return with_effects(bare, Gravity(), BallContact(radius, 0.5), DryRollingFriction(4e-6, radius))
+    return with_effects(bare, GravityEffect(), BallContactEffect(radius, 0.5), DryRollingFrictionEffect(4e-6, radius))
 
 
 def timed(equations: Equations) -> tuple[Trajectory, float]:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.errors import AbuError
+from abu_calc.foundation.errors import AbuError
 
 Array = NDArray[np.float64]
 

@@ -17,12 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.analysis.response import needed_times
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.integrators.choice import loop_method
 from abu_calc.dynamics.integrators.compiled.kernels import METHODS
-from abu_calc.dynamics.integrators.compiled.order import in_order
-from abu_calc.dynamics.integrators.compiled.run import _Run
+from abu_calc.dynamics.integrators.compiled.program import in_order
+from abu_calc.dynamics.integrators.compiled.run import _CompiledRun
+from abu_calc.simulation.response import needed_times
 from tests.benchmarks.bare import evaluation_times
 from tests.benchmarks.cases import smooth
 from tests.benchmarks.measuring import keep, machine
@@ -59,7 +59,9 @@ def prices(equations: Equations) -> list[dict[str, Any]]:
         for _ in range(REPEATS):
             begun = time.process_time()
             method = loop_method(equations, tolerance)
-            run = _Run(ordered, tolerance, moments, MOST, given=np.argsort(places), compiled=True, method=method)
+            run = _CompiledRun(
+                ordered, tolerance, moments, MOST, given=np.argsort(places), compiled=True, method=method
+            )
             found = run.trajectory()
             spent.append(time.process_time() - begun)
         own = (METHODS[method].STAGES - 1) * found.steps

@@ -21,14 +21,15 @@ from typing import Any
 import numpy as np
 from scipy import integrate
 
-from abu_calc.analysis.differences import QUANTITIES, Measures
-from abu_calc.analysis.response import evaluate, needed_times
-from abu_calc.analysis.rungs import averaged
-from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators import choice, scipy_
+from abu_calc.dynamics.integrators import choice
+from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Scene, without
-from abu_calc.errors import AbuError
+from abu_calc.foundation.errors import AbuError
+from abu_calc.simulation.model_level import averaged
+from abu_calc.simulation.nonconvergence import QUANTITIES, Measures
+from abu_calc.simulation.response import evaluate, needed_times
 from tests.benchmarks.by_hand import planar, pressed_to_work, with_floats
 from tests.benchmarks.cases import BALLS, Case, contact, friction, many_balls, presets, resonance, smooth
 from tests.benchmarks.measuring import ROUNDS, Array, Run, keep, machine, measure, names, time_at
@@ -58,7 +59,7 @@ def contact_scripts(case: Case) -> list[Run]:
     """What a script does about the contact: max(0, …) in the equations, and the step size control finds out."""
     pressing = case.scene.effect("grinding_contact")
     r = planar(without(case.scene, ["grinding_contact"]))
-    if r is None or not isinstance(pressing, GrindingContact):
+    if r is None or not isinstance(pressing, GrindingContactEffect):
         return []
     rhs, scales = with_floats(r, pressed_to_work(pressing)), np.array(case.equations.scales)
 

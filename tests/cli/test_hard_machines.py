@@ -2,8 +2,8 @@
 
 import pytest
 
-from abu_calc.analysis.machine import MORE, WORK
 from abu_calc.dynamics.integrators.choice import LOOP, LOOP_WORK
+from abu_calc.simulation.design_scenes import MORE, WORK
 from tests.cli.runner import Seen, abu, once, without_extras
 
 GOOD = {"pass", "warn"}

@@ -10,9 +10,9 @@ import pytest
 
 from abu_calc.cli import progress as module
 from abu_calc.cli.app import run
-from abu_calc.cli.deliver import Delivery
+from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
-from abu_calc.progress import Stage, share_of, silent, within
+from abu_calc.foundation.progress import Stage, share_of, silent, within
 from tests.cli.runner import abu
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from tests.cli.runner import abu
-from tests.spec.scenes import SCENE, TILTING
+from tests.inputs.scenes import SCENE, TILTING
 
 ONE = 1e4
 """Imbalance [g·mm] of the dimensionless rotor with δ = 0.01; two balls of 50 g at 1 m carry ten times that."""

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc import interruption
 from abu_calc.cli.streams import Outlet
-from tests.spec.samples import BEARINGS
+from abu_calc.foundation import interruption
+from tests.inputs.samples import BEARINGS
 
 posix = pytest.mark.skipif(os.name == "nt", reason="shells of POSIX")
 FAILING = ("check-fit", *["--designation", "7516", "--radial-load-kN", "3", "--shaft", "f6", "--housing", "H7"])

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.runner import abu
-from tests.spec.samples import BASIC
-from tests.spec.scenes import ARM
+from tests.inputs.samples import BASIC
+from tests.inputs.scenes import ARM
 
 ODD = ("--set", "wheel.diameter_mm=60")
 SAID = "larger than the wheel: wheel.diameter_mm = 60"

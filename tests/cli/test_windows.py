@@ -16,10 +16,10 @@ import pytest
 
 from abu_calc.cli import app
 from abu_calc.cli.streams import make_safe
-from abu_calc.interruption import EndedBySignal, status_of
-from abu_calc.parallel import interrupts_left_to_parent, process_pool
+from abu_calc.foundation.interruption import EndedBySignal, status_of
+from abu_calc.foundation.parallel import interrupts_left_to_parent, process_pool
 from tests.cli.runner import abu
-from tests.test_interruption import heeding, waiting
+from tests.foundation.test_interruption import heeding, waiting
 
 __all__ = ["heeding"]
 

@@ -6,8 +6,8 @@ import pytest
 
 import abu_calc
 from tests.cli.runner import abu
-from tests.spec.samples import BASIC
-from tests.spec.test_wrong_inputs import CASES
+from tests.inputs.reading.test_errors import CASES
+from tests.inputs.samples import BASIC
 
 PLAIN = [case for case in CASES if case[0] in BASIC]
 assert len(PLAIN) >= 60

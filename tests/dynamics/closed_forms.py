@@ -6,7 +6,7 @@ Angles [rad] from the zero mark; imbalances as complex numbers U e^{iφ} [kg m].
 import cmath
 import math
 
-from abu_calc.errors import InputError, RangeError
+from abu_calc.foundation.errors import InputError, RangeError
 
 
 def balls_resultant(imbalance: float, imbalance_angle: float) -> complex:

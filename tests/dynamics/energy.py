@@ -21,27 +21,26 @@ from typing import Any
 
 import numpy as np
 
-from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.equations.jacobian import STEP
+from abu_calc.dynamics.equations.assemble import STEP, assemble
 from abu_calc.dynamics.equations.right_hand_side import accelerations, motion_of, with_states
-from abu_calc.dynamics.motion import Array
+from abu_calc.dynamics.motion import AnyArray
 from abu_calc.dynamics.parameters import Acting, Modes
 from abu_calc.dynamics.rotor import GUIDED
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 
 ACROSS = "transverse_motion"
 """The effect whose states are the balls' ways across the race and their rates."""
 
 
-def mass_matrix(scene: Scene, t: Any, y: Array) -> Array:
+def mass_matrix(scene: Scene, t: Any, y: AnyArray) -> AnyArray:
     """The symmetric, positive definite M of T = ½ vᵀ M v in the coordinates that are free [kg, kg m, kg m²]."""
     bodies = Bodies(scene)
     x, _ = bodies.split(t, y)
     return bodies.mass(x)[: bodies.freedoms, : bodies.freedoms]
 
 
-def energy(scene: Scene, t: Any, y: Array, modes: Modes | None = None) -> Any:
+def energy(scene: Scene, t: Any, y: AnyArray, modes: Modes | None = None) -> Any:
     """E = T + V [J]: springs, the arm's constant moment, and the energy of the effects."""
     bodies = Bodies(scene)
     x, v = bodies.split(t, y)
@@ -50,7 +49,7 @@ def energy(scene: Scene, t: Any, y: Array, modes: Modes | None = None) -> Any:
     return kinetic + _potential(bodies, x, v, _acting(scene, modes))
 
 
-def power(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> float:
+def power(scene: Scene, t: float, y: AnyArray, modes: Modes | None = None) -> float:
     """dE/dt [W] by all that is not conservative: dampers, drag, effects, and the drive that keeps the rotor's speed."""
     acting = _acting(scene, modes)
     p = acting.parameters
@@ -63,7 +62,7 @@ def power(scene: Scene, t: float, y: Array, modes: Modes | None = None) -> float
     return float(total)
 
 
-def resisting(scene: Scene, t: float, y: Array) -> Array:
+def resisting(scene: Scene, t: float, y: AnyArray) -> AnyArray:
     """Forces of the support's dampers, of the gyroscopic moments and of the drag, in all coordinates.
 
     The drag's torque is that between ball and race, so it stands in the row of θ alone.
@@ -72,7 +71,7 @@ def resisting(scene: Scene, t: float, y: Array) -> Array:
     _, v = bodies.split(t, y)
     first, last = bodies.size, bodies.size + bodies.balls
     force = np.zeros(len(v))
-    if isinstance(support, SwingArm):
+    if isinstance(support, SwingArmSupport):
         force[0] = -support.damping * support.length**2 * v[0]
     else:
         spinning = np.array(support.gyroscopic) * v[-1] if support.gyroscopic else 0.0
@@ -82,7 +81,7 @@ def resisting(scene: Scene, t: float, y: Array) -> Array:
     return force
 
 
-def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None, rows: slice = slice(None)) -> Array:
+def demanded(scene: Scene, t: float, y: AnyArray, modes: Modes | None = None, rows: slice = slice(None)) -> AnyArray:
     """d/dt ∂L/∂v − ∂L/∂x, L = T − V, with the accelerations of `equations`: what forces of no energy must supply.
 
     In all coordinates, the turn's included, whoever drives it, or in some rows alone. Derivatives by the complex step,
@@ -100,7 +99,7 @@ def demanded(scene: Scene, t: float, y: Array, modes: Modes | None = None, rows:
         aside[j] += 1j * STEP
         L = v @ bodies.mass(aside) @ v / 2 - _potential(bodies, aside, v, acting)
         slope.append(L.imag / STEP)
-    found: Array = (bodies.mass(moved) @ sped).imag[rows] / STEP - np.array(slope)
+    found: AnyArray = (bodies.mass(moved) @ sped).imag[rows] / STEP - np.array(slope)
     return found
 
 
@@ -121,9 +120,9 @@ class Bodies:
         return len(self.scene.ball_masses)
 
     @property
-    def arm(self) -> SwingArm | None:
+    def arm(self) -> SwingArmSupport | None:
         """The support if it is a swing arm."""
-        return self.scene.support if isinstance(self.scene.support, SwingArm) else None
+        return self.scene.support if isinstance(self.scene.support, SwingArmSupport) else None
 
     @property
     def groove(self) -> Any:
@@ -136,9 +135,9 @@ class Bodies:
         return self.groove is not None
 
     @property
-    def rolling(self) -> Array:
+    def rolling(self) -> AnyArray:
         """(J − 1) m of each ball."""
-        masses: Array = np.array(self.scene.ball_masses) * (_each(self.scene, "inertia_factor") - 1)
+        masses: AnyArray = np.array(self.scene.ball_masses) * (_each(self.scene, "inertia_factor") - 1)
         return masses
 
     @property
@@ -146,58 +145,58 @@ class Bodies:
         """How many of the coordinates are free."""
         return self.size + self.balls * (1 + self.across) + self.scene.rotor.rows
 
-    def split(self, t: Any, y: Array) -> tuple[Array, Array]:
+    def split(self, t: Any, y: AnyArray) -> tuple[AnyArray, AnyArray]:
         """x and v of a state."""
         q, q_rate, theta, rate, w, w_rate, _, turn = self._cut(y)
         if not len(turn):
             turn = np.array([self.scene.speed * t, self.scene.speed])
         return np.concatenate([q, theta, w, turn[:1]]), np.concatenate([q_rate, rate, w_rate, turn[1:]])
 
-    def spinning(self, y: Array) -> Array:
+    def spinning(self, y: AnyArray) -> AnyArray:
         """ν of each ball [m/s]."""
         spin = self._cut(y)[6]
         return spin if len(spin) else np.zeros(self.balls)
 
-    def _cut(self, y: Array) -> list[Array]:
+    def _cut(self, y: AnyArray) -> list[AnyArray]:
         """q, q', θ, θ', w, w', ν, (turn, speed); empty what there is not."""
         free_spin = self.across and self.groove.free_spin
         counts = [self.size] * 2 + [self.balls] * 2 + [self.balls * self.across] * 2 + [self.balls * free_spin]
         return np.split(y, np.cumsum(counts))
 
-    def parts(self, x: Array) -> list[Array]:
+    def parts(self, x: AnyArray) -> list[AnyArray]:
         """q, θ, w (empty without), turn."""
         return np.split(x, np.cumsum([self.size, self.balls, self.balls * self.across]))
 
-    def turned(self, x: Array) -> Any:
+    def turned(self, x: AnyArray) -> Any:
         """The rotor's turn in space."""
         return x[-1] + x[0] if self.arm else x[-1]
 
-    def centre(self, x: Array) -> Array:
+    def centre(self, x: AnyArray) -> AnyArray:
         """Where the axis of the rotor is."""
         if self.arm:
             return self.arm.length * _direction(x[0])
         return np.array(self.scene.support.race_map[:2]) @ x[: self.size]  # type: ignore[union-attr]
 
-    def radii(self, x: Array) -> Array:
+    def radii(self, x: AnyArray) -> AnyArray:
         """R of each ball, less than R_p where it is off the middle of its groove."""
         w = self.parts(x)[2]
         middle = _each(self.scene, "pitch_radius")
-        nearer: Array = w * w / (2 * self.groove.bend) if self.across else 0.0 * middle
+        nearer: AnyArray = w * w / (2 * self.groove.bend) if self.across else 0.0 * middle
         return middle - nearer
 
-    def tilts(self, x: Array) -> Array:
+    def tilts(self, x: AnyArray) -> AnyArray:
         """How the spindle leans toward x and y: Θ."""
         rows = () if self.arm else self.scene.support.race_map[2:]  # type: ignore[union-attr]
         return np.array(rows) @ x[: self.size] if rows else np.zeros(2)
 
-    def sunk(self, x: Array) -> Array:
+    def sunk(self, x: AnyArray) -> AnyArray:
         """By how much R² of each ball is less, seen along the spindle, since its race leans."""
         _, theta, w, _ = self.parts(x)
         way = _each(self.scene, "pitch_radius") * (self.tilts(x) @ _direction(theta + self.turned(x)))
-        narrower: Array = way * way - (2 * w * way if self.across else 0.0)
+        narrower: AnyArray = way * way - (2 * w * way if self.across else 0.0)
         return narrower
 
-    def places(self, x: Array) -> Array:
+    def places(self, x: AnyArray) -> AnyArray:
         """r_k: x, y and along the spindle, of each ball (3 × n)."""
         _, theta, w, _ = self.parts(x)
         turn, tilts = self.turned(x), self.tilts(x)
@@ -211,14 +210,14 @@ class Bodies:
             axial = axial - _each(self.scene, "pitch_radius") * (tilts @ outward)
         return np.vstack([plane, axial])
 
-    def mass(self, x: Array) -> Array:
+    def mass(self, x: AnyArray) -> AnyArray:
         """The symmetric matrix of the kinetic energy in all coordinates."""
         scene, masses = self.scene, np.array(self.scene.ball_masses)
         inertia = sum(effect.rotor_inertia for effect in scene.effects)
         turning, ways = self._turning, self._slope(self.places, x)
         along = np.pad(np.diag(self.radii(x)), ((0, 0), (self.size, len(x) - self.size - self.balls)))
         spins = np.outer(_each(scene, "ball_radius"), turning) - along
-        matrix: Array = np.einsum("akx,k,aky->xy", ways, masses, ways)
+        matrix: AnyArray = np.einsum("akx,k,aky->xy", ways, masses, ways)
         matrix = matrix + np.einsum("kx,k,ky->xy", spins, self.rolling, spins)
         if getattr(scene.support, "axial_inertia", False):
             going = np.pad(np.eye(self.balls), ((0, 0), (self.size, len(x) - self.size - self.balls))) + turning
@@ -235,21 +234,21 @@ class Bodies:
         return matrix
 
     @property
-    def _turning(self) -> Array:
+    def _turning(self) -> AnyArray:
         """The rotor's speed in space per unit of each rate."""
         row = np.zeros(self.size + self.balls * (1 + self.across) + 1)
         row[-1] = 1.0
         row[0] = 1.0 if self.arm else 0.0
         return row
 
-    def _leaning(self, x: Array, place: Callable[[Array], Array], angle: float) -> Array:
+    def _leaning(self, x: AnyArray, place: Callable[[AnyArray], AnyArray], angle: float) -> AnyArray:
         """Matrix of place'·u', u the direction at `angle` in the rotor."""
         moved = self._slope(place, x)
         turned = self._slope(lambda z: _direction(self.turned(z) + angle), x)
-        coupling: Array = moved.T @ turned
+        coupling: AnyArray = moved.T @ turned
         return coupling + coupling.T
 
-    def _slope(self, place: Callable[[Array], Array], x: Array) -> Array:
+    def _slope(self, place: Callable[[AnyArray], AnyArray], x: AnyArray) -> AnyArray:
         """∂place/∂x, last axis x.
 
         Places are linear in lengths and tilts, or quadratic across the groove, and first harmonics of angles: of all of
@@ -261,7 +260,7 @@ class Bodies:
         return np.stack([(place(x + step) - place(x - step)) / 2 for step in np.diag(steps)], axis=-1)
 
 
-def _potential(bodies: Bodies, x: Array, v: Array, acting: Acting) -> Any:
+def _potential(bodies: Bodies, x: AnyArray, v: AnyArray, acting: Acting) -> Any:
     """V [J] of springs and effects."""
     arm, q = bodies.arm, x[: bodies.size]
     K = np.array([[arm.stiffness * arm.length**2]]) if arm else np.array(bodies.scene.support.stiffness)
@@ -283,11 +282,11 @@ def _acting(scene: Scene, modes: Modes | None) -> Acting:
     return equations.acting if modes is None else equations.in_mode(modes)
 
 
-def _each(scene: Scene, name: str) -> Array:
+def _each(scene: Scene, name: str) -> AnyArray:
     """A number of the races, for each ball."""
     return np.array([getattr(race, name) for race in scene.races for _ in race.ball_masses], dtype=float)
 
 
-def _direction(angle: Any) -> Array:
+def _direction(angle: Any) -> AnyArray:
     """(cos, sin)."""
     return np.array((np.cos(angle), np.sin(angle)))

@@ -11,21 +11,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from abu_calc.dynamics.effect import Effect
-from abu_calc.dynamics.effects.ball_contact import BallContact
-from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.gravity import Gravity
-from abu_calc.dynamics.effects.grinding_contact import GrindingContact
-from abu_calc.dynamics.effects.motor import Motor
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
-from abu_calc.dynamics.effects.run_up import RunUp
-from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
+from abu_calc.dynamics.effects.motor import MotorEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.effects.run_up import RunUpEffect
+from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.scene import Race, Scene, placed
 from abu_calc.dynamics.support import Support
-from abu_calc.dynamics.supports.linear import LinearSupport
-from abu_calc.dynamics.supports.planar import PlanarSupport, planar
-from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.planar import LinearSupport, PlanarSupport, planar
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.supports.tilting import tilting
-from abu_calc.units import GRAVITY
+from abu_calc.foundation.units import GRAVITY
 
 RPM = math.pi / 30
 MOST_RADIANS = 1500.0
@@ -105,7 +104,7 @@ def _support(kind: str, rotor: Rotor, dice: Dice) -> Support:
     ky = k * (1.0 if dice.often(0.5) else dice.log(0.3, 3))
     if kind == "swing arm":
         length = rotor.radius * dice.even(2, 6)
-        return SwingArm(length, mass * length**2 * dice.even(1.1, 2), k, b)
+        return SwingArmSupport(length, mass * length**2 * dice.even(1.1, 2), k, b)
     if kind == "tilting":
         inertia = mass * rotor.radius**2 * dice.even(0.3, 1.5)
         place = rotor.radius * dice.even(0.4, 1.5)
@@ -180,28 +179,28 @@ def _effects(scene: Scene, rotor: Rotor, dice: Dice) -> tuple[Effect, ...]:
     radius = race.ball_radius
     if dice.often(0.12):
         parts = dice.even(0.2, 0.6) * scene.duration, (dice.even(0.1, 0.3) * scene.duration if dice.often(0.3) else 0.0)
-        found.append(RunUp(*parts))
+        found.append(RunUpEffect(*parts))
     if dice.often(0.12):
         inertia = rotor.mass * rotor.radius**2 * dice.even(0.2, 0.5)
         torque = inertia * rotor.speed / scene.duration * dice.log(0.3, 10)
-        found.append(Motor(torque, rotor.speed * dice.even(1.0, 1.2), inertia))
+        found.append(MotorEffect(torque, rotor.speed * dice.even(1.0, 1.2), inertia))
     whirl = scene.static_moment / rotor.mass
     if dice.often(0.3):
-        found.append(RaceEccentricity(whirl * dice.log(1e-3, 1), dice.even(-3, 3)))
-    if dice.often(0.1) and not isinstance(scene.support, SwingArm):
+        found.append(RaceEccentricityEffect(whirl * dice.log(1e-3, 1), dice.even(-3, 3)))
+    if dice.often(0.1) and not isinstance(scene.support, SwingArmSupport):
         found.append(
-            TransverseMotion(
+            TransverseMotionEffect(
                 race.pitch_radius * dice.even(0.6, 1), radius, whirl * dice.log(1e-3, 0.3), dice.often(0.3)
             )
         )
     if dice.often(0.3):
-        found.append(Gravity())
-    if dice.often(0.15) and not isinstance(scene.support, SwingArm):
+        found.append(GravityEffect())
+    if dice.often(0.15) and not isinstance(scene.support, SwingArmSupport):
         found.append(_contact(scene, rotor, whirl, dice))
     if dice.often(0.3):
-        found.append(BallContact(radius, dice.even(0, 1)))
+        found.append(BallContactEffect(radius, dice.even(0, 1)))
     if dice.often(0.3):
-        found.append(DryRollingFriction(radius * dice.log(1e-6, 1e-2), radius))
+        found.append(DryRollingFrictionEffect(radius * dice.log(1e-6, 1e-2), radius))
     return tuple(found)
 
 
@@ -209,7 +208,7 @@ def _contact(scene: Scene, rotor: Rotor, whirl: float, dice: Dice) -> Effect:
     """Work pressed against the wheel about as hard as an imbalance pulls; stiff, soft or rigid."""
     rigid = dice.often(0.3)
     force = rotor.mass * whirl * rotor.speed**2 * dice.log(0.03, 3)
-    return GrindingContact(
+    return GrindingContactEffect(
         press_force=force,
         cutting_coefficient=dice.even(0, 0.5),
         contact="rigid" if rigid else "compliant",

@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from abu_calc.dynamics.effect import Effect
-from abu_calc.dynamics.effects.motor import Motor
-from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.effects.motor import MotorEffect
+from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.scene import Race, Scene
 from abu_calc.dynamics.support import Support
-from abu_calc.dynamics.supports.linear import LinearSupport
-from abu_calc.dynamics.supports.planar import PlanarSupport, planar
-from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.planar import LinearSupport, PlanarSupport, planar
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.supports.tilting import tilting
 
 
@@ -114,14 +113,14 @@ SUPPORTS: dict[str, Support] = {
     "hand": hand_support(),
     "tilting": bearings(axial_inertia=False),
     "tilting, axial": bearings(axial_inertia=True),
-    "swing arm": SwingArm(length=1.3, inertia=9.0, stiffness=5.0, damping=0.3, torque=0.7),
+    "swing arm": SwingArmSupport(length=1.3, inertia=9.0, stiffness=5.0, damping=0.3, torque=0.7),
 }
 """Every kind of support, in numbers near 1, with nothing that is symmetric by chance."""
 
 ROTORS: dict[str, tuple[Effect, ...]] = {
     "steady": (),
-    "guided": (RunUp(3.0, 2.0),),
-    "driven": (Motor(2.0, 3.0, 6.0),),
+    "guided": (RunUpEffect(3.0, 2.0),),
+    "driven": (MotorEffect(2.0, 3.0, 6.0),),
 }
 """Every way in which a rotor turns."""
 

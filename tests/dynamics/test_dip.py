@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import planar
+from abu_calc.simulation.simulate import simulate
 
 FULL, LOW = 4000 * math.pi / 30, 1100 * math.pi / 30
 MASS, IMBALANCE, BALL, PLACE, RADIUS, DRAG, INERTIA = 2.919, 300e-6, 9e-3, 0.0199, 5.5e-3, 4.0, 1.4
@@ -57,7 +57,7 @@ def own(course: Course, rtol: float) -> Any:
     return end
 
 
-def scene(effect: RunUp, duration: float) -> Scene:
+def scene(effect: RunUpEffect, duration: float) -> Scene:
     """The same as a scene."""
     mass = MASS + 2 * BALL
     held = planar(MASS, (mass * NATURAL**2,) * 2, (2 * RATIO * NATURAL * mass,) * 2)
@@ -68,7 +68,7 @@ def scene(effect: RunUp, duration: float) -> Scene:
 @pytest.mark.parametrize("up", [0.0, 0.2])
 def test_a_dip_by_other_equations(up: float) -> None:
     """From rest and from full speed, to the last digits that two integrators share."""
-    effect = RunUp(up, low=LOW, fall=0.1, pause=0.05, rise=0.15)
+    effect = RunUpEffect(up, low=LOW, fall=0.1, pause=0.05, rise=0.15)
     course = [(up, FULL), (up + 0.1, LOW), (up + 0.15, LOW), (up + 0.3, FULL), (up + 0.4, FULL)]
     expected = own([(0.0, 0.0), *course] if up else course, 1e-9)
     found = simulate(scene(effect, up + 0.4), accuracy=1e-5, integrator="scipy")
@@ -95,7 +95,7 @@ def test_a_pause_frees_balls_that_hang(low: float) -> None:
 
 def test_a_dip_that_is_none() -> None:
     """Changes nothing of a run-up, and a run has to be long enough for one."""
-    bare = scene(RunUp(0.3), 0.5)
-    assert RunUp(0.3, low=LOW, pause=2.0, rise=1.0).breaks(bare) == RunUp(0.3).breaks(bare) == (0.3,)
+    bare = scene(RunUpEffect(0.3), 0.5)
+    assert RunUpEffect(0.3, low=LOW, pause=2.0, rise=1.0).breaks(bare) == RunUpEffect(0.3).breaks(bare) == (0.3,)
     with pytest.raises(Exception, match="before the run-up"):
-        RunUp(0.3, low=LOW, fall=0.1, pause=2.0, rise=1.0).breaks(replace(bare, duration=2.0))
+        RunUpEffect(0.3, low=LOW, fall=0.1, pause=2.0, rise=1.0).breaks(replace(bare, duration=2.0))

@@ -9,25 +9,25 @@ import numpy as np
 import pytest
 
 import abu_calc.dynamics
-from abu_calc.analysis.response import evaluate, needed_times
-from abu_calc.dynamics.effect import Effect, Kind, Weight
-from abu_calc.dynamics.effects.ball_contact import BallContact
-from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
-from abu_calc.dynamics.effects.gravity import Gravity
-from abu_calc.dynamics.effects.transverse_motion import TransverseMotion
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.equations.right_hand_side import motion_of
-from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.compiled import run as loop
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.switching.modes import starting
-from abu_calc.errors import InputError
-from abu_calc.scenes.from_scene import SUPPORTS as KINDS
-from abu_calc.spec.scene import NEEDED, REFUSED, SceneTable
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.scene import NEEDED, REFUSED, SceneTable
+from abu_calc.simulation.response import evaluate, needed_times
+from abu_calc.simulation.scene_of_file import SUPPORTS as KINDS
 from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import SUPPORTS, dimensionless, scene_on, with_effects
 from tests.house.newcomers.rail import Rail
@@ -129,7 +129,9 @@ def test_forces_add_and_owned_slots_have_one_owner():
 
 
 @pytest.mark.parametrize(
-    "effect", [TransverseMotion(0.7, 0.1), DryRollingFriction(0.02, 0.1), DryRollingFriction(0.01, 0.2)], ids=str
+    "effect",
+    [TransverseMotionEffect(0.7, 0.1), DryRollingFrictionEffect(0.02, 0.1), DryRollingFrictionEffect(0.01, 0.2)],
+    ids=str,
 )
 def test_two_effects_that_want_one_slot_are_refused(effect):
     equations = assemble(scene_on("planar", effect, replace(effect, ball_radius=0.11)))
@@ -152,9 +154,9 @@ def test_effects_set_no_slot_past_the_contract():
 def test_what_a_scene_tells_is_what_its_effects_tell():
     scene = scene_on("planar")
     assert (scene.rotor, scene.start_speed, scene.run_down, scene.holding) == (STEADY, scene.speed, 0.0, None)
-    scene = scene_on("planar", BallContact(0.1, 0.5), DryRollingFriction(0.02, 0.1))
+    scene = scene_on("planar", BallContactEffect(0.1, 0.5), DryRollingFrictionEffect(0.02, 0.1))
     assert scene.balls_meet and scene.holding.friction == pytest.approx(0.2)
-    scene = scene_on("planar", TransverseMotion(0.7, 0.1))
+    scene = scene_on("planar", TransverseMotionEffect(0.7, 0.1))
     assert scene.ball_states == ("across", "across'")
 
 
@@ -175,15 +177,15 @@ class Wind(Effect):
         """Along x."""
         loads.add(frame=np.eye(len(p.frame.mass))[0] * self.force, pull=-self.pull * m.sin, press=self.pull * m.cos)
 
-    def weight(self, scene: Any) -> Weight:
+    def weight(self, scene: Any) -> EffectInfluence:
         """Unknown."""
-        return Weight(None, "it blows")
+        return EffectInfluence(None, "it blows")
 
 
 def test_a_new_effect_is_one_class():
     """Integrated by SciPy and by the loop beside another effect, without a change anywhere."""
     wind = Wind(0.05, 0.02)
-    scene = with_effects(dimensionless(2.0, 0.05, 0.02, 0.1, 0.1, (1.6, -1.4), 40.0), wind, Gravity(0.01))
+    scene = with_effects(dimensionless(2.0, 0.05, 0.02, 0.1, 0.1, (1.6, -1.4), 40.0), wind, GravityEffect(0.01))
     equations, times = assemble(scene), np.linspace(0, 40, 5)
     one = scipy_.integrate(equations, 1e-9, times).y
     other = loop.integrate(equations, 1e-9, times, method="dop853").y
@@ -214,7 +216,7 @@ def test_a_new_support_is_one_class():
 
 
 def test_a_new_support_takes_effects_and_drives():
-    scene = on_rail(Gravity(0.01), DryRollingFriction(0.0002, 0.1))
+    scene = on_rail(GravityEffect(0.01), DryRollingFrictionEffect(0.0002, 0.1))
     state, modes = starting(assemble(scene))
     assert np.isfinite(assemble(scene).rhs(np, 0.0, state, assemble(scene).in_mode(modes))).all()
     with pytest.raises(InputError, match="tilts"):
@@ -237,7 +239,7 @@ def test_balls_on_an_arm_weigh_by_how_their_angles_are_counted():
 
     Both from the mass matrix of the second derivation: (φ, θ) to (φ, γ = θ + φ + Ωt).
     """
-    arm = SwingArm(1.3, 9.0, 5.0, 0.3)
+    arm = SwingArmSupport(1.3, 9.0, 5.0, 0.3)
     scene = replace(scene_on("planar"), support=arm, start_position=(0.0,), start_velocity=(0.0,), imbalance=0.0)
     scene = replace(scene, races=tuple(replace(race, inertia_factor=1.0) for race in scene.races))
     balls, held, free = scene.balls, [], []

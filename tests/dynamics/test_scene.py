@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.dynamics.effects.gravity import Gravity
-from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricity
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.scene import Race, only, parted_angles, with_parted_balls, without
 from abu_calc.dynamics.supports.planar import PlanarSupport, planar
-from abu_calc.errors import InputError
-from abu_calc.spec.scene_effects import Effects
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.scene_effects import Effects
 from tests.dynamics.scenes import dimensionless
 
 SCENE = dimensionless(2.0, 0.05, 0.01, 0.01, 0.01, (0.0, 1.0), 10.0)
@@ -113,10 +113,10 @@ def test_balls_of_all_races_are_told_race_by_race():
 
 
 def test_effects_are_picked_by_name_and_keep_their_order():
-    scene = replace(SCENE, effects=(RaceEccentricity(1e-3), Gravity()))
+    scene = replace(SCENE, effects=(RaceEccentricityEffect(1e-3), GravityEffect()))
     assert only(scene, ["gravity", "race_eccentricity"]) == scene
-    assert only(scene, ["gravity"]).effects == (Gravity(),)
-    assert without(scene, ["gravity", "motor"]).effects == (RaceEccentricity(1e-3),)
+    assert only(scene, ["gravity"]).effects == (GravityEffect(),)
+    assert without(scene, ["gravity", "motor"]).effects == (RaceEccentricityEffect(1e-3),)
     assert only(scene, []).effects == ()
     with pytest.raises(InputError, match=r"no data.*found motor; allowed: race_eccentricity, gravity"):
         only(scene, ["gravity", "motor"])

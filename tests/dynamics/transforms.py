@@ -10,8 +10,8 @@ import numpy as np
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Race, Scene
-from abu_calc.dynamics.supports.linear import LinearSupport
-from abu_calc.dynamics.supports.swing_arm import SwingArm
+from abu_calc.dynamics.supports.planar import LinearSupport
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.supports.tilting import TiltingSupport
 from tests.dynamics.examples import UNITS
 
@@ -39,7 +39,7 @@ def turned(scene: Scene, angle: float, effect: Callable[[Effect, float], Effect]
 
 def mirror_angle(scene: Scene) -> float:
     """An angle γ becomes this less γ: x → −x, which leaves gravity and work where they are; on an arm y → −y."""
-    return 0.0 if isinstance(scene.support, SwingArm) else math.pi
+    return 0.0 if isinstance(scene.support, SwingArmSupport) else math.pi
 
 
 def mirrored(scene: Scene, effect: Callable[[Effect, float], Effect]) -> Scene:
@@ -48,7 +48,7 @@ def mirrored(scene: Scene, effect: Callable[[Effect, float], Effect]) -> Scene:
     A linear support keeps its coordinates: what they move is mirrored.
     """
     support, whole = scene.support, mirror_angle(scene)
-    if isinstance(support, SwingArm):
+    if isinstance(support, SwingArmSupport):
         seen: Any = replace(support, torque=-support.torque)
     else:
         flip = np.diag((-1.0, 1.0) * (len(support.race_map) // 2))
@@ -74,7 +74,7 @@ def mirrored(scene: Scene, effect: Callable[[Effect, float], Effect]) -> Scene:
 
 def mirrored_state(scene: Scene, y: np.ndarray) -> np.ndarray:
     """The state in that mirror; what goes along the spindle, w and a linear support's coordinates stay."""
-    seen, on_arm = y.copy(), isinstance(scene.support, SwingArm)
+    seen, on_arm = y.copy(), isinstance(scene.support, SwingArmSupport)
     for k, name in enumerate(assemble(scene).states):
         if name.startswith(("θ", "turn", "spin", *(["arm"] if on_arm else []))):
             seen[k] = -y[k]
@@ -108,7 +108,7 @@ def in_units(scene: Scene, length: float, mass: float, time: float) -> Scene:
     """The same scene told in other units: a number of it is multiplied by what the new unit is smaller."""
     u = coordinate_units(scene, length)
     support, energy = scene.support, mass * length**2 / time**2
-    if isinstance(support, SwingArm):
+    if isinstance(support, SwingArmSupport):
         told: Any = replace(
             support,
             length=support.length * length,

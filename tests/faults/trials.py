@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from abu_calc.studies.sweeping.store import Store
+from abu_calc.features.sweep.store import Store
 from tests.cli.runner import Seen, abu
 from tests.faults.aim import aimed
 from tests.faults.clusters import cluster
@@ -46,10 +46,10 @@ MODULES = (
     "sqlite3", "numpy", "numpy.linalg", "numpy.random", "scipy", "scipy._lib._ccallback", "scipy.special",
     "scipy.special._ufuncs", "scipy.stats", "scipy.stats._qmc", "scipy.linalg", "scipy.linalg._fblas", "scipy.sparse",
     "scipy.optimize", "scipy.integrate", "scipy.integrate._vode", "scipy.spatial", "scipy.interpolate", "pydantic",
-    "pydantic_core", "typer", "tomllib", "uuid", "abu_calc.cli.app", "abu_calc.cli.sweep", "abu_calc.studies.sweep",
-    "abu_calc.studies.sweeping.store", "abu_calc.studies.sweeping.answers", "abu_calc.spec.scene",
-    "abu_calc.dynamics.equations.assemble", "abu_calc.dynamics.integrators.choice", "abu_calc.report.sweep",
-    "concurrent.futures", "abu_calc.analysis.one_machine", "abu_calc.scenes.from_scene",
+    "pydantic_core", "typer", "tomllib", "uuid", "abu_calc.cli.app", "abu_calc.features.sweep.command", "abu_calc.features.sweep.study",
+    "abu_calc.features.sweep.store", "abu_calc.features.sweep.answers", "abu_calc.inputs.scene",
+    "abu_calc.dynamics.equations.assemble", "abu_calc.dynamics.integrators.choice", "abu_calc.features.sweep.view",
+    "concurrent.futures", "abu_calc.features.sweep.sample_run", "abu_calc.simulation.scene_of_file",
 )  # fmt: skip
 """Modules that a sweep loads, some of them while it computes its first members."""
 ENDED = {"SIGINT": {130, -signal.SIGINT}, "SIGTERM": {143, -signal.SIGTERM}}

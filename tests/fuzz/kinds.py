@@ -3,9 +3,9 @@
 import math
 from typing import Final, NamedTuple
 
-from abu_calc.spec.presets import text_of
-from tests.spec.samples import BEARINGS
-from tests.spec.scenes import ARM, JOINT_AND_CONTACT, PLANAR, SCENE, TILTING
+from abu_calc.inputs.reading.sources import text_of
+from tests.inputs.samples import BEARINGS
+from tests.inputs.scenes import ARM, JOINT_AND_CONTACT, PLANAR, SCENE, TILTING
 
 FILE: Final = "@"
 """Stands for the file in a command."""

@@ -6,9 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import evaluate, needed_times
-from abu_calc.analysis.simulate import Simulation, simulate
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.choice import available, integrate_with
@@ -18,6 +15,9 @@ from abu_calc.dynamics.support import Support
 from abu_calc.dynamics.supports.planar import planar
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.simulation.nonconvergence import difference
+from abu_calc.simulation.response import evaluate, needed_times
+from abu_calc.simulation.simulate import Simulation, simulate
 from tests.dynamics.energy import Bodies, energy, power
 
 RPM = math.pi / 30

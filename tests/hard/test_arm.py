@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.balanced.stability import stability
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.dynamics.supports.swing_arm import cutting_arm
-from abu_calc.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.simulation.simulate import simulate
 from tests.cli.runner import abu
-from tests.dynamics.test_swing_arm import bare
+from tests.dynamics.supports.test_swing_arm import bare
 from tests.hard.scenes import check_claim, run, scene_of
-from tests.spec.scenes import ARM
+from tests.inputs.scenes import ARM
 
 pytestmark = pytest.mark.hard
 

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.balanced.stability import stability
-from abu_calc.dynamics.effects.ball_contact import BallContact
-from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFriction
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.choice import choose
 from abu_calc.dynamics.scene import Scene
-from abu_calc.errors import InputError
+from abu_calc.dynamics.stability.verdict import stability
+from abu_calc.foundation.errors import InputError
+from abu_calc.simulation.simulate import simulate
 from tests.hard.scenes import (
     CLAIM,
     check_agreement,
@@ -48,7 +48,7 @@ def test_dry_friction_from_a_trace_to_a_brake(coefficient: float) -> None:
     From f = 1e-2 on they stick from the start and never move; below they roll, and what they leave of the imbalance's
     whirl grows with f.
     """
-    friction = DryRollingFriction(coefficient * BALL, BALL)
+    friction = DryRollingFrictionEffect(coefficient * BALL, BALL)
     scene = machine(W, (1.0, 2.5), 3.0 if coefficient < 1e-2 else 1.0, friction)
     found = check_claim(scene)
     y = found.trajectory.y[:, -1]
@@ -66,13 +66,13 @@ def test_dry_friction_from_a_trace_to_a_brake(coefficient: float) -> None:
 
 def test_what_dry_friction_takes() -> None:
     """−Σ m f n R_p |θ'| beside dampers, drag and drive: the energy of balls that stick and roll is balanced."""
-    check_energy(machine(W, (1.0, 2.5), 1.0, DryRollingFriction(1e-3 * BALL, BALL)), 0.0, 0.05, 1e-3)
+    check_energy(machine(W, (1.0, 2.5), 1.0, DryRollingFrictionEffect(1e-3 * BALL, BALL)), 0.0, 0.05, 1e-3)
 
 
 @pytest.mark.parametrize("coefficient", [1e-5, 1e-3, 1e-2])
 def test_a_chattering_start(coefficient: float) -> None:
     """The support is thrown and its free vibration shakes the balls loose, again and again: two integrators agree."""
-    scene = machine(W, (1.0, 2.5), 0.5, DryRollingFriction(coefficient * BALL, BALL), damping_ratio=0.02)
+    scene = machine(W, (1.0, 2.5), 0.5, DryRollingFrictionEffect(coefficient * BALL, BALL), damping_ratio=0.02)
     scene = replace(scene, start_position=(3e-4, -2e-4), start_velocity=(0.3, 0.0))
     motion = check_agreement(scene, 2e-3)
     assert motion.events > (10 if coefficient < 1e-2 else -1)
@@ -156,7 +156,9 @@ def test_packed_balls(count: int, friction: float) -> None:
     radius = 0.024 * math.sin(math.pi / count / 2)
     beta = math.asin(radius / 0.024)
     angles = tuple(1 + 2 * beta * (k - (count - 1) / 2) * (1 + 1e-9) for k in range(count))
-    effects = [BallContact(radius, 0.5)] + ([DryRollingFriction(friction * radius, radius)] if friction else [])
+    effects = [BallContactEffect(radius, 0.5)] + (
+        [DryRollingFrictionEffect(friction * radius, radius)] if friction else []
+    )
     scene = machine(W, angles, 2.0, *effects, ball_mass=0.0434 / count)
     found = check_claim(scene, claim=math.inf if count == 20 else CLAIM)
     balls = found.trajectory.y[4 : 4 + count]
@@ -169,7 +171,7 @@ def test_packed_balls(count: int, friction: float) -> None:
 
 def test_balls_that_overlap_or_fill_their_race() -> None:
     """Refused, with what is found and allowed, where balls have a size; points may stand as near as they like."""
-    contact = BallContact(BALL, 0.5)
+    contact = BallContactEffect(BALL, 0.5)
     for angles in ((1.0, 1.1), (1.0, 1.0)):
         with pytest.raises(InputError, match=r"balls 1 and 2 overlap at the start \(found .*; allowed: at least 38.94"):
             simulate(machine(W, angles, 1.0, contact))

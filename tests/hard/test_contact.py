@@ -7,11 +7,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effects.ball_contact import BallContact
-from abu_calc.dynamics.effects.grinding_contact import GrindingContact
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.scene import Scene
-from tests.dynamics.test_grinding_contact import BALL, CX, CY, EPS, PHI, PITCH_RADIUS, E, M, W, grinder, normal_forces
+from tests.dynamics.effects.test_grinding_contact import (
+    BALL,
+    CX,
+    CY,
+    EPS,
+    PHI,
+    PITCH_RADIUS,
+    E,
+    M,
+    W,
+    grinder,
+    normal_forces,
+)
 from tests.hard.scenes import check_agreement, check_claim, check_energy, machine, run
 
 pytestmark = pytest.mark.hard
@@ -25,7 +37,7 @@ def flutter(drag: float, duration: float) -> tuple[Scene, np.ndarray]:
     Ω²U = E (D_x − isf D_y)/(1 + isf) is what they leave; the imbalance is such that |U − m₀e| = √2 m R_p.
     """
     f, sense, damping = 0.5, -1, 45.0
-    contact = GrindingContact(400.0, f, "rigid", rotation_sense=sense, runout=EPS, runout_angle=PHI)
+    contact = GrindingContactEffect(400.0, f, "rigid", rotation_sense=sense, runout=EPS, runout_angle=PHI)
     Dx, Dy = (c - M * W**2 + 1j * damping * W for c in (CX, CY))
     U = E * (Dx - 1j * sense * f * Dy) / (1 + 1j * sense * f) / W**2
     own = U.real + math.sqrt(2 * (BALL * PITCH_RADIUS) ** 2 - U.imag**2)
@@ -80,7 +92,7 @@ def touching(stiffness: float, press: float, duration: float) -> tuple[Scene, co
     N = -stiffness * (Y - 1j * E)
     assert pytest.approx(1j * stiffness * E * D / (D + stiffness)) == N
     X = -CUTTING * N / (CX - M * W**2)
-    contact = GrindingContact(
+    contact = GrindingContactEffect(
         press, CUTTING, "compliant", contact_stiffness=stiffness, runout=EPS, runout_angle=PHI
     )  # fmt: skip
     return grinder(contact, (), imbalance=1e-7, duration=duration, start=(X, Y)), N
@@ -131,7 +143,9 @@ def test_a_bouncing_wheel(stiffness: float) -> None:
 
     Bounces multiply errors: the run is as short as that.
     """
-    contact = GrindingContact(30.0, CUTTING, "compliant", contact_stiffness=stiffness, runout=EPS, runout_angle=PHI)
+    contact = GrindingContactEffect(
+        30.0, CUTTING, "compliant", contact_stiffness=stiffness, runout=EPS, runout_angle=PHI
+    )
     scene = grinder(contact, (1.0, 2.5), damping=200.0, duration=0.05)
     motion = check_agreement(scene, 1e-4)
     assert motion.events >= 4
@@ -147,7 +161,7 @@ def test_a_dropped_wheel_comes_to_rest() -> None:
 
     A bounce of a spring takes a finite time, so their number is finite: it is the same at two tolerances.
     """
-    contact = GrindingContact(30.0, 0.0, "compliant", contact_stiffness=1e7)
+    contact = GrindingContactEffect(30.0, 0.0, "compliant", contact_stiffness=1e7)
     scene = replace(grinder(contact, (), imbalance=1e-9, damping=500.0, duration=1.0), start_position=(0.0, 2e-3))
     runs = [run(scene, np.linspace(0, 1, 101), tolerance=tolerance) for tolerance in (1e-6, 1e-8)]
     assert runs[0].events == runs[1].events > 8
@@ -166,7 +180,7 @@ def test_balls_bounce_to_rest(restitution: float) -> None:
     A finite number of events is counted, fewer without restitution; then they touch for good, 2β apart, at places two
     tolerances and two integrators agree on. Where a pair parts within what events are located by, it may dip by 1e-6.
     """
-    scene = machine(50.0, (2.5, -2.0), 3.0, BallContact(0.008, restitution), damping_ratio=0.2, drag=5.0)
+    scene = machine(50.0, (2.5, -2.0), 3.0, BallContactEffect(0.008, restitution), damping_ratio=0.2, drag=5.0)
     motion = check_agreement(scene, 1e-3, 301)
     gap = 2 * math.pi - (motion.y[4] - motion.y[5]) - 2 * math.asin(0.008 / 0.024)
     assert (gap > -1e-6).all()

@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.balanced.stability import stability
-from abu_calc.dynamics.effects.gravity import Gravity
+from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.compiled import run as loop
 from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.dynamics.supports.tilting import tilting
-from abu_calc.units import GRAVITY
+from abu_calc.foundation.units import GRAVITY
+from abu_calc.simulation.simulate import simulate
 from tests.dynamics.scenes import dimensionless
 from tests.dynamics.transforms import in_units
 from tests.hard.scenes import RPM, check_agreement, check_claim, check_energy, machine, resultant, scene_of, standing
@@ -44,7 +44,7 @@ def weighed(mass: float, rpm: float) -> Scene:
     """Built smaller or larger as before, but on the earth, whose gravity knows of sizes."""
     plain = machine(600.0, (1.0, 2.5), 2.0)
     scene = in_units(plain, length=(mass / 5) ** (1 / 3), mass=mass / 5, time=600.0 / (rpm * RPM))
-    return replace(scene, effects=(Gravity(),))
+    return replace(scene, effects=(GravityEffect(),))
 
 
 def test_loose_tolerances_do_not_agree_on_a_wrong_end() -> None:
@@ -78,7 +78,7 @@ def test_a_horizontal_axis_too_slow_for_its_balls(drag: float, rpm: float, hangs
     it would fall at the top, and the result says so; hanging it does not.
     """
     speed = rpm * RPM
-    scene = machine(speed, (-1.0,), 4.0, Gravity(), mass=1e6, imbalance=1e-6, drag=drag)
+    scene = machine(speed, (-1.0,), 4.0, GravityEffect(), mass=1e6, imbalance=1e-6, drag=drag)
     scene = standing(scene)
     motion = check_agreement(scene, 1e-3)
     lift = drag * 0.024 * speed / GRAVITY
@@ -96,10 +96,10 @@ def test_a_horizontal_axis_too_slow_for_its_balls(drag: float, rpm: float, hangs
 def test_a_ball_that_would_fall_off_its_race_is_told() -> None:
     """Carried over the top by drag at 180 rpm, Ω²R_p = 8.5 m/s² < g; and a ball that starts at rest at the top."""
     for drag, angle, rpm in ((60.0, -1.0, 180.0), (5.0, 1.5, 600.0)):
-        scene = standing(machine(rpm * RPM, (angle,), 1.0, Gravity(), mass=1e6, imbalance=1e-6, drag=drag))
+        scene = standing(machine(rpm * RPM, (angle,), 1.0, GravityEffect(), mass=1e6, imbalance=1e-6, drag=drag))
         (warning,) = simulate(scene, integrator="scipy").warnings
         assert "ball 1 would fall off its race" in warning
-    assert simulate(machine(600.0, (1.0, 2.5), 0.5, Gravity()), integrator="scipy").warnings == ()
+    assert simulate(machine(600.0, (1.0, 2.5), 0.5, GravityEffect()), integrator="scipy").warnings == ()
 
 
 def two_planes(polar: float, speed: float, duration: float) -> Scene:

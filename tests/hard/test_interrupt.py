@@ -11,9 +11,9 @@ import pytest
 
 from abu_calc.cli import app, start
 from abu_calc.dynamics.integrators.compiled import code
-from abu_calc.interruption import INTERRUPTED
+from abu_calc.foundation.interruption import INTERRUPTED
 from tests.cli.runner import abu
-from tests.spec.scenes import SCENE
+from tests.inputs.scenes import SCENE
 
 pytestmark = pytest.mark.hard
 
@@ -67,7 +67,7 @@ def test_interrupted_while_starting(monkeypatch: pytest.MonkeyPatch, capsys: pyt
 
 def test_interrupted_in_the_audit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """The second run of `--audit` is as long as the first: what is told to be unwritten is not written before it."""
-    monkeypatch.setattr("abu_calc.studies.simulate.with_all_effects", _interrupt)
+    monkeypatch.setattr("abu_calc.features.simulate.study.with_all_effects", _interrupt)
     scene, motion = tmp_path / "scene.toml", tmp_path / "motion.csv"
     scene.write_text(SCENE, encoding="utf-8")
     seen = abu("simulate", str(scene), "--duration", "10", "--audit", "--trajectory", str(motion))

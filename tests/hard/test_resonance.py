@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from abu_calc.analysis.simulate import simulate
-from abu_calc.dynamics.balanced.stability import stability
-from abu_calc.dynamics.effects.motor import Motor
-from abu_calc.dynamics.effects.run_up import RunUp
+from abu_calc.dynamics.effects.motor import MotorEffect
+from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.supports.swing_arm import SwingArm
-from abu_calc.errors import InputError
+from abu_calc.dynamics.stability.verdict import stability
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
+from abu_calc.foundation.errors import InputError
+from abu_calc.simulation.simulate import simulate
 from tests.cli.runner import abu
 from tests.hard.scenes import (
     balls_at_end,
@@ -58,7 +58,7 @@ def test_growth_at_an_undamped_resonance() -> None:
     for angles in ((), (1.0, 2.5)):
         with pytest.raises(InputError, match="natural frequency of the support, which nothing damps"):
             simulate(machine(80.0, angles, 2.0, damping_ratio=0.0))
-    arm = scene_of(SwingArm(2.0, 4.0, 6400.0, 0.0), 80.0, 1e-4, (), 1.0)
+    arm = scene_of(SwingArmSupport(2.0, 4.0, 6400.0, 0.0), 80.0, 1e-4, (), 1.0)
     with pytest.raises(InputError, match="which nothing damps"):
         simulate(arm)
     assert simulate(machine(80.0, (), 2.0, damping_ratio=1e-6), integrator="scipy").error_estimate <= 0.01
@@ -101,7 +101,7 @@ def test_run_up_through_two_resonances() -> None:
     again. Then the balls balance; the energy is what the drive put in.
     """
     scene = machine(
-        600.0, (1.0, 2.5), 3.0, RunUp(1.0), frequencies=(150.0, 300.0), damping_ratio=0.05, imbalance=150e-6
+        600.0, (1.0, 2.5), 3.0, RunUpEffect(1.0), frequencies=(150.0, 300.0), damping_ratio=0.05, imbalance=150e-6
     )
     motion = check_agreement(scene, 1e-3, 6001)
     for axis, natural in ((0, 150.0), (1, 300.0)):
@@ -115,7 +115,7 @@ def test_run_up_through_two_resonances() -> None:
 
 def motorised(torque: float, angles: tuple[float, ...], frequencies: tuple[float, float], duration: float) -> Scene:
     """A small rotor run up from rest by a motor of 700 rad/s."""
-    effects = RunUp(0.1), Motor(torque, 700.0, 5e-5)
+    effects = RunUpEffect(0.1), MotorEffect(torque, 700.0, 5e-5)
     return machine(
         600.0, angles, duration, *effects, frequencies=frequencies, damping_ratio=0.03, imbalance=400e-6
     )  # fmt: skip

@@ -16,8 +16,8 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.analysis.batches import ENDED, Row, given, in_batches
-from abu_calc.analysis.time_limit import limited
+from abu_calc.features.sweep.batches import ENDED, Row, given, in_batches
+from abu_calc.features.sweep.sample_run import limited
 
 RUNS = 60
 SWEEP = [sys.executable, "-m", "abu_calc", "sweep", "avtovaz-707-222", "--tolerances", "--runs", str(RUNS), "--quiet"]
@@ -125,7 +125,7 @@ def test_a_member_that_never_returns_is_passed_over_on_a_cluster() -> None:
     """Its worker ends, the cluster starts another, and after some of them the member is recorded."""
     from distributed import Client, LocalCluster
 
-    from abu_calc.studies.sweeping.cluster import is_ours_to_end
+    from abu_calc.features.sweep.cluster import is_ours_to_end
 
     found: list[Row] = []
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effects.ball_contact import BallContact
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.integrators.compiled.run import integrate
@@ -25,7 +25,7 @@ TOLERANCE = 2e-5
 def run(angles: np.ndarray, radius: float, pitch_radius: float, restitution: float, duration: float) -> Trajectory:
     """A machine of 5 kg and 13 Hz at 3000 rpm with balls of 0.5 g; order and room are kept by all balls."""
     scene = machine(
-        SPEED, tuple(angles.tolist()), duration, BallContact(radius, restitution), ball_mass=5e-4,
+        SPEED, tuple(angles.tolist()), duration, BallContactEffect(radius, restitution), ball_mass=5e-4,
         pitch_radius=pitch_radius, drag=10.0, imbalance=2e-3, inertia_factor=1.0,
     )  # fmt: skip
     found = integrate(assemble(scene), TOLERANCE, np.linspace(0, duration, 21))

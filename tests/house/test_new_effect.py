@@ -38,12 +38,12 @@ def add_churning(copy: Copy) -> None:
         ('    ("gravity", Gravity),', '    ("churning", Churning),\n'),
     )
     copy.change(
-        "abu_calc/spec/scene_effects.py",
+        "abu_calc/inputs/scene_effects.py",
         ("BALL_RADIUS = ", TABLE),
         ("    gravity: Gravity | None", "    churning: Churning | None = None\n"),
     )
     copy.change(
-        "abu_calc/scenes/from_tables.py",
+        "abu_calc/simulation/scene_of_file.py",
         ("NUMBERS: Final", '    "churning": lambda table: {"coefficient": table.coefficient_s},\n'),
     )
     copy.change(
@@ -95,7 +95,7 @@ def test_a_new_effect_is_held_to_the_contract_of_effects(copy: Copy, lie: str | 
     add_churning(copy)
     if lie is not None:
         copy.replace("abu_calc/dynamics/effects/churning.py", HONEST, lie + HONEST)
-    done = copy.run("-m", "pytest", "-n", "0", "tests/dynamics/test_contract.py", "-k", "churning and not +")
+    done = copy.run("-m", "pytest", "-n", "0", "tests/dynamics/effects/test_contract.py", "-k", "churning and not +")
     assert done.returncode == (0 if lie is None else 1), done.stdout + done.stderr
     failed = set(re.findall(r"^FAILED .*::(\w+)", done.stdout, re.M))
     expected = {"test_dissipative_effects_take_energy_only", "test_energy_changes_by_the_power_alone"}

@@ -52,17 +52,17 @@ def _rail(table: SceneTable) -> Held:
 
 def add_rail(copy: Copy) -> None:
     copy.add("rail.py", "abu_calc/dynamics/supports/rail.py")
-    copy.change("abu_calc/spec/scene_support.py", ("PER_BEARING: Final", RAIL_TABLE))
+    copy.change("abu_calc/inputs/scene_parts.py", ("PER_BEARING: Final", RAIL_TABLE))
     copy.change(
-        "abu_calc/spec/scene.py",
-        ("from abu_calc.spec.scene_race import", "from abu_calc.spec.scene_support import Rail\n"),
+        "abu_calc/inputs/scene.py",
+        ("from abu_calc.inputs.scene_parts import", "from abu_calc.inputs.scene_parts import Rail\n"),
         ("NEEDED: Final", '    "rail": ("mass_kg", "rail"),\n'),
         ("REFUSED: Final", '    "rail": (*SPRINGS, "tilting", "swing_arm", "body"),\n'),
         ("    body: Body | None", "    rail: Rail | None = None\n"),
     )
-    copy.replace("abu_calc/spec/scene.py", 'Literal["planar", ', 'Literal["rail", "planar", ')
+    copy.replace("abu_calc/inputs/scene.py", 'Literal["planar", ', 'Literal["rail", "planar", ')
     copy.change(
-        "abu_calc/scenes/from_scene.py",
+        "abu_calc/simulation/scene_of_file.py",
         ("from abu_calc.dynamics.supports.planar import", "from abu_calc.dynamics.supports.rail import Rail\n"),
         ('"""A support, and places and velocities', RAIL_SCENE),
         ("SUPPORTS: Final", '    "rail": _rail,\n'),

@@ -11,12 +11,12 @@ import pytest
 
 import abu_calc
 from abu_calc.cli import app
-from abu_calc.formula import formula
-from abu_calc.report import files
-from abu_calc.report.outcome import Outcome
-from abu_calc.report.parts import facts
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.reporting import files
+from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.parts import facts
 from abu_calc.sizing.case import Case, read_case
-from abu_calc.studies.quantity import Quantity, Record, record
 from tests.cli.runner import abu
 from tests.house.structure import ROOT
 
@@ -43,7 +43,7 @@ def test_a_recipe_touches_few_files(what: str) -> None:
 
 def test_a_sizing_step_is_a_function_of_the_case_with_its_formula(monkeypatch: pytest.MonkeyPatch) -> None:
     """A frozen result, a registered formula that `explain` shows, a record that reports show: nothing else is asked."""
-    monkeypatch.setattr("abu_calc.formula.REGISTERED", {})
+    monkeypatch.setattr("abu_calc.foundation.formula.REGISTERED", {})
     case = read_case(abu_calc.read("msh-230").whole("size"))
 
     @dataclass(frozen=True)

@@ -174,14 +174,14 @@ def test_a_type_checker_sees_real_types(tmp_path: Path) -> None:
     said = [line.split(": ", 1)[1] for line in done.stdout.splitlines() if "use.py:" in line]
     revealed = [line.split('"')[1].replace("builtins.", "") for line in said if "Revealed type" in line]
     assert revealed == [
-        "abu_calc.spec.read.Machine",
+        "abu_calc.inputs.read_machine.Machine",
         "int",
         "float | None",
-        "tuple[abu_calc.studies.seat_records.SeatResult, ...]",
+        "tuple[abu_calc.features.seats.records.SeatResult, ...]",
         "bool | None",
         "float",
         "float",
-        "abu_calc.studies.scene_model.SceneModel",
+        "abu_calc.simulation.records.SceneModel",
     ]
     errors = [line for line in said if line.startswith("error")]
     assert len(errors) == 2 and "ball_cont" in errors[0] and "sise" in errors[1]

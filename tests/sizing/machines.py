@@ -3,7 +3,7 @@
 from copy import deepcopy
 from typing import Any
 
-from abu_calc.spec.machine import MachineFile
+from abu_calc.inputs.machine import MachineFile
 
 BASE: dict[str, Any] = {
     "machine": {

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 
 import abu_calc
-from abu_calc.errors import InputError
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing import size as sized
 from abu_calc.sizing.instruments import readings, velocity_shown
-from abu_calc.spec.measured import Shown
 from tests.cli.runner import abu, once
 
 SPEED = 5800 * math.pi / 30
@@ -63,7 +63,7 @@ def test_the_same_machine_sizes_alike(values: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("values", ALIKE.values(), ids=ALIKE)
 def test_what_was_measured_after_stands_beside_the_prediction_alike(values: dict[str, Any]) -> None:
-    from abu_calc.sizing.compared import compared_design
+    from abu_calc.simulation.vibration_records import compared_design
 
     machine = abu_calc.read("avtovaz-707-305")  # its speed is another
     speed, level = 1750 * math.pi / 30, 99.0

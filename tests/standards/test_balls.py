@@ -4,13 +4,8 @@ import math
 
 import pytest
 
-from abu_calc.errors import InputError
-from abu_calc.standards.balls import (
-    material,
-    seat_material,
-    stock_diameter,
-    stock_diameters,
-)
+from abu_calc.foundation.errors import InputError
+from abu_calc.standards.balls import material, seat_material, stock_diameter, stock_diameters
 from abu_calc.standards.tables import toml_table
 
 

@@ -4,9 +4,8 @@ import itertools
 
 import pytest
 
-from abu_calc.errors import InputError, RangeError
-from abu_calc.standards.bearings import of_size
-from abu_calc.standards.clearance import GROUPS, radial_clearance
+from abu_calc.foundation.errors import InputError, RangeError
+from abu_calc.standards.bearing_catalogue import GROUPS, of_size, radial_clearance
 from abu_calc.standards.tables import csv_rows
 from tests.standards.second_sources import SHJF_CLEARANCE, TPI_CLEARANCE
 

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from abu_calc.errors import InputError
-from abu_calc.standards.designations import read_designation
+from abu_calc.foundation.errors import InputError
+from abu_calc.standards.bearing_catalogue import read_designation
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.errors import InputError, RangeError
-from abu_calc.standards.limits import ring_limits
+from abu_calc.foundation.errors import InputError, RangeError
 from abu_calc.standards.tables import csv_rows
+from abu_calc.standards.tolerance_classes import ring_limits
 from tests.standards.second_sources import CATALOGUES, CONSOLIDATED, GOST_520
 
 CLASSES = {"radial": ("0", "6", "5", "4", "2"), "tapered": ("0", "6X", "6", "5", "4", "2")}

@@ -24,8 +24,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.balanced.boundaries import Boundary, boundaries
 from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.stability.boundaries import Boundary, boundaries
 from abu_calc.dynamics.supports.planar import planar
 from tests.benchmarks.measuring import keep, machine
 
@@ -220,7 +220,7 @@ def stable_at(limits: tuple[Boundary, ...], speed: float, first: bool) -> bool:
 def _first(limits: tuple[Boundary, ...], case: Case) -> bool:
     if limits:
         return not limits[0].stable_above
-    from abu_calc.dynamics.balanced.stability import stability
+    from abu_calc.dynamics.stability.verdict import stability
 
     return bool(stability(case.scene, case.half_angle).stable)
 

@@ -12,15 +12,15 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from abu_calc.analysis.differences import difference
-from abu_calc.analysis.response import Response, evaluate, needed_times
-from abu_calc.analysis.rungs import WIDEST, offer
-from abu_calc.analysis.simulate import simulate
+from abu_calc.dynamics.averaging.envelope import ball_rate
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.integrators import choice
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
-from abu_calc.dynamics.slow.envelope import ball_rate
-from abu_calc.errors import NotTrustworthyError
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.simulation.model_level import WIDEST, offer
+from abu_calc.simulation.nonconvergence import difference
+from abu_calc.simulation.response import Response, evaluate, needed_times
+from abu_calc.simulation.simulate import simulate
 from tests.dynamics.random_scenes import random_scene
 
 ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)

@@ -11,17 +11,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from abu_calc.analysis.differences import Measures, amplitude, angles, level, settling
-from abu_calc.analysis.response import evaluate, needed_times
-from abu_calc.analysis.rungs import WIDEST, Estimate, averaged, closed_form, offer
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.integrators import scipy_
+from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.scene import Scene, only, with_parted_balls
-from abu_calc.errors import InputError
-from abu_calc.spec import presets
-from abu_calc.spec.read import read_machine
-from abu_calc.studies.subject import subject_of
-from abu_calc.units import level_from_velocity
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.units import level_from_velocity
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.inputs.reading import sources as presets
+from abu_calc.simulation.model_level import WIDEST, Estimate, averaged, closed_form, offer
+from abu_calc.simulation.nonconvergence import Measures, amplitude, angles, level, settling
+from abu_calc.simulation.response import evaluate, needed_times
+from abu_calc.simulation.subject import subject_of
 
 ACCURACY = 0.01
 REFERENCE = 1e-10

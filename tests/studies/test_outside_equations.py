@@ -150,11 +150,11 @@ SCENES = [
 def test_the_product_agrees(seed: int, family: str, kind: str, tmp_path: Path) -> None:
     """Settling within 4 % or a revolution, level within 0.15 dB: friction that creeps is neither's strict answer."""
     import abu_calc
-    from abu_calc.analysis.ensemble import start_once
-    from abu_calc.analysis.proven import proven
-    from abu_calc.scenes.members import Member, idle_speed, scene_of_member, usual_run_up
+    from abu_calc.features.design.verification import proven
+    from abu_calc.inputs.read_machine import read_machine
+    from abu_calc.simulation.ensemble import start_once
+    from abu_calc.simulation.start_cases import Member, idle_speed, scene_of_member, usual_run_up
     from abu_calc.sizing import size
-    from abu_calc.spec.read import read_machine
 
     text, path = machine_text(seed, family), tmp_path / "machine.toml"
     path.write_text(text, encoding="utf-8")

@@ -5,7 +5,7 @@ import statistics
 
 import pytest
 
-from abu_calc.analysis.differences import amplitude, angles, level, settling
+from abu_calc.simulation.nonconvergence import amplitude, angles, level, settling
 from tests.studies.rungs import Ladder, cost, ladder, machines, table
 
 

@@ -25,16 +25,16 @@ from typing import Any, ClassVar
 import numpy as np
 
 from abu_calc.dynamics.chains import Chains
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Rule, SwitchPoint, Weight
-from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Rule, SwitchPoint
+from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
-from abu_calc.dynamics.switching.sticking import AT_REST
-from abu_calc.dynamics.switching.touching import Responses, approaches, impacts, pressing, responses
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.switching.ball_impacts import Responses, approaches, impacts, pressing, responses
+from abu_calc.dynamics.switching.stick_slip import AT_REST
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 TOUCHING = 1e-9
 """Gaps [rad] up to this are closed: events are located no better."""
@@ -61,10 +61,10 @@ class Neighbours:
 
     behind: tuple[int, ...]
     ahead: tuple[int, ...]
-    turns: Array
-    touching: Array
-    least: Array
-    joined: Array
+    turns: AnyArray
+    touching: AnyArray
+    least: AnyArray
+    joined: AnyArray
     rings: tuple[tuple[int, ...], ...]
     tied: bool = False
 
@@ -73,12 +73,12 @@ class Neighbours:
         """Balls that move together."""
         return Chains(self.rings, self.joined)
 
-    def gaps(self, theta: Array) -> Array:
+    def gaps(self, theta: AnyArray) -> AnyArray:
         """All gaps [rad]."""
-        gaps: Array = theta[list(self.ahead)] - theta[list(self.behind)] + self.turns
+        gaps: AnyArray = theta[list(self.ahead)] - theta[list(self.behind)] + self.turns
         return gaps
 
-    def joining(self, joined: Array, theta: Array) -> "Neighbours":
+    def joining(self, joined: AnyArray, theta: AnyArray) -> "Neighbours":
         """The same balls with other gaps joined, at these angles."""
         gaps, rounding = self.gaps(theta), _rounding(theta)
         # One that has come to its bound again though it parts may dip deeper.
@@ -88,13 +88,13 @@ class Neighbours:
         return replace(self, joined=joined, least=least, tied=bool(joined.any()))
 
 
-def _rounding(theta: Array) -> float:
+def _rounding(theta: AnyArray) -> float:
     """Tolerance [rad] by which a gap that opens may fall short of 2β."""
     return float(1e-13 + 8 * np.spacing(np.abs(theta).max()))
 
 
 @dataclass(frozen=True)
-class BallContact(Effect):
+class BallContactEffect(Effect):
     """`ball_radius` r [m], `restitution` e, 0 … 1. Mode: `Neighbours`; None where no race has two balls."""
 
     ball_radius: float
@@ -210,7 +210,7 @@ class BallContact(Effect):
             return at.y, mode
         return at.y, mode.joining(joined, theta)
 
-    def _after_impacts(self, answer: Responses, y: Array, rates: slice, slow: float, margin: float) -> Array:
+    def _after_impacts(self, answer: Responses, y: AnyArray, rates: slice, slow: float, margin: float) -> AnyArray:
         """The state after all impacts; the very same where there are none."""
         rest = AT_REST * slow / 10
         if not np.any(answer.pairs.dot(y[rates]) < -rest):
@@ -219,7 +219,7 @@ class BallContact(Effect):
         lifts = np.sqrt(2 * LIFT * approaches(answer, torques))
         return impacts(answer, y, rates, self.restitution, GRAZING * slow + lifts, rest)
 
-    def _pressing(self, answer: Responses, rates: Array, slow: float, margin: float, joined: Array) -> Array:
+    def _pressing(self, answer: Responses, rates: AnyArray, slow: float, margin: float, joined: AnyArray) -> AnyArray:
         """1 for each touching pair that stays together."""
         rest = AT_REST * slow
         together = np.abs(answer.pairs.dot(rates)) <= rest
@@ -228,9 +228,9 @@ class BallContact(Effect):
         pressed[together], _ = pressing(answer.among(together), directions, joined[together], margin)
         return pressed
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without an estimate: without this effect balls pass through each other."""
-        return Weight(None, "balls that meet stop each other; without it they would pass")
+        return EffectInfluence(None, "balls that meet stop each other; without it they would pass")
 
 
 def _order(race: Race) -> list[int]:
@@ -246,7 +246,7 @@ def _turns(race: Race) -> list[float]:
     return [here - after for here, after in zip(whole, following, strict=True)]
 
 
-def _check_apart(neighbours: Neighbours, theta: Array) -> None:
+def _check_apart(neighbours: Neighbours, theta: AnyArray) -> None:
     """Refuse balls that overlap at the start."""
     short = neighbours.touching - neighbours.gaps(theta)
     if np.any(short > TOUCHING):

@@ -16,17 +16,16 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.circumstances import Circumstances, Holding
-from abu_calc.dynamics.column import at_samples
-from abu_calc.dynamics.effect import ACROSS_RATE, Effect, Kind, Laws, Rule, SwitchPoint, Weight
-from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.effect import ACROSS_RATE, Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
+from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.scene_context import Circumstances, Holding
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude, weighing_amplitude
-from abu_calc.dynamics.switching.sticking import CROSSES, HOLD, SLOW, Rolling, decided, forces
-from abu_calc.dynamics.trajectory import Samples, merged
+from abu_calc.dynamics.switching.stick_slip import CROSSES, HOLD, SLOW, Rolling, decided, forces
+from abu_calc.dynamics.trajectory import Samples, at_samples, merged
 from abu_calc.formulas.friction_band import friction_band
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 LEAVES = 1e-4
 """A ball pulled inward by more of m R_p Ω² than this is worth a warning: near standstill less means nothing."""
@@ -36,7 +35,7 @@ ASKED = 200
 
 
 @dataclass(frozen=True)
-class DryRollingFriction(Effect):
+class DryRollingFrictionEffect(Effect):
     """`lever_arm` k_r [m], `ball_radius` r [m]. Mode: `Rolling`; None without friction."""
 
     lever_arm: float
@@ -145,7 +144,7 @@ class DryRollingFriction(Effect):
             "s and rubs on the inner one; a higher speed or a damped support presses it outward",
         )
 
-    def _outward(self, equations: Laws, samples: Samples, asked: NDArray[np.intp]) -> Array:
+    def _outward(self, equations: Laws, samples: Samples, asked: NDArray[np.intp]) -> AnyArray:
         """Normal force on each ball at some samples [ball, sample], of m R_p Ω²."""
         p, first = equations.parameters, 2 * equations.parameters.size + equations.parameters.balls
         index, modes = p.effects.index(self), equations.first_modes
@@ -175,14 +174,14 @@ class DryRollingFriction(Effect):
         """Holding of balls by f of their normal force; without friction by none of it."""
         return Holding(self.coefficient, self.weight(scene).value)
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """The largest displacement at which two balls stick beside their places, relative to the axis amplitude."""
         why = "balls stick anywhere within a band about their places"
         if not self.lever_arm or not scene.static_moment:
-            return Weight(0.0, why)
+            return EffectInfluence(0.0, why)
         place = math.acos(-min(scene.imbalance / scene.static_moment, 1.0))
         radius = max(race.pitch_radius for race in scene.races)
         band = friction_band(self.lever_arm, radius, self.ball_radius, (-place, place))
         # However far friction lets them stand apart from their places, the axis moves about as much as without balls.
         most = unbalanced_amplitude(scene, reference_imbalance(scene))
-        return Weight(min(band, most) / weighing_amplitude(scene), why)
+        return EffectInfluence(min(band, most) / weighing_amplitude(scene), why)

@@ -11,22 +11,22 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Laws, Weight
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
 from abu_calc.dynamics.trajectory import Samples
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
-from abu_calc.units import GRAVITY
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import GRAVITY
 
 SHAKES = 0.1
 """Share of what dry friction holds from which gravity is taken to help balls loose: they are pulled otherwise, too."""
 
 
 @dataclass(frozen=True)
-class Gravity(Effect):
+class GravityEffect(Effect):
     """Weight of balls and imbalance; `acceleration` g [m/s²]."""
 
     acceleration: float = GRAVITY
@@ -84,7 +84,7 @@ class Gravity(Effect):
         held = [friction * race.pitch_radius * scene.speed**2 for race in scene.races]
         return any(self.acceleration > SHAKES * hold for hold in held)
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Estimated influence of gravity.
 
         If gravity pulls harder than dry friction holds, f R_p Ω², it also releases all balls that friction
@@ -95,9 +95,9 @@ class Gravity(Effect):
             return own
         if holding.weight is not None and holding.weight <= own.value:
             return own
-        return Weight(holding.weight, "shakes balls that stick by dry friction loose in every turn")
+        return EffectInfluence(holding.weight, "shakes balls that stick by dry friction loose in every turn")
 
-    def _swings(self, scene: Circumstances) -> Weight:
+    def _swings(self, scene: Circumstances) -> EffectInfluence:
         """Balls swing by a = g/(J R_p Ω²) [rad] once per turn, and the axis with them, driven by Σ m R_p a/2 at 2Ω.
 
         m R_p e^{i(γ + a cos γ)} has the part i (a/2) m R_p e^{2iγ}, which adds up where balls are in one line. A ball
@@ -105,19 +105,19 @@ class Gravity(Effect):
         back, among more than two balls, it stays there.
         """
         if not scene.ball_masses:
-            return Weight(0.0, "no balls")
+            return EffectInfluence(0.0, "no balls")
         why = "swings the balls once per turn, and the axis twice"
         if scene.support.turns:
-            return Weight(None, f"{why}; on a swing arm not estimated")
+            return EffectInfluence(None, f"{why}; on a swing arm not estimated")
         aside, pushed = 0.0, 0.0
         for race in scene.races:
             swing = self.acceleration / (race.inertia_factor * race.pitch_radius * scene.speed**2)
             aside += swing / 2 * sum(race.ball_masses) * race.pitch_radius
             if not race.drag:
-                return Weight(None, f"{why}; without drag they drift")
+                return EffectInfluence(None, f"{why}; without drag they drift")
             pushed = max(pushed, swing, swing * scene.speed * race.inertia_factor / race.drag)
         try:
             driven = unbalanced_amplitude(replace(scene, speed=2 * scene.speed), aside)
         except InputError:
-            return Weight(None, f"{why}, which meets a resonance that nothing damps")
-        return Weight(max(pushed, driven / weighing_amplitude(scene)), why)
+            return EffectInfluence(None, f"{why}, which meets a resonance that nothing damps")
+        return EffectInfluence(max(pushed, driven / weighing_amplitude(scene)), why)

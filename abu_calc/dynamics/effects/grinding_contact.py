@@ -27,18 +27,17 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.column import at_samples
-from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
-from abu_calc.dynamics.motion import Array, Bound, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
+from abu_calc.dynamics.motion import AnyArray, Constraint, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.supports.pressed import BRAKES, DRIVEN, PARTING, moved, pulls, stopped
 from abu_calc.dynamics.supports.receptance import weighing_amplitude
-from abu_calc.dynamics.switching.cutting import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
-from abu_calc.dynamics.trajectory import Samples
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.dynamics.switching.contact_stop import RUNAWAY, Cutting, Slip, check_speeds, decided, goes_on, inside
+from abu_calc.dynamics.trajectory import Samples, at_samples
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 Contact = Literal["compliant", "rigid", "face"]
 
@@ -57,7 +56,7 @@ LEAST_DEPTH = 1e-9
 
 
 @dataclass(frozen=True)
-class GrindingContact(Effect):
+class GrindingContactEffect(Effect):
     """`press_force` N₀ [N], `cutting_coefficient` f, `contact_stiffness` c_n [N/m] where compliant, `rotation_sense` s.
 
     `runout` ε [m] of the wheel's surface at `runout_angle` φ₀ [rad] from the zero mark, `wheel_radius` R_w [m], 0 where
@@ -110,7 +109,7 @@ class GrindingContact(Effect):
             return Cutting()
         return TOUCHING if self.contact == "compliant" else None
 
-    def _row(self, scene: Circumstances) -> Array:
+    def _row(self, scene: Circumstances) -> AnyArray:
         """y_w per unit of each coordinate of the support."""
         return np.asarray(scene.support.plane(self.plane_offset)[1])
 
@@ -144,11 +143,11 @@ class GrindingContact(Effect):
         normal = solved.reaction if rigid else self.pressed(m, mode, p)
         return solved.beside if rigid else solved.reaction, self.cutting_coefficient * normal
 
-    def _rows(self, x: Any, y: Any, turning: Any, p: Parameters) -> Array:
+    def _rows(self, x: Any, y: Any, turning: Any, p: Parameters) -> AnyArray:
         """A force (x, y) at the wheel and a torque on the rotor, as the frame feels them."""
         return p.rotor.on_frame(p.geometry.forces(x, y, self.plane_offset), turning)
 
-    def _direction(self, m: Motion, mode: Any, p: Parameters) -> Array:
+    def _direction(self, m: Motion, mode: Any, p: Parameters) -> AnyArray:
         """Force on the frame per unit N."""
         drag = mode.slides * self.drag if isinstance(mode, Cutting) else self.drag
         if self.contact == "face":
@@ -156,9 +155,9 @@ class GrindingContact(Effect):
         _, _, x, y = self._surface(m, p)
         return self._rows(drag, 1.0, x - drag * y + drag * self.wheel_radius, p)
 
-    def _force(self, m: Motion, mode: Any, p: Parameters, normal: Any) -> Array:
+    def _force(self, m: Motion, mode: Any, p: Parameters, normal: Any) -> AnyArray:
         """Whole force of the contact on the frame."""
-        force: Array = normal * self._direction(m, mode, p)
+        force: AnyArray = normal * self._direction(m, mode, p)
         return force if self.contact == "face" else force - self.press_force * self._rows(0.0, 1.0, 0.0, p)
 
     def slip(self, m: Motion, p: Parameters) -> Slip:
@@ -170,12 +169,12 @@ class GrindingContact(Effect):
         moved = p.geometry.plane(self.plane_offset)[0].dot(m.support[p.size :])
         return Slip(moved + lever * m.speed, self._rows(1.0, 0.0, lever, p), x * m.speed * m.speed, lever)
 
-    def _standing(self, m: Motion, mode: Cutting, p: Parameters) -> Bound:
+    def _standing(self, m: Motion, mode: Cutting, p: Parameters) -> Constraint:
         """v' = −Ω v, so that errors die as in `_bound`; T is the reaction."""
         slip = self.slip(m, p)
-        return Bound(slip.row, slip.turned - p.speed * slip.speed, slip.row, mode.stands)
+        return Constraint(slip.row, slip.turned - p.speed * slip.speed, slip.row, mode.stands)
 
-    def _bound(self, m: Motion, mode: Any, p: Parameters) -> Bound:
+    def _bound(self, m: Motion, mode: Any, p: Parameters) -> Constraint:
         """h'' = −2 Ω h' − Ω² h.
 
         An integrator's errors of h'' = 0 would add up over time; so they die within a turn (Baumgarte 1972, Computer
@@ -185,7 +184,7 @@ class GrindingContact(Effect):
         strayed = p.speed * (2 * (moved + x * m.speed) + p.speed * h)
         value = y * m.speed * m.speed - x * m.acceleration - strayed
         beside = self._standing(m, mode, p) if isinstance(mode, Cutting) else None
-        return Bound(self._rows(0.0, 1.0, x, p), value, self._direction(m, mode, p), beside=beside)
+        return Constraint(self._rows(0.0, 1.0, x, p), value, self._direction(m, mode, p), beside=beside)
 
     def watch(self, m: Motion, mode: Any, own: Any, loads: Loads, solved: Solved, p: Parameters) -> list[Any]:
         """Depth of the wheel in the workpiece while touching, gap while apart, relative to the usual depth.
@@ -254,7 +253,7 @@ class GrindingContact(Effect):
         normal = solved.reaction if self.contact == "rigid" else self.pressed(m, mode, p)
         return self._force(m, mode, p, normal).dot(p.rotor.on_frame(p.geometry.rates(m, p), m.speed))
 
-    def normal_forces(self, equations: Laws, samples: Samples) -> Array:
+    def normal_forces(self, equations: Laws, samples: Samples) -> AnyArray:
         """N [N] at the samples of a run; 0 where wheel and work are apart, and negative where a rigid contact pulls.
 
         With dry friction all balls count as sticking, which makes a difference of less than a per cent.
@@ -292,18 +291,22 @@ class GrindingContact(Effect):
             return stopped(scene, samples, self.cutting_coefficient * self.press_force * self.wheel_radius)
         return (DRIVEN,) if self.drag > 0 and self.wheel_radius and scene.rotor.rows else ()
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Change of the axis's motion without balls, as if wheel and work never parted: see `moved`."""
         self._row(scene)
         braking = BRAKES[self.wheel_radius > 0]
         if self.contact == "face":
-            return Weight(None, braking) if scene.rotor.rows else Weight(0.0, "presses along the spindle alone")
+            return (
+                EffectInfluence(None, braking)
+                if scene.rotor.rows
+                else EffectInfluence(0.0, "presses along the spindle alone")
+            )
         give = 1 / self.contact_stiffness if self.contact == "compliant" else 0.0
         surface = -1j * cmath.rect(self.runout, self.runout_angle)
         changed = moved(scene, self.plane_offset, self.drag, surface, give, self.press_force)
         why, least = f"holds the axis, and runout drives it; {braking}", weighing_amplitude(scene)
         # A wheel without imbalance or balls has no amplitude to weigh against.
-        return Weight(changed / least if least else None, why)
+        return EffectInfluence(changed / least if least else None, why)
 
     def placed(self, scene: Circumstances) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Start on the constraint of a rigid contact, h = h' = 0, by the shortest way."""

@@ -16,16 +16,16 @@ from typing import Any, ClassVar, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Laws, Rule, SwitchPoint, Weight
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws, Rule, SwitchPoint
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.supports.swing_arm import SwingArm
-from abu_calc.dynamics.switching.cutting import inside
+from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
+from abu_calc.dynamics.switching.contact_stop import inside
 from abu_calc.dynamics.trajectory import Samples
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 TOUCHING, APART = 1.0, 0.0
 
@@ -43,7 +43,7 @@ LEAST_DEPTH: Final = 1e-9
 
 
 @dataclass(frozen=True)
-class LiftOff(Effect):
+class LiftOffEffect(Effect):
     """`stiffness` c [N/m] of the work reduced to the end of the arm, `length` l [m], `touch_angle` φ₀ [rad], and
     `depth` [rad]: how far beyond φ₀ the arm is pressed when it stands; negative where the work is on the other side.
     """
@@ -127,15 +127,15 @@ class LiftOff(Effect):
         last = self.last_apart(samples)
         return () if last is None else (f"the disk lifts off its work until t = {last:.3g} s, then it stays on it",)
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without a closed estimate: the effect decides whether a disk bounces."""
-        return Weight(None, "the disk leaves its work where the arm swings farther than it is pressed in")
+        return EffectInfluence(None, "the disk leaves its work where the arm swings farther than it is pressed in")
 
 
-def lift_off(arm: SwingArm, joint_stiffness: float, touch_angle: float) -> tuple[LiftOff, ...]:
+def lift_off(arm: SwingArmSupport, joint_stiffness: float, touch_angle: float) -> tuple[LiftOffEffect, ...]:
     """Lift-off of an arm whose own pivot has a stiffness [N/m]; none if the workpiece has no stiffness."""
     work = arm.stiffness - joint_stiffness
     if not work:
         return ()
     (angle,) = arm.resting_position()
-    return (LiftOff(work, arm.length, touch_angle, max(angle - touch_angle, LEAST_DEPTH)),)
+    return (LiftOffEffect(work, arm.length, touch_angle, max(angle - touch_angle, LEAST_DEPTH)),)

@@ -11,16 +11,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Weight
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.rotor import DRIVEN, Rotor
-from abu_calc.frozen import dataclass
+from abu_calc.dynamics.rotor import DRIVEN, Rotation
+from abu_calc.dynamics.scene_context import Circumstances
+from abu_calc.foundation.frozen import dataclass
 
 
 @dataclass(frozen=True)
-class Motor(Effect):
+class MotorEffect(Effect):
     """`stall_torque` [N m], `no_load_speed` [rad/s], `inertia` of the rotor [kg m²]."""
 
     stall_torque: float
@@ -32,7 +32,7 @@ class Motor(Effect):
     about: ClassVar[str] = "A motor of limited power, whose torque falls linearly from stall to its no-load speed"
 
     @property
-    def rotor(self) -> Rotor:
+    def rotor(self) -> Rotation:
         """Driven rotor: its torque is given."""
         return DRIVEN
 
@@ -63,6 +63,6 @@ class Motor(Effect):
         """M Ω [W]."""
         return self.torque(m, mode, p) * m.own_speed
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without an estimate: capture at a resonance is all or nothing."""
-        return Weight(None, "the speed itself may differ: it can stick at a resonance")
+        return EffectInfluence(None, "the speed itself may differ: it can stick at a resonance")

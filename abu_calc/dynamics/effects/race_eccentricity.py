@@ -8,16 +8,16 @@ The balls centre the race, so the axis keeps a whirl of radius Δ, whatever the 
 import cmath
 from typing import Any, ClassVar
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Weight
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.supports.receptance import weighing_amplitude
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.frozen import dataclass
 
 
 @dataclass(frozen=True)
-class RaceEccentricity(Effect):
+class RaceEccentricityEffect(Effect):
     """`magnitude` Δ [m], `angle` φ [rad] from the zero mark; of all races alike."""
 
     magnitude: float
@@ -55,6 +55,8 @@ class RaceEccentricity(Effect):
         place = m.turn + self.angle
         return m.xp.cos(place), m.xp.sin(place)
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Δ, relative to the axis amplitude without it."""
-        return Weight(self.magnitude / weighing_amplitude(scene), "the axis whirls with it, whatever the speed")
+        return EffectInfluence(
+            self.magnitude / weighing_amplitude(scene), "the axis whirls with it, whatever the speed"
+        )

@@ -14,18 +14,18 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Laws, Weight
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind, Laws
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.rotor import GUIDED, Rotor
+from abu_calc.dynamics.rotor import GUIDED, Rotation
+from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.trajectory import Samples
-from abu_calc.errors import InputError
-from abu_calc.frozen import dataclass
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
 
 
 @dataclass(frozen=True)
-class RunUp(Effect):
+class RunUpEffect(Effect):
     """`up`, `down` [s]: times from standstill to the scene's speed and back; 0 for none.
 
     `inertia` J_r of the rotor [kg m²], 0 where it is not known: then a swing arm lacks the torque that drives it.
@@ -47,7 +47,7 @@ class RunUp(Effect):
     )
 
     @property
-    def rotor(self) -> Rotor:
+    def rotor(self) -> Rotation:
         """Guided rotor: its speed is given."""
         return GUIDED
 
@@ -136,9 +136,9 @@ class RunUp(Effect):
             f"Ω' = {fastest:.4g} rad/s² takes {fastest * 1e-3:.3g} N·m for each 0.001 kg·m²",
         )
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without an estimate: the run-up is the scene itself."""
-        return Weight(None, "the speed itself: without it there is no run-up")
+        return EffectInfluence(None, "the speed itself: without it there is no run-up")
 
 
 def _reacts(p: Parameters) -> bool:

@@ -28,15 +28,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import ACROSS, ACROSS_RATE, Effect, Kind, SwitchPoint, Weight
-from abu_calc.dynamics.motion import Across, Array, Axial, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.effect import ACROSS, ACROSS_RATE, Effect, EffectInfluence, Kind, SwitchPoint
+from abu_calc.dynamics.motion import Across, AnyArray, Axial, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
 from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.supports.receptance import unbalanced_amplitude, weighing_amplitude
-from abu_calc.errors import NotTrustworthyError
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 _LARGEST = sys.float_info.max
 _EDGE = 1e-9
@@ -44,7 +44,7 @@ _EDGE = 1e-9
 
 
 @dataclass(frozen=True)
-class TransverseMotion(Effect):
+class TransverseMotionEffect(Effect):
     """`groove_radius` R_g, `ball_radius` r, `axial_runout` a_z [m]; `free_spin`: about the contact's normal."""
 
     groove_radius: float
@@ -72,7 +72,7 @@ class TransverseMotion(Effect):
         """b = R_g − r [m]."""
         return self.groove_radius - self.ball_radius
 
-    def _split(self, own: Any) -> tuple[Array, Array, Any]:
+    def _split(self, own: Any) -> tuple[AnyArray, AnyArray, Any]:
         """w, w', ν of all balls."""
         parts = (np.zeros(0) if own is None else own).reshape(len(self.ball_states), -1)
         return parts[0], parts[1], parts[2] if self.free_spin else 0.0
@@ -107,7 +107,7 @@ class TransverseMotion(Effect):
             loads.add(frame=rows * (p.masses * p.spins).dot(nearer * m.rate))
         loads.own(across=Across(lever, p.inertia_factors + lean * lean, drive, -lean))
 
-    def _lean(self, m: Motion, w: Array, v: Array, levers: Levers, loads: Loads, p: Parameters) -> None:
+    def _lean(self, m: Motion, w: AnyArray, v: AnyArray, levers: Levers, loads: Loads, p: Parameters) -> None:
         """Add the forces of a race that leans: −½ m γ'² 2 w w_t.
 
         A ball off the plane of such a race is nearer to the axis or further from it.
@@ -133,7 +133,7 @@ class TransverseMotion(Effect):
         if levers.sunk is None:
             levers.sunk = levers.sinking = zero
 
-    def rates(self, m: Motion, own: Any, solved: Solved) -> Array:
+    def rates(self, m: Motion, own: Any, solved: Solved) -> AnyArray:
         """w', w'', ν'."""
         _, v, _ = self._split(own)
         spun = [v * (m.swing - m.radii * m.rate / self.bend)] if self.free_spin else []
@@ -174,15 +174,15 @@ class TransverseMotion(Effect):
         drag = p.drags / p.radii
         return -(p.masses * drag).dot(v * v + p.radii * (m.radii - p.radii) * m.rate * m.rate)
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Σ m w²/2b as an imbalance, w the way across at steady state; None at a resonance that nothing damps."""
         why = "balls off the middle of the groove stand nearer to the axis"
         if not self.axial_runout:
-            return Weight(0.0, "no axial runout: the balls stay in the middle of the groove")
+            return EffectInfluence(0.0, "no axial runout: the balls stay in the middle of the groove")
         lost = [self._way(scene, race) ** 2 / (2 * self.bend) * sum(race.ball_masses) for race in scene.races]
         if not all(math.isfinite(imbalance) for imbalance in lost):
-            return Weight(None, f"{why}; the axial runout meets their resonance")
-        return Weight(unbalanced_amplitude(scene, sum(lost)) / weighing_amplitude(scene), why)
+            return EffectInfluence(None, f"{why}; the axial runout meets their resonance")
+        return EffectInfluence(unbalanced_amplitude(scene, sum(lost)) / weighing_amplitude(scene), why)
 
     def _way(self, scene: Circumstances, race: Race) -> float:
         """Amplitude of w by the axial runout [m], as far as the groove reaches."""

@@ -1,18 +1,92 @@
-"""Assembly of the integrated equations from a scene."""
+"""Exact derivatives of the equations of motion.
+
+Conversion of a scene to the numbers that its equations read.
+
+Assembly of the integrated equations from a scene.
+"""
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
-from abu_calc.dynamics.equations import right_hand_side
-from abu_calc.dynamics.equations.build import parameters_of
-from abu_calc.dynamics.motion import Array, Loads, Motion, Solved
-from abu_calc.dynamics.parameters import Acting, Modes, Parameters
-from abu_calc.dynamics.scene import Scene
-from abu_calc.formulas.motion import HARDLY
-from abu_calc.frozen import dataclass
+import numpy as np
+from numpy.typing import NDArray
 
-Rhs = Callable[[Any, Any, Any, Acting], Array]
+from abu_calc.dynamics.equations import right_hand_side
+from abu_calc.dynamics.motion import AnyArray, Loads, Motion, Solved
+from abu_calc.dynamics.parameters import Acting, Frame, Modes, Parameters
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.trajectory import at_samples
+from abu_calc.formulas.motion import HARDLY
+from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.frozen import dataclass
+
+Array = NDArray[np.float64]
+
+
+def parameters_of(scene: Scene) -> Parameters:
+    """The numbers of a scene. Raises InputError when the support's mass is not symmetric and positive definite."""
+    balls, rotor = scene.balls, scene.rotor
+    spins = (balls.factors - 1) * balls.sizes
+    frame = scene.support.frame(balls)
+    if rotor.rows:
+        frame = _with_rotor(frame, sum(effect.rotor_inertia for effect in scene.effects))
+    return Parameters(
+        size=len(scene.support.names),
+        balls=len(balls.masses),
+        rotor=rotor,
+        geometry=scene.support.geometry(scene.unbalance),
+        frame=frame,
+        speed=scene.speed,
+        masses=balls.masses,
+        radii=balls.radii,
+        static_moments=balls.static_moments,
+        drags=balls.radii * balls.drags,
+        braking=-balls.radii * balls.drags,
+        inertia_factors=balls.factors,
+        mobilities=1 / balls.factors,
+        reduced_masses=balls.masses / balls.factors,
+        spins=spins,
+        spin_inertia=_spin_inertia(frame, float((balls.masses * spins * balls.sizes).sum())),
+        places=balls.places,
+        imbalance=scene.imbalance,
+        imbalance_angle=scene.imbalance_angle,
+        effects=scene.effects,
+    )
+
+
+def _spin_inertia(frame: Frame, inertia: float) -> AnyArray | None:
+    """Inertia of balls that their races turn, in the accelerations that turn the races."""
+    turning = np.zeros(len(frame.mass))
+    turning[list(frame.turning)] = 1.0
+    return inertia * np.outer(turning, turning) if frame.turning else None
+
+
+def _with_rotor(frame: Frame, inertia: float) -> Frame:
+    """One more row: the rotor's own turning, which is counted from what carries it."""
+    border = np.zeros((len(frame.mass), 1))
+    border[list(frame.turning)] = inertia
+    mass = np.block([[frame.mass, border], [border.T, np.array([[inertia]])]])
+    if np.any(np.linalg.eigvalsh(mass) <= 0):
+        raise InputError("the rotor has more inertia than the arm that carries it", found=f"{inertia:g} kg m²")
+
+    def longer(rows: AnyArray | None) -> AnyArray | None:
+        return None if rows is None else np.concatenate([rows, np.zeros((1, *rows.shape[1:]))])
+
+    return replace(
+        frame,
+        mass=mass,
+        held=np.vstack([frame.held, np.zeros(frame.held.shape[1])]),
+        turning=(*frame.turning, -1),
+        whole=None,
+        held_spinning=longer(frame.held_spinning),
+        carry=None if frame.carry is None else np.hstack([frame.carry, np.zeros((len(frame.carry), 1))]),
+        steady_force=longer(frame.steady_force),
+    )
+
+
+Rhs = Callable[[Any, Any, Any, Acting], AnyArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,3 +187,30 @@ def scales_of(scene: Scene) -> tuple[list[float], float]:
     rate = scene.speed * math.sqrt(balls / (2 * mass)) if balls else scene.speed
     # A coordinate that moves the race by less than its own amount may move more; one that does not, like the race.
     return [reach / share if share > 0 else reach for share in scene.support.shares(scene.races)], rate
+
+
+STEP = 1e-100
+"""An imaginary step cancels nothing, so it may be so small that its square is nothing."""
+
+
+def jacobian(equations: Equations, t: float, y: Array, modes: tuple[Any, ...] | None = None) -> Array:
+    """∂(rhs)/∂y at (t, y), in the first modes unless others are given; see `jacobians`."""
+    matrix: Array = jacobians(equations, np.array([t]), np.array([y]), modes)[0]
+    return matrix
+
+
+def jacobians(equations: Equations, times: Array, states: Array, modes: tuple[Any, ...] | None = None) -> Array:
+    """∂(rhs)/∂y, [time, row, column], at these times and the state of each, exact to rounding.
+
+    By the complex step J[i, j] = Im rhs_i(y + i·h·e_j)/h (Squire & Trapp 1998, SIAM Review 40(1)), all times and all
+    directions at once.
+    """
+    acting, size = equations.acting if modes is None else equations.in_mode(modes), states.shape[1]
+    moved = states.T[:, :, None] + 1j * STEP * np.eye(size)[:, None, :]
+
+    def rates(t: Any, y: Any) -> Any:
+        return equations.rhs(np, t, y, acting)
+
+    every = np.repeat(times, size), moved.reshape(size, -1)
+    slopes = at_samples(rates, *every, at_once=equations.parameters.traceable)
+    return np.asarray(np.imag(slopes).reshape(moved.shape).transpose(1, 0, 2) / STEP, dtype=float)

@@ -1,17 +1,44 @@
 """All accelerations from kinematics, levers and loads: the balls are eliminated, the frame solved, the balls put back.
 
 See `right_hand_side` for the equations.
+
+Small linear systems by plain arithmetic, so that numbers, complex numbers and symbols are all solved alike.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from abu_calc.dynamics.chains import Chains
-from abu_calc.dynamics.equations.linear import solve
-from abu_calc.dynamics.motion import Across, Array, Bound, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import Across, AnyArray, Constraint, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
+
+
+def solve(matrix: Sequence[Sequence[Any]], right: Sequence[Any]) -> list[Any]:
+    """x from matrix · x = right; no pivoting, for matrices that are positive definite or nearly so.
+
+    >>> solve([[2.0, 1.0], [1.0, 3.0]], [3.0, 4.0])
+    [1.0, 1.0]
+    """
+    size = len(right)
+    if size == 1:
+        return [right[0] / matrix[0][0]]
+    if size == 2:
+        (a, b), (c, d) = matrix
+        e, f = right
+        determinant = a * d - b * c
+        return [(d * e - b * f) / determinant, (a * f - c * e) / determinant]
+    rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]
+    for k in range(size):
+        for i in range(k + 1, size):
+            factor = rows[i][k] / rows[k][k]
+            rows[i] = [0.0 if j <= k else rows[i][j] - factor * rows[k][j] for j in range(size + 1)]
+    x: list[Any] = [0.0] * size
+    for k in reversed(range(size)):
+        x[k] = (rows[k][size] - sum((rows[k][j] * x[j] for j in range(k + 1, size)), 0.0)) / rows[k][k]
+    return x
 
 
 @dataclass(slots=True)
@@ -22,13 +49,13 @@ class _Reduced:
     `resisted`. `weights` (d × n): share of the force that a drive of each ball takes.
     """
 
-    mass: Array
-    force: Array
-    give: Array
-    drive: Array
-    felt: Array
-    weights: Array
-    inertias: Array
+    mass: AnyArray
+    force: AnyArray
+    give: AnyArray
+    drive: AnyArray
+    felt: AnyArray
+    weights: AnyArray
+    inertias: AnyArray
     pushed: Any
     resisted: Any
 
@@ -56,7 +83,7 @@ def solve_all(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> Solved:
     )
 
 
-def by_pulls(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
+def by_pulls(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[AnyArray, AnyArray]:
     """n × n: what unit forces per ball mass along the race do to `balls` and `normal`, where no balls are tied."""
     r = _reduced(m, levers, loads, p)
     A = -np.linalg.solve(r.mass, r.weights)
@@ -100,15 +127,15 @@ def _reduced(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> _Reduced
     return _Reduced(mass, force, give, drive, felt, weights, inertias, pushed, resisted)
 
 
-def _inertia_factors(m: Motion, levers: Levers, p: Parameters) -> Array:
+def _inertia_factors(m: Motion, levers: Levers, p: Parameters) -> AnyArray:
     """Inertia of each ball along its race, per mass."""
     if levers.axial is None:
         return p.inertia_factors
-    leaning: Array = p.inertia_factors + levers.axial.slope**2 - levers.sunk / (m.radii * m.radii)
+    leaning: AnyArray = p.inertia_factors + levers.axial.slope**2 - levers.sunk / (m.radii * m.radii)
     return leaning
 
 
-def _ball_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
+def _ball_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[AnyArray, AnyArray]:
     """Drive of the balls along the race, per mass, without the frame's acceleration; and its levers."""
     drive, along = p.braking * m.rate, levers.along
     if loads.pull is not None:
@@ -126,7 +153,7 @@ def _ball_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[
     return drive, along
 
 
-def _turned(drive: Array, along: Array, way: Array, m: Motion, p: Parameters) -> tuple[Array, Array]:
+def _turned(drive: AnyArray, along: AnyArray, way: AnyArray, m: Motion, p: Parameters) -> tuple[AnyArray, AnyArray]:
     """Add the drive of the balls by the rotor's change of speed, `way` [m] of acceleration per turn of it."""
     if p.rotor.given:
         drive = drive + way * m.acceleration
@@ -137,14 +164,14 @@ def _turned(drive: Array, along: Array, way: Array, m: Motion, p: Parameters) ->
     return drive, along
 
 
-def _pressed(m: Motion, levers: Levers, loads: Loads) -> Array:
+def _pressed(m: Motion, levers: Levers, loads: Loads) -> AnyArray:
     """Normal force of ball and race per mass, without the frame's acceleration."""
     press = m.radii * m.swing * m.swing
     press = press if loads.press is None else press + loads.press
     return press if levers.carried_outward is None else press - levers.carried_outward
 
 
-def _frame_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[Array, Array]:
+def _frame_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple[AnyArray, AnyArray]:
     """Force on the frame, and what it weighs, with balls held in their races."""
     swung = m.static_moments * m.swing * m.swing
     if levers.carried_outward is not None:
@@ -173,29 +200,29 @@ def _frame_side(m: Motion, levers: Levers, loads: Loads, p: Parameters) -> tuple
     return force + more, mass if heavier is None else mass + heavier
 
 
-def _summed(levers: Levers, p: Parameters) -> Array:
+def _summed(levers: Levers, p: Parameters) -> AnyArray:
     """Σ m (T Tᵀ + N Nᵀ): what balls held in their races weigh."""
     along, outward = levers.along, levers.outward
-    weighed: Array = (along * p.masses).dot(along.T) + (outward * p.masses).dot(outward.T)
+    weighed: AnyArray = (along * p.masses).dot(along.T) + (outward * p.masses).dot(outward.T)
     if p.spin_inertia is not None:
         weighed = weighed + p.spin_inertia
     return weighed
 
 
-def _across(left: Array, balls: Array, across: Across, levers: Levers) -> Array:
+def _across(left: AnyArray, balls: AnyArray, across: Across, levers: Levers) -> AnyArray:
     """Accelerations in the second direction, by what is left to drive it."""
     given = left if levers.axial is None else left - levers.axial.slope * balls
-    accelerations: Array = given * across.give
+    accelerations: AnyArray = given * across.give
     return accelerations
 
 
-def _together(inertias: Array, radii: Array, mates: Chains, loads: Loads) -> Array:
+def _together(inertias: AnyArray, radii: AnyArray, mates: Chains, loads: Loads) -> AnyArray:
     """Accelerations along the race of balls that turn together, by the sums of torques on them."""
-    shares: Array = radii / mates.sums(inertias * radii * radii)
+    shares: AnyArray = radii / mates.sums(inertias * radii * radii)
     return shares if loads.free is None else loads.free * shares
 
 
-def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any, Any]:
+def _frame(mass: AnyArray, force: AnyArray, loads: Loads) -> tuple[AnyArray, Any, Any]:
     """The frame's accelerations, and the reactions of constraints."""
     A = np.array(solve(mass.tolist(), force.tolist()))
     if loads.bound is None:
@@ -208,7 +235,7 @@ def _frame(mass: Array, force: Array, loads: Loads) -> tuple[Array, Any, Any]:
     return A, reactions[0], reactions[1] if len(reactions) > 1 else None
 
 
-def _pushes(mass: Array, bound: Bound) -> list[tuple[Bound, Array, Any]]:
+def _pushes(mass: AnyArray, bound: Constraint) -> list[tuple[Constraint, AnyArray, Any]]:
     """Constraints, what a unit of each one's reaction does to the frame, and what that takes from the one before.
 
     The second acts through the first, which goes on holding.
@@ -221,8 +248,8 @@ def _pushes(mass: Array, bound: Bound) -> list[tuple[Bound, Array, Any]]:
     return [(bound, pushed, None), (bound.beside, aside - pushed * back, back)]
 
 
-def _behind(m: Motion, A: Array, p: Parameters) -> Array:
+def _behind(m: Motion, A: AnyArray, p: Parameters) -> AnyArray:
     """q'' of a support that has more coordinates than the frame."""
     frame = p.frame
-    q: Array = frame.rest.dot(m.support) + frame.carry.dot(A)  # type: ignore[union-attr]
+    q: AnyArray = frame.rest.dot(m.support) + frame.carry.dot(A)  # type: ignore[union-attr]
     return q if frame.rest_spinning is None else q + m.speed * frame.rest_spinning.dot(m.support)

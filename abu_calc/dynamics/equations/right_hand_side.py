@@ -20,17 +20,17 @@ from typing import Any
 import numpy as np
 
 from abu_calc.dynamics.equations.elimination import solve_all
-from abu_calc.dynamics.motion import Array, Levers, Loads, Motion, Solved
+from abu_calc.dynamics.motion import AnyArray, Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Acting, Parameters
 
 
-def rhs(xp: Any, t: Any, y: Any, acting: Acting) -> Array:
+def rhs(xp: Any, t: Any, y: Any, acting: Acting) -> AnyArray:
     """Time derivative of the state by array arithmetic and xp.sin, xp.cos alone: real, complex or symbolic."""
     motion, levers, loads = prepared(xp, t, y, acting)
     return derivative(motion, solve_all(motion, levers, loads, acting.parameters), y, acting)
 
 
-def derivative(motion: Motion, solved: Solved, y: Any, acting: Acting) -> Array:
+def derivative(motion: Motion, solved: Solved, y: Any, acting: Acting) -> AnyArray:
     """y' from the accelerations, in the order of the state."""
     p = acting.parameters
     parts = [motion.support[p.size :], solved.support, motion.rate, solved.balls / motion.radii]

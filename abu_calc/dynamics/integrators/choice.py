@@ -12,15 +12,14 @@ from functools import partial
 from typing import TYPE_CHECKING, Final, cast
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.integrators import scipy_
-from abu_calc.dynamics.integrators.counts import counts, held_by_decay
-from abu_calc.dynamics.integrators.rates import stiff_decay
+from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.run import EVENT, LOOP_EVENT, work
+from abu_calc.dynamics.integrators.work_estimates import counts, held_by_decay, stiff_decay
 from abu_calc.dynamics.switching.modes import watches
 from abu_calc.dynamics.trajectory import Times, Trajectory
-from abu_calc.errors import InputError, Place
-from abu_calc.frozen import dataclass
-from abu_calc.progress import Progress, silent
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.progress import Progress, silent
 
 if TYPE_CHECKING:
     from abu_calc.dynamics.integrators.compiled.kernels import Method
@@ -50,7 +49,7 @@ second."""
 
 
 @dataclass(frozen=True)
-class Choice:
+class IntegratorChoice:
     """An integrator, ready to run, its name as trajectories tell it, and why it was chosen."""
 
     name: str
@@ -76,7 +75,7 @@ class Choice:
         return math.ceil(self.share * work(run, self.event))
 
 
-def choose(equations: Equations, wanted: str, tolerance: float, progress: Progress = silent) -> Choice:
+def choose(equations: Equations, wanted: str, tolerance: float, progress: Progress = silent) -> IntegratorChoice:
     """The integrator for a scene, `wanted` being auto, scipy, plain or compiled; its code or library is loaded.
 
     Stiff equations go to SciPy's Radau, unless events keep all steps short anyway or another integrator is asked for;
@@ -107,9 +106,9 @@ def refuse_removed(wanted: str) -> None:
         )  # fmt: skip
 
 
-def loop(equations: Equations, tolerance: float, compiled: bool) -> Choice:
+def loop(equations: Equations, tolerance: float, compiled: bool) -> IntegratorChoice:
     """The loop, compiled or as plain Python, for those who ask for it. Raises InputError where it cannot run."""
-    from abu_calc.dynamics.integrators.compiled import ready
+    from abu_calc.dynamics.integrators.compiled import availability as ready
 
     name = "compiled code" if compiled else "plain code"
     if effect := untraceable(equations):
@@ -124,9 +123,9 @@ def loop_method(equations: Equations, tolerance: float) -> "Method":
     return "rk45" if watches(equations) and tolerance > TIGHT else "dop853"
 
 
-def quickest_loop(equations: Equations, tolerance: float, progress: Progress = silent) -> Choice:
+def quickest_loop(equations: Equations, tolerance: float, progress: Progress = silent) -> IntegratorChoice:
     """The loop, compiled where that is done sooner; stiff or not."""
-    from abu_calc.dynamics.integrators.compiled import ready
+    from abu_calc.dynamics.integrators.compiled import availability as ready
 
     method = loop_method(equations, tolerance)
     if ready.loaded(equations, method):
@@ -140,13 +139,13 @@ def quickest_loop(equations: Equations, tolerance: float, progress: Progress = s
     return _loop_of(equations, False, method, f"; compiled code would be faster, but {ready.missing()}")
 
 
-def _loop_of(equations: Equations, compiled: bool, method: "Method", more: str = "") -> Choice:
+def _loop_of(equations: Equations, compiled: bool, method: "Method", more: str = "") -> IntegratorChoice:
     """The loop, why it has this method, and whatever more there is to say."""
     name = f"{'compiled' if compiled else 'plain'}-{method}"
     scene = "a tight tolerance" if method == "dop853" else "a scene that switches"
     order = f"order {5 if method == 'rk45' else 8} for {scene if watches(equations) else 'a smooth scene'}"
     why = f"the loop{'' if compiled else ' as plain Python'}, {order}{more}"
-    return Choice(name, why, partial(_through, compiled=compiled), LOOP_WORK, LOOP_EVENT)
+    return IntegratorChoice(name, why, partial(_through, compiled=compiled), LOOP_WORK, LOOP_EVENT)
 
 
 def _through(
@@ -154,7 +153,7 @@ def _through(
     method: "Method | None" = None,
 ) -> Trajectory:  # fmt: skip
     """The motion by the loop, whose method follows the tolerance of each run where none is given."""
-    from abu_calc.dynamics.integrators.compiled import run  # some twenty modules, which not every command needs
+    from abu_calc.dynamics.integrators.compiled import run
 
     method = method or loop_method(equations, tolerance)
     return run.integrate(equations, tolerance, sample_times, most, compiled=compiled, method=method)
@@ -174,14 +173,14 @@ def untraceable(equations: Equations) -> str | None:
     return next((effect.name for effect in equations.scene.effects if not effect.traceable), None)
 
 
-def _scipy(method: scipy_.Method, why: str) -> Choice:
+def _scipy(method: scipy_.Method, why: str) -> IntegratorChoice:
     scipy_.load()
-    return Choice(method, why, partial(scipy_.integrate, method=method))
+    return IntegratorChoice(method, why, partial(scipy_.integrate, method=method))
 
 
 def available(equations: Equations) -> tuple[str, ...]:
     """Names of all integrators that can take a scene here; the loop as plain Python only where nothing is compiled."""
-    from abu_calc.dynamics.integrators.compiled import ready
+    from abu_calc.dynamics.integrators.compiled import availability as ready
 
     names = ("scipy-dop853", "scipy-rk45", "scipy-lsoda", "scipy-radau", "scipy-bdf")
     if untraceable(equations):

@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.motion import Array
+from abu_calc.dynamics.motion import AnyArray
+from abu_calc.dynamics.scene_context import Circumstances
 from abu_calc.dynamics.supports.receptance import receptance, reference_imbalance
 from abu_calc.dynamics.trajectory import Samples
 
@@ -49,7 +49,7 @@ def moved(scene: Circumstances, plane_offset: float, drag: float, surface: compl
     return float(abs(X + 1j * Y) + abs(X - 1j * Y)) / 2 + swings
 
 
-def pulls(t: Array, normal: Array) -> tuple[str, ...]:
+def pulls(t: AnyArray, normal: AnyArray) -> tuple[str, ...]:
     """Remark on the share of time in which a rigid contact would have to pull, and on the least force.
 
     The samples may be unevenly spaced.

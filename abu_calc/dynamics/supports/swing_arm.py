@@ -8,14 +8,14 @@ from typing import Any, ClassVar, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.motion import Array, Levers, Motion
+from abu_calc.dynamics.motion import AnyArray, Levers, Motion
 from abu_calc.dynamics.parameters import Frame, Geometry, Parameters
 from abu_calc.dynamics.race import LARGEST, NON_NEGATIVE, Balls, Race, finite
 from abu_calc.dynamics.support import SmallMotion, Support, Unbalance
-from abu_calc.errors import InputError, NotTrustworthyError
 from abu_calc.formulas.swing_arm import Arm, contact_gain, damping_limit, resonance
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 CONTACT_STIFFNESS = Range("contact stiffness", 0, LARGEST, "N/m")
 FRICTION = Range("cutting coefficient", 0, 1.5)
@@ -43,7 +43,7 @@ class ArmGeometry(Geometry):
         levers.carry(rate * rate * l_sin, -(rate * rate) * l_cos)
         return p.rotor.carry(m, levers)
 
-    def imbalance(self, m: Motion, p: Parameters) -> tuple[Array, Array | None]:
+    def imbalance(self, m: Motion, p: Parameters) -> tuple[AnyArray, AnyArray | None]:
         """Moment about the arm's axis of an imbalance U at ψ₀: U l (speed² − φ'²) sin ψ₀, and its inertia 2 U l cos ψ₀.
 
         Source: Kovalenko 2010, (2), the term of index 0; its own inertia belongs to that of the arm.
@@ -55,14 +55,14 @@ class ArmGeometry(Geometry):
         force, weight = np.array([aside * (m.speed * m.speed - rate * rate)]), np.array([[2 * along]])
         return p.rotor.unbalanced(m, force, weight, lambda: np.array([along]), lambda: -aside * rate * rate)
 
-    def turning(self, support: Array) -> tuple[Any, Any] | None:
+    def turning(self, support: AnyArray) -> tuple[Any, Any] | None:
         """φ and φ'."""
         return support[0], support[1]
 
 
 @final
 @dataclass(frozen=True)
-class SwingArm(Support):
+class SwingArmSupport(Support):
     """A rigid arm of length l [m] that turns by φ about its axis, the rotor at its end (Kovalenko 2010, eqs. (1)–(3)).
 
     J_O φ'' + b l² φ' + c l² φ = torque + what rotor and balls do; J_O [kg m²] without balls, stiffness c [N/m] and
@@ -142,7 +142,7 @@ class SwingArm(Support):
         Raises InputError where it does not stand: friction at a small contact angle pushes the work's side away
         (static divergence), or nothing holds it.
 
-        >>> SwingArm(2.0, 1.0, 5.0, 0.0, torque=4.0).resting_position()
+        >>> SwingArmSupport(2.0, 1.0, 5.0, 0.0, torque=4.0).resting_position()
         (0.2,)
         """
         torque = self.torque + self.length * force[1]
@@ -227,7 +227,7 @@ class SwingArm(Support):
         }
 
 
-def idle_arm(length: float, inertia: float, joint_stiffness: float, joint_damping: float) -> SwingArm:
+def idle_arm(length: float, inertia: float, joint_stiffness: float, joint_damping: float) -> SwingArmSupport:
     """J_O φ'' + h_sh l² φ' + c_sh l² φ = what rotor and balls do; the arm rests at φ = 0.
 
     Length l [m], J_O [kg m²] without balls, stiffness [N/m] and damping [N·s/m] of the joint reduced to l. Source:
@@ -236,7 +236,7 @@ def idle_arm(length: float, inertia: float, joint_stiffness: float, joint_dampin
     >>> idle_arm(0.35, 0.62, 2000.0, 40.0).torque
     0.0
     """
-    return SwingArm(length, inertia, joint_stiffness, joint_damping)
+    return SwingArmSupport(length, inertia, joint_stiffness, joint_damping)
 
 
 def cutting_arm(
@@ -250,7 +250,7 @@ def cutting_arm(
     touch_angle: float,
     pressing_moment: float,
     wheel_radius: float,
-) -> SwingArm:
+) -> SwingArmSupport:
     """The arm while the disk cuts, pressed to the work by N = c_n l (φ − φ₀) sin Z, dragged by T = f N.
 
         c^(p) = c_sh + c_n g(Z),    torque = M_p + c_n l² g(Z) φ₀,    g(Z) = sin Z (sin Z + f (R/l − cos Z))
@@ -268,7 +268,7 @@ def cutting_arm(
     ratio = WHEEL_RADIUS.check(wheel_radius) / ARM_LENGTH.check(length)
     gain = contact_gain(CONTACT_ANGLE.check(contact_angle), FRICTION.check(cutting_coefficient), ratio)
     felt = contact_stiffness * gain
-    return SwingArm(
+    return SwingArmSupport(
         length=length,
         inertia=inertia,
         stiffness=joint_stiffness + felt,

@@ -6,21 +6,13 @@ from typing import Any, ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.dynamics.motion import Array, Axial, Leaning, Levers, Motion
+from abu_calc.dynamics.motion import AnyArray, Axial, Leaning, Levers, Motion
 from abu_calc.dynamics.parameters import Geometry, Parameters
 from abu_calc.dynamics.race import LARGEST, Race
 from abu_calc.dynamics.support import Unbalance
-from abu_calc.dynamics.supports.linear import (
-    DAMPING,
-    MASS,
-    STIFFNESS,
-    LinearGeometry,
-    LinearSupport,
-    Pair,
-    rows,
-)
-from abu_calc.frozen import dataclass
-from abu_calc.validity import Range
+from abu_calc.dynamics.supports.planar import DAMPING, MASS, STIFFNESS, LinearGeometry, LinearSupport, Pair, rows
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import Range
 
 
 @final
@@ -28,17 +20,17 @@ from abu_calc.validity import Range
 class TiltingGeometry(LinearGeometry):
     """A = (x'', y'', Θ''). `tilt_map` (4 × 2N): the tilts and their rates, where balls move axially with them."""
 
-    tilt_map: Array | None
+    tilt_map: AnyArray | None
 
     def levers(self, m: Motion, p: Parameters) -> Levers:
         """T = (e_t, z e_t), N = (e_r, z e_r); along the spindle a ball moves by −R_p Θ·e_r."""
-        plane: Array = np.array(((m.cos, m.sin), (-m.sin, m.cos)))
+        plane: AnyArray = np.array(((m.cos, m.sin), (-m.sin, m.cos)))
         outward, along = np.concatenate([plane, p.places * plane], axis=1)
         levers = Levers(along, outward, p.frame.whole)
         leaning = None if self.tilt_map is None else self._lean(m, p, self.tilt_map, levers)
         return p.rotor.carry(m, levers, leaning)
 
-    def _lean(self, m: Motion, p: Parameters, tilt_map: Array, levers: Levers) -> Array:
+    def _lean(self, m: Motion, p: Parameters, tilt_map: AnyArray, levers: Levers) -> AnyArray:
         """−R_p Θ·e_r along the spindle, its rate −R_p (Θ'·e_r + γ' Θ·e_t), and so on; R_p even off a groove's middle.
 
         A race that leans is narrower, seen along the spindle: R_p² less the square of that way. So what goes round with
@@ -47,7 +39,7 @@ class TiltingGeometry(LinearGeometry):
         """
         tx, ty, vx, vy = tilt_map.dot(m.support)
         zero = 0.0 * m.cos
-        swept: Array = p.radii * (tx * m.sin - ty * m.cos)
+        swept: AnyArray = p.radii * (tx * m.sin - ty * m.cos)
         carried = 2 * p.radii * m.swing * (vx * m.sin - vy * m.cos)
         height = -p.radii * (tx * m.cos + ty * m.sin)
         rise = swept * m.swing - p.radii * (vx * m.cos + vy * m.sin)
@@ -56,9 +48,9 @@ class TiltingGeometry(LinearGeometry):
         levers.sunk, levers.sinking = height * height, 2 * m.swing * height * rise
         return swept
 
-    def plane(self, z: Any) -> Array:
+    def plane(self, z: Any) -> AnyArray:
         """x + z θ_y and y − z θ_x."""
-        displacements: Array = self.race_map[:2] + z * self.race_map[2:]
+        displacements: AnyArray = self.race_map[:2] + z * self.race_map[2:]
         return displacements
 
     def forces(self, x: Any, y: Any, z: Any) -> list[Any]:
@@ -147,8 +139,10 @@ def tilting(
     )
 
 
-def _of_bearings(positions: Sequence[float], values: Sequence[Pair]) -> Array:
+def _of_bearings(positions: Sequence[float], values: Sequence[Pair]) -> AnyArray:
     """Σ over bearings of what acts against the motion of its place, in the four coordinates."""
     pairs = zip(positions, values, strict=True)
-    total: Array = sum((np.kron(np.array(((1, z), (z, z * z))), np.diag(pair)) for z, pair in pairs), np.zeros((4, 4)))
+    total: AnyArray = sum(
+        (np.kron(np.array(((1, z), (z, z * z))), np.diag(pair)) for z, pair in pairs), np.zeros((4, 4))
+    )
     return total

@@ -9,7 +9,7 @@ from abu_calc.dynamics.effect import SwitchPoint
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
 from abu_calc.dynamics.parameters import Acting, Modes
-from abu_calc.errors import NotTrustworthyError
+from abu_calc.foundation.errors import NotTrustworthyError
 
 MOST_ROUNDS = 100
 """Effects may have to agree on their modes in turns; a scene that takes more has no answer."""

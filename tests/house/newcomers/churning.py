@@ -8,10 +8,10 @@ Source: separation of variables.
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from abu_calc.dynamics.circumstances import Circumstances
-from abu_calc.dynamics.effect import Effect, Kind, Weight
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
 from abu_calc.dynamics.motion import Levers, Loads, Motion, Solved
 from abu_calc.dynamics.parameters import Parameters
+from abu_calc.dynamics.scene_context import Circumstances
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,6 @@ class Churning(Effect):
         """−Σ m R_p² c θ'⁴."""
         return -self.coefficient * (m.static_moments * m.radii).dot(m.rate**4)
 
-    def weight(self, scene: Circumstances) -> Weight:
+    def weight(self, scene: Circumstances) -> EffectInfluence:
         """Not estimated."""
-        return Weight(None, "slows fast balls more than slow ones")
+        return EffectInfluence(None, "slows fast balls more than slow ones")

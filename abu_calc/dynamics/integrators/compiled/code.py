@@ -11,15 +11,19 @@ from typing import Any
 
 import numpy as np
 
+from abu_calc.dynamics.codegen.tracer import cached
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import rhs
-from abu_calc.dynamics.integrators.compiled import arrays, calls, expressions, language, machine, writer
-from abu_calc.dynamics.integrators.compiled.cache import Cache
+from abu_calc.dynamics.integrators.compiled import arrays
+from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
+from abu_calc.dynamics.integrators.compiled import llvm_text as expressions
+from abu_calc.dynamics.integrators.compiled import llvm_text as writer
+from abu_calc.dynamics.integrators.compiled import translator as calls
+from abu_calc.dynamics.integrators.compiled import translator as language
 from abu_calc.dynamics.integrators.compiled.kernels import Method, kernels, step_numbers
-from abu_calc.dynamics.integrators.compiled.machine import CompilerError, Loaded
+from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache, CompilerError, LoadedModule
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program, program
 from abu_calc.dynamics.parameters import Acting
-from abu_calc.dynamics.tracing.traced import cached
 from abu_calc.version import __version__
 
 TRANSLATOR: tuple[ModuleType, ...] = (language, calls, expressions, writer, machine, arrays)
@@ -102,23 +106,23 @@ def _key(parts: list[language.Part]) -> str:
     return hashlib.sha256(repr(rules).encode()).hexdigest()
 
 
-def _loop(method: Method) -> Loaded:
+def _loop(method: Method) -> LoadedModule:
     """The loop, of which each structure has its own, from the same machine code."""
     if method in _loops:
-        return Loaded(_loops[method])
+        return LoadedModule(_loops[method])
     numbers = step_numbers(method)
     parts: list[language.Part] = [(_text(kernel), vars(kernel) | numbers) for kernel in kernels(method)]
     module, _loops[method] = _module(parts, ("go",), _text(arrays))
     return module
 
 
-def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = "") -> tuple[Loaded, bytes]:
+def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = "") -> tuple[LoadedModule, bytes]:
     """Machine code for some texts, loaded: from disk where it is there and whole."""
     folder, key = Cache.own(), _key(parts)
     kept = folder.read(key)
     if kept is not None:
         with contextlib.suppress(CompilerError):  # what cannot be loaded is made anew
-            return Loaded(kept), kept
+            return LoadedModule(kept), kept
     made = machine.compiled(language.translated(parts, exported, given))
     folder.write(key, made)
-    return Loaded(made), made
+    return LoadedModule(made), made

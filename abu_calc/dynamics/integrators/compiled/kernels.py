@@ -3,17 +3,12 @@
 from types import ModuleType
 from typing import Final, Literal
 
-from abu_calc.dynamics.integrators.compiled import (
-    contact,
-    decide,
-    dop853,
-    friction,
-    impact,
-    locate,
-    loop,
-    rk45,
-    step_size,
-)  # fmt: skip
+from abu_calc.dynamics.integrators.compiled import dop853, impact, locate, loop
+from abu_calc.dynamics.integrators.compiled import dopri5 as rk45
+from abu_calc.dynamics.integrators.compiled import impact as contact
+from abu_calc.dynamics.integrators.compiled import loop as step_size
+from abu_calc.dynamics.integrators.compiled import mode_transitions as decide
+from abu_calc.dynamics.integrators.compiled import mode_transitions as friction
 
 Method = Literal["rk45", "dop853"]
 

@@ -22,7 +22,7 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     apparent,
     watched,
 )
-from abu_calc.dynamics.integrators.compiled.rk45 import dense, within
+from abu_calc.dynamics.integrators.compiled.dopri5 import dense, within
 
 CHECKS = 4
 NEVER = 2.0

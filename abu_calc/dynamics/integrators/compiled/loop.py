@@ -1,6 +1,10 @@
 """The loop of steps, located events and decisions, until the end or until something needs the general decision.
 
 The names of a method are those of `rk45`; where the loop is built for another method, they are that one's.
+
+The factor on the next step, by the error of the last and the order of the method.
+
+Source: Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.4.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (
@@ -35,11 +39,10 @@ from abu_calc.dynamics.integrators.compiled.arrays import (
     Reals,
     setup,
     watched,
-)  # fmt: skip
-from abu_calc.dynamics.integrators.compiled.decide import decided
-from abu_calc.dynamics.integrators.compiled.locate import NEVER, located
-from abu_calc.dynamics.integrators.compiled.rk45 import (
+)
+from abu_calc.dynamics.integrators.compiled.dopri5 import (
     BETWEEN,
+    EXPONENT,
     EXTRA,
     KEPT,
     LAST,
@@ -48,9 +51,29 @@ from abu_calc.dynamics.integrators.compiled.rk45 import (
     error,
     prepared,
     stages,
-)  # fmt: skip
-from abu_calc.dynamics.integrators.compiled.step_size import MOST_FACTOR, longer, shorter
+)
+from abu_calc.dynamics.integrators.compiled.locate import NEVER, located
+from abu_calc.dynamics.integrators.compiled.mode_transitions import decided
 from abu_calc.dynamics.integrators.run import LOOP_EVENT, MOST_STALLED
+
+LEAST_FACTOR, MOST_FACTOR, SAFETY = 0.2, 10.0, 0.9
+
+
+def shorter(off: float) -> float:
+    """Factor on a step whose error is too large, or no number."""
+    if off < 1e10:
+        factor: float = SAFETY * off**EXPONENT
+        return max(LEAST_FACTOR, factor)
+    return LEAST_FACTOR
+
+
+def longer(off: float) -> float:
+    """Factor on the next step."""
+    if off > 1e-10:
+        factor: float = SAFETY * off**EXPONENT
+        return min(MOST_FACTOR, factor)
+    return MOST_FACTOR
+
 
 SMALLEST = 4e-15
 """Steps below this share of the time are lost in rounding."""

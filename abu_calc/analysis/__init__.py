@@ -1,1 +1,0 @@
-"""Quantities computed from a motion: amplitudes, levels, settling, and the trust in these numbers."""

@@ -1,0 +1,133 @@
+"""Delivery of a command's outcome, or its error, to people and programs.
+
+`--figure NAME=FILE`: figures as files of their own, refused early where they could not be written.
+"""
+
+import inspect
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated, Final, NamedTuple
+
+import typer
+
+from abu_calc.foundation.errors import AbuError, InputError, OutputError, Place, escaped, escaped_lines, shortened
+from abu_calc.foundation.interruption import EndedBySignal, status_of
+from abu_calc.registry import KNOWN, known, names_of
+from abu_calc.reporting.outcome import Outcome, document, error_document, to_json
+
+OPTION: Final = "--figure"
+PLACE: Final = Place(key=OPTION)
+
+
+def figure_option(command: str) -> inspect.Parameter | None:
+    """The option, with the names that a command knows; None for commands without figures."""
+    if command not in KNOWN:
+        return None
+    help_ = f"Also write one figure as FILE.svg, .png or .pdf; repeatable. NAME: {names_of(command)}."
+    option = typer.Option(OPTION, metavar="NAME=FILE", help=help_)
+    return inspect.Parameter(
+        "figure", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[list[str] | None, option]
+    )
+
+
+def asked_figures(given: Iterable[str]) -> tuple[tuple[str, Path], ...]:
+    """Names and files."""
+    return tuple(_pair(argument) for argument in given)
+
+
+def _pair(text: str) -> tuple[str, Path]:
+    name, sign, file = text.partition("=")
+    if not (name.strip() and sign and file.strip()):
+        raise InputError(
+            "not a figure and its file", place=PLACE, found=text, allowed="NAME=FILE, as levels=levels.svg"
+        )
+    return name.strip(), Path(file.strip())
+
+
+def check_figures(command: str, figures: Iterable[tuple[str, Path]], output: Path | None, *, force: bool) -> None:
+    """Refuse unknown names, files that could not be written, and what is not installed."""
+    from abu_calc.reporting.charts.matplotlib_draw import SUFFIXES, check_matplotlib
+    from abu_calc.reporting.write import check_target
+
+    taken = set() if output is None else {os.path.realpath(output)}
+    for name, path in figures:
+        figure = known(command, name)
+        check_target(path, force=force, suffixes=SUFFIXES, option=OPTION)
+        if os.path.realpath(path) in taken:
+            raise OutputError("two outputs name the same file", place=Place(str(path)), remedy="Give another name.")
+        taken.add(os.path.realpath(path))
+        if not (figure.drawn and path.suffix.lower() == ".svg"):
+            check_matplotlib(f"{path.suffix.lower()} files of {name}")
+
+
+BUG = 3
+
+
+class Delivery(NamedTuple):
+    """Requested delivery of an outcome: the options that all commands share."""
+
+    json: bool = False
+    output: Path | None = None
+    force: bool = False
+    quiet: bool = False
+    color: bool = True
+    full: bool = False
+    figures: tuple[tuple[str, Path], ...] = ()
+
+    def check(self, command: str, drawn: tuple[str, ...] = ()) -> None:
+        """Refuse before computing what could not be written after; `drawn`: formats of the command's drawing."""
+        if self.figures:
+            check_figures(command, self.figures, self.output, force=self.force)
+        if self.output is not None:
+            from abu_calc.reporting.files import FORMATS, check_extra
+            from abu_calc.reporting.write import check_target
+
+            check_target(self.output, force=self.force, suffixes=(*FORMATS, *drawn), option="--output")
+            check_extra(self.output.suffix.lower())
+
+
+def deliver(outcome: Outcome, how: Delivery, *, wrote: bool = False) -> int:
+    """Print the result, return the exit status; `wrote`: files were written, as who interrupts is told."""
+    try:
+        _print(outcome, how)
+    except (KeyboardInterrupt, EndedBySignal) as ended:
+        if not wrote:
+            raise
+        print("Interrupted; the files were written.", file=sys.stderr)
+        sys.exit(status_of(ended))
+    return outcome.exit_status
+
+
+def _print(outcome: Outcome, how: Delivery) -> None:
+    """Print an outcome on standard output; if that is for programs, warnings go to standard error."""
+    if how.json:
+        print(to_json(document(outcome)))
+        for warning in () if how.quiet else outcome.warnings:
+            print(f"warning: {escaped(warning)}", file=sys.stderr)
+    elif how.quiet:
+        pass
+    elif outcome.plain is not None:
+        print(outcome.plain, end="")
+    else:
+        from abu_calc.reporting.text import show
+
+        shown = outcome.blocks if how.full else outcome.screen
+        show(shown, color=how.color and not os.environ.get("NO_COLOR"))
+
+
+def fail(command: str, error: BaseException, as_json: bool) -> int:
+    """Tell an error: a line or two on standard error, the envelope on standard output if JSON was asked for."""
+    if as_json:
+        print(to_json(error_document(command, error)))
+    head = " ".join(part for part in ("abu", shortened(escaped(command))) if part)
+    if isinstance(error, AbuError):
+        print(f"{head}: {escaped_lines(str(error))}", file=sys.stderr)
+        return error.exit_status
+    print(
+        f"{head}: this is a bug in abu-calc: {type(error).__name__}: {shortened(escaped(str(error)))}\n"
+        "  Set ABU_DEBUG=1 to see where, and report it with your file.",
+        file=sys.stderr,
+    )
+    return BUG

@@ -1,0 +1,61 @@
+"""`abu accuracy MACHINE|SCENE`: what accuracy costs in time."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from abu_calc.cli.command import Accuracy, Duration, File, Overrides, WhichScene, WhichStart, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.accuracy.study import AccuracyResult
+    from abu_calc.reporting.charts.figure import Extras
+
+
+def accuracy(
+    how: Delivery,
+    file: File,
+    set_: Overrides = None,
+    scene: WhichScene = None,
+    start: WhichStart = None,
+    quantity: Annotated[
+        str, typer.Option("--quantity", help="amplitude (default), level, settling or angles.")
+    ] = "amplitude",
+    accuracy: Accuracy = 0.01,
+    budget_s: Annotated[
+        float, typer.Option("--budget", metavar="SECONDS", help="Time to spend, once libraries are loaded.")
+    ] = 20.0,
+    duration_s: Duration = None,
+) -> Outcome:
+    """Compare every way to compute a scene: its error and its time."""
+    from abu_calc.features.accuracy.study import accuracy as study
+    from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_screen
+    from abu_calc.inputs.scene import read_any
+
+    with progress(how) as tell:
+        result = study(
+            read_any(file, set_ or ()),
+            scene,
+            start,
+            quantity=quantity,
+            accuracy=accuracy,
+            budget_s=budget_s,
+            duration_s=duration_s,
+            progress=tell,
+        )
+    return Outcome.of(
+        result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _extras(result: "AccuracyResult") -> "Extras":
+    from abu_calc.features.accuracy.view import accuracy_extras
+
+    return accuracy_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "accuracy", accuracy, simulates=True)

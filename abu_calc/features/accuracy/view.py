@@ -1,0 +1,198 @@
+"""Figures of `abu accuracy`: error against time, a line for each way to compute.
+
+They also define settling and accuracy.
+
+The price list of a scene as a table, and as a picture in plain characters.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Final
+
+from abu_calc.features.accuracy.study import AccuracyResult, MeasuredPoint
+from abu_calc.features.explain.steps import STEPS, step_blocks
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
+from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
+from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.parts import notices, of_scene, provenance_blocks
+from abu_calc.reporting.screen import shortened
+
+MARKS: Final = {
+    "closed-form": "c", "envelope": "v", "scipy-dop853": "D", "scipy-rk45": "R", "scipy-lsoda": "L",
+    "scipy-radau": "I", "scipy-bdf": "B", "compiled-dop853": "E", "compiled-rk45": "C",
+    "plain-dop853": "E", "plain-rk45": "C",
+}  # fmt: skip
+WIDTH: Final = 58
+HEIGHT: Final = 16
+
+ABOUT: Final = (
+    "Errors are against the reference, with every effect there is data for: amplitude relative to the larger of itself "
+    "and 1 % of that without balls, level likewise of the velocity (0.01 is 0.09 dB), settling time relative, angles "
+    "in rad. Times are those of the integration alone: warm, the median of repeats; cold, the first run with import "
+    "and compilation. They belong to this machine at this moment."
+)
+
+
+def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
+    """The whole report."""
+    reference = result.reference
+    sure = (
+        f"Reference: {reference.integrators[0]} at {reference.tolerances[0]:g} and {reference.integrators[1]} at "
+        f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}; {reference.wall_s:.1f} s."
+    )
+    skipped = [Paragraph(f"Not measured in the time allowed (--budget): {', '.join(_grouped(result.skipped))}.")]
+    return (
+        Heading(f"{result.title}: what accuracy costs, the {result.quantity}{of_scene(result.scene)}"),
+        Paragraph(_chosen(result), "fail" if result.chosen is None else "pass"),
+        Paragraph(sure),
+        Heading("Points"),
+        _grid(result),
+        *(Paragraph(line) for line in _not_computed(result.points)),
+        *(skipped if result.skipped else []),
+        Heading("Error against time"),
+        Picture(tuple(picture(result.points)), _legend(), indent=0),
+        Heading("Conventions"),
+        Paragraph(ABOUT),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def accuracy_screen(result: AccuracyResult) -> tuple[Block, ...]:
+    """The answer and the picture."""
+    return shortened(result, accuracy_blocks(result), "Points", more=("--budget SECONDS, more points",))
+
+
+def _grouped(names: tuple[str, ...]) -> list[str]:
+    """Rung and integrator once, with all their tolerances."""
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        method, _, tolerance = name.rpartition(" ") if " " in name else (name, "", "")
+        groups.setdefault(_short(method), []).append(tolerance)
+    return [f"{method} {'/'.join(tolerances)}".rstrip() for method, tolerances in groups.items()]
+
+
+def _not_computed(points: tuple[MeasuredPoint, ...]) -> list[str]:
+    """Why points have no error, each reason once with those it holds for."""
+    groups: dict[str, dict[str, None]] = {}
+    for point in points:
+        if point.error is None and point.note:
+            method = point.rung if point.rung != "equations" else _short(point.integrator or "")
+            groups.setdefault(point.note, {})[method] = None
+    return [f"Not computed by {', '.join(methods)}: {reason}." for reason, methods in groups.items()]
+
+
+def _chosen(result: AccuracyResult) -> str:
+    point = result.chosen
+    if point is None or point.error is None or point.wall_s is None:
+        return f"Nothing measured reaches an error of {result.accuracy:g}."
+    tolerance = "" if point.tolerance is None else f" at tolerance {point.tolerance:g}"
+    method = point.rung if point.integrator is None else f"{point.rung}, {point.integrator}{tolerance}"
+    return f"For an error of {result.accuracy:g}: {method}; error {number(point.error, 2)}, {_time(point.wall_s)}."
+
+
+def _short(integrator: str) -> str:
+    """Short name of an integrator for a column of a table."""
+    return integrator.replace("scipy-", "").replace("compiled-rk45", "compiled").replace("plain-rk45", "plain")
+
+
+def _grid(result: AccuracyResult) -> Grid:
+    rows = tuple(
+        (point.rung, _short(point.integrator or ""),
+         "" if point.tolerance is None else f"{point.tolerance:.0e}",
+         "-" if point.error is None else f"{point.error:.1e}", str(point.evaluations or ""),
+         _time(point.wall_s), _time(point.cold_s))
+        for point in result.points
+    )  # fmt: skip
+    return Grid(("rung", "by", "tolerance", "error", "evaluations", "warm", "cold"), rows, frozenset({2, 3, 4, 5, 6}))
+
+
+def _time(seconds: float | None) -> str:
+    if seconds is None:
+        return ""
+    return f"{seconds:.3g} s" if seconds >= 1 else f"{1000 * seconds:.3g} ms"
+
+
+def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
+    """Error upward, time to the right, both in decades."""
+    known = [(math.log10(point.wall_s), math.log10(max(point.error, 1e-16)), _mark(point))
+             for point in points if point.wall_s and point.error is not None]  # fmt: skip
+    if not known:
+        return ["nothing to draw"]
+    times, errors = [x for x, _, _ in known], [y for _, y, _ in known]
+    left, right = math.floor(min(times)), math.ceil(max(times))
+    low, high = math.floor(min(errors)), math.ceil(max(errors))
+    right, high = max(right, left + 1), max(high, low + 1)
+    cells = [[" "] * WIDTH for _ in range(HEIGHT)]
+    for x, y, mark in known:
+        column = round((x - left) / (right - left) * (WIDTH - 1))
+        row = round((high - y) / (high - low) * (HEIGHT - 1))
+        cells[row][column] = mark
+    labels = {round((high - d) / (high - low) * (HEIGHT - 1)): f"1e{d}" for d in range(low, high + 1)}
+    lines = [f"{labels.get(row, ''):>8} |{''.join(content)}".rstrip() for row, content in enumerate(cells)]
+    axis = [" "] * (WIDTH + 6)
+    for decade in range(left, right + 1):
+        column = round((decade - left) / (right - left) * (WIDTH - 1))
+        for offset, letter in enumerate(f"1e{decade}"):
+            axis[column + offset] = letter
+    return [*lines, f"{'error':>8} +{'-' * WIDTH}", f"{'':8}  {''.join(axis).rstrip()} s"]
+
+
+def _legend() -> str:
+    return ", ".join(f"{mark} {name}" for name, mark in MARKS.items()) + "; small letters: everything."
+
+
+def _mark(point: MeasuredPoint) -> str:
+    mark = MARKS[point.rung if point.rung in MARKS else point.integrator or ""]
+    return mark.lower() if point.rung == "everything" else mark
+
+
+SERIES: Final = 8
+NOTHING: Final = 1e-16
+"""An error below the last digit of a number."""
+
+
+def accuracy_extras(result: AccuracyResult) -> Extras:
+    """The figure, and the calculation note."""
+    return Extras(tuple(_precision(result)), tuple(step_blocks(STEPS["simulation"], _numbers(result))))
+
+
+def _precision(result: AccuracyResult) -> Iterator[Figure]:
+    groups: dict[str, list[tuple[float, float]]] = {}
+    for measurement in result.points:
+        if measurement.wall_s and measurement.error is not None:
+            groups.setdefault(_name(measurement), []).append((measurement.wall_s, max(measurement.error, NOTHING)))
+    known = [point for points in groups.values() for point in points]
+    if not known:
+        return
+    # Lines in the order of what they cost at best; the eighth and further ones share their looks with the first.
+    ordered = sorted(groups.items(), key=lambda group: min(group[1]))
+    lines = [Curve(points, name, k % SERIES + 1) for k, (name, points) in enumerate(ordered)]
+    across = Axis.decades("time, warm [s]", (x for x, _ in known))
+    up = Axis.decades("error", [result.accuracy, *(y for _, y in known)])
+    best, marks = result.chosen, [MarkedPoint(*point, "", line.series) for line in lines for point in line.points]
+    if best is not None and best.wall_s and best.error is not None:
+        marks.append(MarkedPoint(best.wall_s, max(best.error, NOTHING), "chosen"))
+    text = "; ".join(f"{line.name}: error {number(y, 2)} in {number(x, 2)} s" for line in lines for x, y in line.points)
+    caption = (
+        "Work against precision, both axes in decades, a line for each way to compute over its tolerances: nearer to "
+        "the lower left is better; what lies below the dashed line is accurate enough."
+    )
+    limit = (result.accuracy, f"asked for {result.accuracy:g}")
+    chart = Plot("Error against time", text, across, up, lines, marks, limit)
+    yield Figure("precision", "Error against time", chart, caption)
+
+
+def _name(point: MeasuredPoint) -> str:
+    """Rung and integrator in short."""
+    by = (point.integrator or "").removeprefix("scipy-")
+    if point.rung == "equations" and by:
+        return by
+    return f"{by}, {point.rung}" if by else point.rung
+
+
+def _numbers(result: AccuracyResult) -> tuple[str, ...]:
+    reference = result.reference
+    both = zip(reference.integrators, reference.tolerances, strict=True)
+    methods = " and ".join(f"{name} at {tolerance:g}" for name, tolerance in both)
+    return (f"reference: {methods} differ by {number(reference.disagreement, 2)}",)

@@ -1,0 +1,237 @@
+"""Warnings about a correction in two planes and about the way it was found.
+
+Checks of readings, rig and roll before a correction is trusted, each with the number behind it.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from abu_calc.features.balancing.case import Taken, record_warnings
+from abu_calc.features.balancing.errors import removed
+from abu_calc.features.balancing.formulas import bar_bending_speed, condition_number, influence
+from abu_calc.features.balancing.records import PlaneCorrection
+from abu_calc.features.balancing.solution import Found
+from abu_calc.features.balancing.tables import ReadingsFile
+from abu_calc.features.balancing.two_planes import near_resonance
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.units import from_si
+
+CONDITION: Final = (10.0, 30.0)
+"""Condition numbers: a warning from the first on, failed above the second."""
+OFF_RESONANCE: Final = (0.3, 0.1)
+"""Relative distance of the speed from a natural frequency: a warning below the first, failed below the second."""
+RIGID: Final = (0.5, 0.7)
+"""Speed over the roll's bending speed, likewise; an assumed bending speed warns from the second on."""
+SURE: Final = (0.1, 0.5)
+"""Vibration expected to be left, of that before."""
+AGREE: Final = (3.0, 6.0)
+"""Misfit of runs in standard deviations."""
+TELLS: Final = (0.3, 0.05)
+"""Least effect of a trial mass, as a share of the largest reading: to pass, and not to fail."""
+
+
+def balance_checks(balancing: Found) -> tuple[Check, ...]:
+    """Checks that there are numbers for."""
+    return (
+        _planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing), *_permitted(balancing), *_agree(balancing),
+        *_trials(balancing), *_metal(balancing),
+    )  # fmt: skip
+
+
+def _planes(balancing: Found) -> Check:
+    value = max(map(condition_number, balancing.solution.influences))
+    return coded(
+        "ABU1001", verdict(value <= CONDITION[1], value <= CONDITION[0]),
+        "errors of readings may grow by this factor, the condition number", value, CONDITION[0],
+    )  # fmt: skip
+
+
+def _natural_frequencies(balancing: Found) -> Iterator[Check]:
+    nearest = near_resonance(balancing.case)
+    if nearest is None:
+        return
+    value, omega = nearest
+    by_data = balancing.solution.method == "rig data"
+    grade = verdict(value >= OFF_RESONANCE[1] or not by_data, value >= OFF_RESONANCE[0])
+    remedy = None
+    if balancing.farther is not None and grade != "pass":
+        speed, rest = balancing.farther
+        remedy = (
+            f"At {from_si(speed, 'rpm'):.0f} rpm the same errors would leave {100 * rest:.1f} % instead of "
+            f"{100 * balancing.rest_share:.1f} %."
+        )
+    yield coded(
+        "ABU1002", grade, f"the speed's distance from the natural frequency of {from_si(omega, 'hz'):.2f} Hz, relative",
+        value, OFF_RESONANCE[0], remedy=remedy, bound="least",
+    )  # fmt: skip
+
+
+def _rigid(balancing: Found) -> Iterator[Check]:
+    """A bending speed that is given can fail it; one that is assumed warns."""
+    roll = balancing.case.roll
+    speed = max(balancing.service_speed, *(run.speed for run in balancing.case.runs))
+    if balancing.bending_speed is not None:
+        value = speed / balancing.bending_speed
+        grade = verdict(value <= RIGID[1], value <= RIGID[0])
+        message, limit = f"the highest speed over the roll's bending speed, {_rpm(balancing.bending_speed)}", RIGID[0]
+    elif roll is not None:
+        bar = bar_bending_speed(roll.M3, roll.length)
+        value, limit = speed / bar, RIGID[1]
+        grade = verdict(True, value <= limit)
+        message = f"the highest speed over that at which a solid steel bar of its mass and length bends, {_rpm(bar)}"
+    else:
+        return
+    remedy = None
+    if grade != "pass":
+        remedy = (
+            "rotor.first_bending_speed_rpm tells better." if balancing.bending_speed is None
+            else "A flexible roll takes more planes, at more speeds (ISO 21940-12)."
+        )  # fmt: skip
+    yield coded("ABU1003", grade, message, value, limit, remedy=remedy)
+
+
+def _rpm(speed: float) -> str:
+    return f"{from_si(speed, 'rpm'):.0f} rpm"
+
+
+def _sure(balancing: Found) -> Check:
+    share = balancing.rest_share
+    remedy = None
+    if share > SURE[0]:
+        remedy = f"A second run after the correction: the same errors would leave {100 * share**2:.1f} %."
+    return coded(
+        "ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
+        "what errors of readings, rig and correction leave of it, rms", 100 * share, 100 * SURE[0], "%", remedy,
+    )  # fmt: skip
+
+
+def _permitted(balancing: Found) -> Iterator[Check]:
+    for name, (rest, permitted) in zip(("left plane", "right plane"), balancing.rest, strict=True):
+        if permitted is None:
+            continue
+        remedy = None
+        if 2 * rest > permitted:
+            after = from_si(rest * balancing.rest_share, "g_mm")
+            remedy = f"A second run after the correction: the same errors would leave {after:.3g} g·mm."
+        yield coded(
+            "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted),
+            "imbalance expected after the correction; twice that must be permitted, too",
+            from_si(rest, "g_mm"), from_si(permitted, "g_mm"), "g·mm", remedy, of=name,
+        )  # fmt: skip
+
+
+def _agree(balancing: Found) -> Iterator[Check]:
+    value = balancing.disagreement
+    if value is None:
+        return
+    remedy = None
+    if value > AGREE[0]:
+        remedy = "Look for what changed between the runs; or the roll bends, or data of the rig are wrong."
+    yield coded(
+        "ABU1006", verdict(value <= AGREE[1], value <= AGREE[0]),
+        "largest misfit of a run, in standard deviations by the errors given", value, AGREE[0], None, remedy,
+    )  # fmt: skip
+
+
+def _trials(balancing: Found) -> Iterator[Check]:
+    if balancing.solution.method != "trial masses":
+        return
+    matrix = balancing.solution.influences[0]
+    largest = max(abs(phasor) for run in balancing.case.runs for phasor in run.motion)
+    on = [max(abs(run.placed[k]) for run in balancing.case.runs) for k in (0, 1)]
+    value = min(on[k] * max(abs(row[k]) for row in matrix) / largest for k in (0, 1)) if largest else 0.0
+    remedy = (
+        None if value >= TELLS[0] else f"Trial masses {max(2, round(TELLS[0] / value)) if value else 2} times as heavy."
+    )
+    yield coded(
+        "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
+        "what the weaker trial mass moves, of the largest reading", value, TELLS[0], None, remedy, "least",
+    )  # fmt: skip
+
+
+def _metal(balancing: Found) -> Iterator[Check]:
+    if balancing.removable is None:
+        return
+    value = max(map(removed, balancing.shares))
+    yield coded(
+        "ABU1008", verdict(value <= balancing.removable * (1 + 1e-9)), "mass to take off in a plane",
+        from_si(value, "g"), from_si(balancing.removable, "g"), "g",
+        None if value <= balancing.removable else "More places, so that mass can be put on opposite.",
+    )  # fmt: skip
+
+
+UNTOLD: Final = 45.0
+"""Uncertainty of an angle [degrees] from which its direction is told to be unknown."""
+RIG_DIFFERS: Final = 0.1
+"""Relative difference of measured influence coefficients from those by the rig's data."""
+
+
+def balance_warnings(
+    file: ReadingsFile, taken: Sequence[Taken], balancing: Found, planes: Sequence[PlaneCorrection]
+) -> Iterator[str]:
+    """Each a sentence or two."""
+    yield from _printed(balancing, planes)
+    for taken_run in taken:
+        yield from record_warnings(taken_run)
+    yield from _directions(planes)
+    yield from _within_grade(planes)
+    if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
+        rpm = from_si(balancing.service_speed, "rpm")
+        yield f"The grade is asked at the speed of the runs, {rpm:.0f} rpm: tolerance.service_speed_rpm is not given."
+    yield from _rig_and_trials(balancing)
+    if balancing.case.roll is None and balancing.bending_speed is None:
+        yield "Whether the roll bends at these speeds is not known: rotor.first_bending_speed_rpm tells."
+
+
+def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
+    """Warning about the angles of the formula as published, if the readings are no displacements."""
+    run = next((run for run in balancing.case.runs if not run.weights), None)
+    masses, turns = [plane.printed_mass_g for plane in planes], [plane.printed_angle_deg for plane in planes]
+    if run is None or run.quantity == "displacement" or None in masses or None in turns:
+        return
+    at = [
+        (turn + (180 if mass < 0 else 0)) % 360
+        for mass, turn in zip(masses, turns, strict=True)
+        if mass and turn is not None
+    ]
+    if len(at) < len(planes):
+        return
+    off, times = ("on the wrong side", "Ω²") if run.quantity == "acceleration" else ("90° off", "Ω")
+    name = "accelerations" if run.quantity == "acceleration" else "velocities"
+    yield (
+        "The formula as printed (Didukh 2010, (3)–(6)) takes readings for displacements: "
+        f"with these {name} it would take metal off at {at[0]:.1f}° on the left and {at[1]:.1f}° on the right, {off}, "
+        f"and {times} times too much. Here they are converted first."
+    )
+
+
+def _directions(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
+    for name, plane in zip(("left", "right"), planes, strict=True):
+        if plane.mass_g and plane.angle_uncertainty_deg > UNTOLD:
+            yield f"In the {name} plane errors are about as large as the imbalance: its angle is not known."
+
+
+def _within_grade(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
+    if all(plane.permitted_g_mm is not None and plane.imbalance_g_mm <= plane.permitted_g_mm for plane in planes):
+        yield "The roll is within its grade as it is: no correction is needed."
+
+
+def _rig_and_trials(balancing: Found) -> Iterator[str]:
+    roll = balancing.case.roll
+    if roll is None:
+        return
+    if balancing.solution.method == "rig data":
+        if any(run.weights for run in balancing.case.runs):
+            yield (
+                "The trial runs do not suffice for influence coefficients (one without and one in each plane, at one "
+                "speed, with masses that tell): their masses are taken into account, and the rig's data used."
+            )
+        return
+    measured, calculated = balancing.solution.influences[0], influence(roll, balancing.case.runs[0].speed)
+    largest = max(abs(coefficient) for row in calculated for coefficient in row)
+    off = max(abs(measured[i][k] - calculated[i][k]) for i in (0, 1) for k in (0, 1)) / largest
+    if off > RIG_DIFFERS:
+        yield (
+            f"The influence coefficients measured differ by {100 * off:.0f} % from those by [rig] and [rotor], "
+            "which are not used: look at their data, or at the trial masses and their angles."
+        )

@@ -1,0 +1,38 @@
+"""`abu balance READINGS`: two-plane balancing of a roll from runs on a rig."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from abu_calc.cli.command import Overrides, add_command
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.balancing.study import BalanceResult
+    from abu_calc.reporting.charts.figure import Extras
+
+
+def balance(
+    readings: Annotated[str, typer.Argument(metavar="READINGS", help="A file of readings, or the name of a preset.")],
+    set_: Overrides = None,
+) -> Outcome:
+    """Balance a roll or screw in two planes by runs on a rig: mass, place, uncertainty, verification run."""
+    from abu_calc.features.balancing.read import read_readings
+    from abu_calc.features.balancing.study import balance as study
+    from abu_calc.features.balancing.view import balance_blocks, balance_screen
+
+    result = study(read_readings(readings, set_ or ()))
+    return Outcome.of(
+        result, lambda: balance_blocks(result), lambda: balance_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _extras(result: "BalanceResult") -> "Extras":
+    from abu_calc.features.balancing.figures import balance_extras
+
+    return balance_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "balance", balance)

@@ -1,0 +1,73 @@
+"""Reading a file of readings, and the records it names."""
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from abu_calc.features.balancing.tables import ReadingsFile
+from abu_calc.foundation.errors import InputError, Place, shortened
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading import sources as presets
+from abu_calc.inputs.reading.document import Document, FileReading, named, open_document, parsed_overrides, validate
+from abu_calc.inputs.reading.kinds import refuse_others
+
+if TYPE_CHECKING:
+    from abu_calc.inputs.reading.overrides import Override
+
+
+@dataclass(frozen=True)
+class Readings(FileReading):
+    """A file of readings; `tables` are what stands in it, in the units people wrote."""
+
+    tables: ReadingsFile
+
+    @property
+    def title(self) -> str:
+        """The roll's name."""
+        return self.tables.rotor.name
+
+    def changed(self, values: Mapping[str, object]) -> "Readings":
+        """The readings with entries of their file replaced, by key path: `changed({"rig.damping_ratio": 0.01})`.
+
+        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
+        """
+        from abu_calc.inputs.reading.overrides import following, overrides_of
+
+        return readings_from(self.document, following(self.overrides, overrides_of(values), ReadingsFile))
+
+    def beside(self, name: str) -> Path:
+        """A file that this one names: by its whole path, or beside it."""
+        own_path = Path(self.file) if Path(self.file).exists() else presets.find(self.file) or Path(self.file)
+        return own_path.absolute().parent / name
+
+
+def read_readings(source: str | os.PathLike[str], overrides: Sequence[str] = ()) -> Readings:
+    """Reads a file of readings with entries overridden (`rig.key=value`, typed as TOML).
+
+    Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
+    """
+    return readings_from(open_document(named(source)), parsed_overrides(overrides))
+
+
+def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> Readings:
+    """The readings of a document that is open already; raises as `read_readings` does."""
+    refuse_others(document, "readings")
+    tables, reading = validate(document, overrides, ReadingsFile, lambda _: ReadingsFile)
+    readings = Readings(**vars(reading), tables=tables)
+    with readings.located():
+        for index, run in enumerate(tables.run):
+            if run.file is not None and not _is_file(path := readings.beside(run.file)):
+                raise InputError(
+                    "the record is not there", place=Place(key=f"run[{index}].file"), found=shortened(str(path)),
+                    remedy="put the file beside this one, or write its whole path",
+                )  # fmt: skip
+    return readings
+
+
+def _is_file(path: Path) -> bool:
+    """Tell whether a file is there; a name that is too long for the system is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False

@@ -1,0 +1,61 @@
+"""`abu compare MACHINE MACHINE …`, `abu compare MACHINE --variant "key=value,key=value" …`: what differs."""
+
+import os
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from abu_calc.cli.command import Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.compare.study import CompareResult
+    from abu_calc.reporting.charts.figure import Extras
+
+
+def compare(
+    how: Delivery,
+    machines: Annotated[
+        list[str], typer.Argument(metavar="MACHINE", help="Machine files, or names of presets; the first leads.")
+    ],
+    variants: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--variant", metavar="KEY=VALUE,KEY=VALUE", help="The machine with these entries replaced; repeatable."
+        ),
+    ] = None,
+    set_: Overrides = None,
+    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the simulations.")] = 0.01,
+) -> Outcome:
+    """Set machines, or variants of one, side by side: what differs in their files, designs and checks."""
+    from abu_calc.features.compare.study import compare as study
+    from abu_calc.features.compare.view import compare_blocks, compare_screen
+    from abu_calc.inputs.read_machine import read_machine, variant_of
+
+    if variants and len(machines) > 1:
+        raise InputError(
+            "variants are of one machine", place=Place(key="--variant"), found=f"{len(machines)} machines",
+            remedy="Name one machine, or write a file for each variant.",
+        )  # fmt: skip
+    read = [read_machine(machine, set_ or ()) for machine in machines]
+    read += [variant_of(read[0], variant) for variant in variants or ()]
+    with progress(how) as tell:
+        result = study(read, accuracy, tell, os.cpu_count() or 1)
+    return Outcome.of(
+        result, lambda: compare_blocks(result, full=how.full), lambda: compare_screen(result),
+        extras=lambda: _extras(result),
+    )  # fmt: skip
+
+
+def _extras(result: "CompareResult") -> "Extras":
+    from abu_calc.features.compare.view import compare_extras
+
+    return compare_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "compare", compare, simulates=True)

@@ -1,0 +1,71 @@
+"""`abu size MACHINE`: from one file about a machine to a sized and simulated design."""
+
+import os
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from abu_calc.cli.command import Machine, Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.reporting.blocks import Block
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.design.study import SizeResult
+    from abu_calc.reporting.charts.figure import Extras
+    from abu_calc.reporting.drawings.shapes import Drawing
+
+
+def size(
+    how: Delivery,
+    machine: Machine,
+    set_: Overrides = None,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="The whole report and every formula with numbers.")
+    ] = False,
+    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the simulation.")] = 0.01,
+) -> Outcome:
+    """Size the autobalancer of a machine: region, capacity, balls, track, seats, simulation."""
+    from abu_calc.features.design.study import size as study
+    from abu_calc.inputs.read_machine import read_machine
+
+    with progress(how) as tell:
+        result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
+    short = None if explain else lambda: _screen(result)
+    return Outcome.of(
+        result, lambda: _blocks(result, explain), short, lambda: _drawings(result), lambda: _extras(result)
+    )
+
+
+def _screen(result: "SizeResult") -> tuple[Block, ...]:
+    from abu_calc.features.design.screen import size_screen
+
+    return size_screen(result)
+
+
+def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:
+    from abu_calc.features.design.view import size_blocks
+
+    if not explain:
+        return size_blocks(result)
+    from abu_calc.features.explain.steps import explanation_blocks
+
+    return size_blocks(result) + explanation_blocks(result)
+
+
+def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
+    from abu_calc.features.design.sheet import size_sheets
+
+    return size_sheets(result)
+
+
+def _extras(result: "SizeResult") -> "Extras":
+    from abu_calc.features.design.figures import size_extras
+
+    return size_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "size", size, drawn=(".dxf", ".svg"), simulates=True)

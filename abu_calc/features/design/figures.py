@@ -1,0 +1,242 @@
+"""Figures of `abu size`: section and face, levels, candidates, budget, cost of tolerances, formulas."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from abu_calc.features.design.screen import balls
+from abu_calc.features.design.section_drawing import face_drawing, section_drawing
+from abu_calc.features.design.sheet import arm_sheets
+from abu_calc.features.design.starts import StartView
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.explain.steps import explanation_blocks
+from abu_calc.features.seats.figures import seat_figures
+from abu_calc.foundation.quantity import quantities
+from abu_calc.foundation.units import from_si
+from abu_calc.reporting.blocks import number
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
+from abu_calc.reporting.charts.figure import Extras, Figure, RotorMotionFigure, caught, level, settling
+from abu_calc.reporting.parts import value_of
+
+SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
+ROOM: Final = 130.0
+"""Room for the outer diameter on paper [mm]."""
+PARTS: Final = ("race_eccentricity_um", "rolling_friction_um", "rolling_friction_worst_um", "race_ovality_um",
+                "plane_offset_um", "capacity_shortfall_um", "residual_um", "worst_um")  # fmt: skip
+SUMS: Final = ("residual_um", "worst_um")
+
+
+def size_extras(result: SizeResult) -> Extras:
+    """Figures, and the calculation note."""
+    figures = (
+        *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
+        *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),
+    )  # fmt: skip
+    return Extras(figures, explanation_blocks(result)[1:])
+
+
+def size_charts(result: SizeResult) -> tuple[Figure, ...]:
+    """Figures for which a terminal has room."""
+    return (*_over_speed(result), *_settling(result), *_candidates(result))
+
+
+def _drawings(result: SizeResult) -> Iterator[Figure]:
+    outer = result.autobalancer.outer_diameter_mm
+    scale = next((ratio for ratio in SCALES if ratio * outer <= ROOM), SCALES[-1])
+    note = f"drawn to scale {_ratio(scale)}, sizes in mm"
+    yield Figure("section", "Section", section_drawing(result, scale), f"Section through the axis, {note}.")
+    face = f"Face with the cover off, {note}; balls evenly round the race."
+    yield Figure("face", "Section", face_drawing(result, scale), face)
+    for sheet in arm_sheets(result):
+        yield Figure("arm", "Swing arm", sheet, "Sketch of the swing arm, not to scale.")
+    yield from seat_figures(result, result.fits)
+
+
+def _ratio(scale: float) -> str:
+    return f"{scale:g}:1" if scale >= 1 else f"1:{1 / scale:g}"
+
+
+def _levels(result: SizeResult) -> Iterator[Figure]:
+    """Figure of the levels before, after and as measured at each place, with the limit."""
+    rows = [row for place in result.vibration.handles for row in (
+        (f"{place.name}, before", place.level_before_db, 2), (f"{place.name}, after", place.level_after_db, 1)
+    )]  # fmt: skip
+    if (measured := result.measured_after) is not None:
+        rows.append((f"{measured.place}, measured", measured.measured_level_db, 3))
+    known = [Bar(name, value, db(value), series) for name, value, series in rows if value is not None]
+    if not known:
+        return
+    limit = _limit(result, "ABU401")
+    values = [*(bar.value for bar in known), *([limit[0]] if limit else [])]
+    axis = Axis.around("velocity level, idle [dB]", values)
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in known) + (f"; {limit[1]}" if limit else "")
+    caption = (
+        "Velocity level at each place, idle, at the rated speed, 0 dB = 5e-8 m/s rms: what is after (round) should "
+        "stand left of the dashed limit; squares: before, lozenge: measured."
+    )
+    yield Figure("levels", "Vibration level", Bars("Levels before and after", text, axis, known, limit), caption)
+
+
+def _over_speed(result: SizeResult) -> Iterator[Figure]:
+    levels = result.vibration.by_speed or ()
+    if len({speed_level.speed_rpm for speed_level in levels}) < 2:
+        return
+    course = sorted((speed_level.speed_rpm, speed_level.level_after_db) for speed_level in levels)
+    limit = _limit(result, "ABU401")
+    bands = _forbidden(result)
+    points = [*(MarkedPoint(*pair) for pair in course), *_measured(result)]
+    across = Axis.around("speed [rpm]", (point.x for point in points))
+    up = Axis.around("level [dB]", [*(point.y for point in points), *([limit[0]] if limit else [])])
+    text = "; ".join(f"{f'{point.word} ' if point.word else ''}{point.x:.0f} rpm {db(point.y)}" for point in points)
+    text += f"; {limit[1]}" if limit else ""
+    caption = (
+        "Level with the autobalancer at the loudest place over the speed range, 0 dB = 5e-8 m/s rms: the line should "
+        f"stay below the dashed limit{', and out of shaded speeds, where the balls do not balance' if bands else ''}."
+    )
+    chart = Plot("Level against speed", text, across, up, (Curve(course),), points, limit, bands)
+    yield Figure("speeds", "Vibration level", chart, caption)
+
+
+def _measured(result: SizeResult) -> Iterator[MarkedPoint]:
+    """Point measured with the autobalancer, at the rated speed."""
+    measurement = result.measured_after
+    if measurement is not None:
+        speed = from_si(result.model.speed_rad_per_s, "rpm")
+        yield MarkedPoint(speed, measurement.measured_level_db, f"measured, {measurement.place}", 3)
+
+
+def _forbidden(result: SizeResult) -> list[tuple[float, float]]:
+    """Ranges of speed [rpm] in which the balanced state is not stable."""
+    ranges, start = [], 0.0
+    boundaries = sorted(result.frequency.stability_boundaries_rpm or (), key=lambda edge: edge.speed_rpm)
+    lowest = min((speed_level.speed_rpm for speed_level in result.vibration.by_speed or ()), default=0.0)
+    for boundary in boundaries:
+        if boundary.stable_above and boundary.speed_rpm > lowest:
+            ranges.append((start, boundary.speed_rpm))
+        start = boundary.speed_rpm
+    if boundaries and not boundaries[-1].stable_above:
+        ranges.append((start, max(start, *(speed_level.speed_rpm for speed_level in result.vibration.by_speed or ()))))
+    return ranges
+
+
+def _budget(result: SizeResult) -> Iterator[Figure]:
+    budget = result.accuracy_budget
+    names = quantities(type(budget))
+    rows = [
+        Bar(names[name].label, value, value_of(budget, name), 2 if name in SUMS else 1)
+        for name in PARTS
+        if (value := getattr(budget, name))
+    ]
+    if not rows:
+        return
+    limit = (budget.permitted_um, f"permitted {micrometres(budget.permitted_um)}") if budget.permitted_um else None
+    axis = Axis(
+        "displacement at the wheel, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
+    )
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
+    caption = "What keeps the balls from balancing to nothing; the sums should end left of what is permitted (dashed)."
+    yield Figure("budget", "Accuracy budget", Bars("Accuracy budget", text, axis, rows, limit), caption)
+
+
+def _motion(result: SizeResult) -> Iterator[Figure]:
+    if result.idle_run is None:
+        return
+    others = [(_start(start), start.view) for start in result.starts.views]
+    chosen = " Other starts of the machine can be chosen, from their beginning." if others else ""
+    caption = (
+        "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
+        "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
+        f"{chosen}"
+    )
+    yield Figure("motion", "Simulation: idle", RotorMotionFigure(result.idle_run, "simulated: idle", others), caption)
+
+
+def _start(start: StartView) -> str:
+    """A start in a line."""
+    ends = "does not balance"
+    if start.balanced:
+        ends = "balances" if start.settling_time_s is None else f"settles in {number(start.settling_time_s, 2)} s"
+    why = f"{start.why}: " if start.why else ""
+    return f"{why}{start.start}, drag {number(start.drag_per_s, 3)} 1/s, {ends}, {db(start.level_db)}"
+
+
+def _settling(result: SizeResult) -> Iterator[Figure]:
+    if result.idle_run is None:
+        return
+    limit = next((check.limit for check in result.checks if check.code == "ABU701"), None)
+    caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
+    yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
+
+
+def _over_time(result: SizeResult) -> Iterator[Figure]:
+    """Levels of the simulated runs: idle with the limit and what was measured, at work without."""
+    where = "at the loudest place, 0 dB = 5e-8 m/s rms"
+    if result.idle_run is not None:
+        bound, measured = _limit(result, "ABU401"), result.measured_after
+        limit = None if bound is None else bound[0]
+        shown = None if measured is None else measured.measured_level_db
+        caption = f"Velocity level over each revolution, idle, {where}"
+        caption += ": it should end below the dashed limit." if limit is not None else ": it should fall, and stay low."
+        caption += "" if measured is None else f" Lozenge: as measured with the autobalancer, {measured.place}."
+        yield Figure("level", "Simulation: idle", level(result.idle_run, limit, shown), caption)
+    if result.grinding_run is not None:
+        caption = f"Velocity level over each revolution at work, {where}: what is left when the balls have settled."
+        chart = level(result.grinding_run, None)._replace(title="Level against time, at work")
+        yield Figure("level-loaded", "Simulation: grinding", chart, caption)
+
+
+def _run_up(result: SizeResult) -> Iterator[Figure]:
+    """Figure of the ensemble's first start case that runs up, at the given viscous drag rate."""
+    for start in result.starts.views:
+        if start.view.speed_rpm is not None and start.drag_per_s == result.starts.drag_per_s:
+            caption = (
+                f"{start.start[0].upper()}{start.start[1:]} from standstill, balls side by side: the imbalance that is "
+                "left should fall, and stay low, when the speed is up."
+            )
+            yield Figure("run-up", "Many starts", caught(start.view, start.view.speed_rpm), caption)
+            return
+
+
+def _candidates(result: SizeResult) -> Iterator[Figure]:
+    """Mass against residual; the chosen one is filled and named, the others numbered as in the table."""
+    all_of_them = [(balls(result.autobalancer), result.autobalancer)] + [
+        (f"{number}", candidate) for number, candidate in enumerate(result.alternatives, 1)
+    ]
+    points = [
+        MarkedPoint(candidate.mass_g, candidate.residual_um, word, 1 if candidate is result.autobalancer else 2)
+        for word, candidate in all_of_them
+        if candidate.residual_um is not None
+    ]
+    if len(points) < 2:
+        return
+    up = Axis.around("expected residual [µm]", (point.y for point in points))
+    across = Axis.around("mass with balls [g]", (point.x for point in points))
+    text = "; ".join(
+        f"{balls(candidate)}: {value_of(candidate, 'mass_g')}, {value_of(candidate, 'residual_um')}"
+        for _, candidate in all_of_them if candidate.residual_um is not None
+    )  # fmt: skip
+    caption = (
+        "Candidates, lighter on the left, nearer to rest below: the chosen one is filled, squares are numbered as the "
+        "rows below."
+    )
+    chart = Plot("Mass against residual", text, across, up, (), points[::-1])
+    yield Figure("candidates", "Runners-up", chart, caption)
+
+
+def _costs(result: SizeResult) -> Iterator[Figure]:
+    rows = sorted(
+        (Bar(entry.feature, entry.cost_db, db(entry.cost_db)) for entry in result.drawing if entry.cost_db is not None),
+        key=lambda bar: -bar.value,
+    )
+    if not rows or rows[0].value <= 0:
+        return
+    axis = Axis("level rises by [dB]", min(0.0, rows[-1].value), rows[0].value)
+    text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
+    caption = (
+        "What the level rises by where a tolerance of the drawing is used up: the long bars are worth their money."
+    )
+    yield Figure("costs", "For the drawing", Bars("What tolerances cost", text, axis, rows), caption)
+
+
+def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:
+    limit = next((check.limit for check in result.checks if check.code == code and check.limit is not None), None)
+    return None if limit is None else (limit, f"limit {number(limit)} dB")

@@ -1,0 +1,405 @@
+"""The section of a sized autobalancer as results hold it: every length that its drawing shows, and the outlines.
+
+The parts of a sized design, as results hold them: SI in, user units out.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+
+from abu_calc.dynamics.stability.boundaries import Boundary as SpeedLimit
+from abu_calc.features.design.region import TrueRegion
+from abu_calc.features.design.section import section
+from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
+from abu_calc.formulas.friction_band import friction_band
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
+from abu_calc.simulation.records import finite
+from abu_calc.simulation.vibration_records import HandleLevels
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.drawing_requirements import (
+    BORE,
+    CASE_DEPTH,
+    GROOVE_TOLERANCE,
+    HARDNESS,
+    OVALITY,
+    RACE_TOLERANCE,
+    ROUGHNESS,
+    bore_limits,
+)
+from abu_calc.sizing.housing import RULES
+from abu_calc.sizing.track import Track
+from abu_calc.sizing.vibration import LevelAtSpeed, LevelsUnderLoad, SpeedLevels, idle_speed_levels
+from abu_calc.sizing.vibration import VibrationLevels as Levelled
+
+if TYPE_CHECKING:
+    from abu_calc.features.design.section import TurnedPart
+
+
+@record
+class StabilityBoundary(Record):
+    """A speed at which the balanced state gains or loses its stability."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    stable_above: Annotated[bool, Quantity("stable above it")]
+
+
+def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundary, ...]:
+    """Speeds where stability changes."""
+    return tuple(StabilityBoundary(speed_rpm=from_si(limit.speed, "rpm"), stable_above=limit.stable_above)
+                 for limit in limits)  # fmt: skip
+
+
+@record
+class Mode(Record):
+    """A free motion of the idle machine that swings, the mass of its balls on it."""
+
+    frequency_hz: Annotated[float, Quantity("frequency", "|λ|/2π")]
+    damping_ratio: Annotated[float, Quantity("damping ratio", "ζ", 3)]
+
+
+@record
+class Frequency(Record):
+    """Region of the working speeds, by the simple rule and by the eigenvalues."""
+
+    speed_hz: Annotated[float, Quantity("rated speed", "Ω/2π")]
+    natural_frequencies_hz: Annotated[tuple[float, ...], Quantity("natural frequencies x, y", "ω/2π")]
+    region: Annotated[str, Quantity("region")]
+    balancing_possible: Annotated[bool, Quantity("balancing possible")]
+    finite_mass_gap: Annotated[float, Quantity("finite-mass gap", "(2m/JM)^⅓", 3)]
+    stable: Annotated[
+        bool | None,
+        Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed, in the worst arrangement"),
+    ]
+    stability_boundaries_rpm: tuple[StabilityBoundary, ...] | None
+    modes: tuple[Mode, ...]
+    hanging_drag_per_s: Annotated[
+        float | None, Quantity("drag above which no balls hang", "", 4, "null: no drag is enough")
+    ]
+
+    @classmethod
+    def of(cls, design: Design, region: TrueRegion) -> Self:
+        """Record of a design."""
+        frequency, limits = design.frequency, region.boundaries
+        return cls(
+            speed_hz=from_si(frequency.speed, "hz"),
+            natural_frequencies_hz=tuple(from_si(w, "hz") for w in frequency.natural_frequencies),
+            region=frequency.region,
+            balancing_possible=frequency.balancing_possible,
+            finite_mass_gap=frequency.finite_mass_gap,
+            stable=region.stable,
+            stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
+            modes=tuple(Mode(frequency_hz=from_si(mode.frequency, "hz"), damping_ratio=mode.damping_ratio)
+                        for mode in region.modes),
+            hanging_drag_per_s=finite(region.hanging.largest),
+        )  # fmt: skip
+
+
+@record
+class AutobalancerRecord(Record):
+    """One candidate."""
+
+    ball_count: Annotated[int, Quantity("number of balls", "n")]
+    ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
+    ball_mass_g: Annotated[float, Quantity("mass of one ball", "m")]
+    race_radius_mm: Annotated[float, Quantity("race radius", "R")]
+    pitch_radius_mm: Annotated[float, Quantity("pitch radius", "R − r")]
+    groove_radius_mm: Annotated[float | None, Quantity("groove radius (± 0.2)", "R_g")]
+    capacity_g_mm: Annotated[float, Quantity("capacity, balls touching", "mR_p·sin nβ/sin β")]
+    capacity_ratio: Annotated[float | None, Quantity("capacity / need", "", 3)]
+    outer_diameter_mm: Annotated[float, Quantity("outer diameter")]
+    width_mm: Annotated[float, Quantity("width")]
+    mass_g: Annotated[float, Quantity("mass with balls")]
+    mass_fraction: Annotated[float, Quantity("share of the machine's mass", "", 3, percent=True)]
+    ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
+    contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
+    hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3)]
+    optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ_s)", 3)]
+    slowest_decay_per_s: Annotated[float, Quantity("slowest decay of the balls' way", "", 3, "at the drag given")]
+    carry_over_rpm: Annotated[float, Quantity("least speed that carries balls over", "√(g/R_p)", 3)]
+    residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
+    corrector: Annotated[str, Quantity("kind of corrector")]
+    ball_material: Annotated[str, Quantity("material of the balls")]
+    housing: Annotated[str, Quantity("housing")]
+    why_not: Annotated[str | None, Quantity("why it was not chosen")] = None
+
+    optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
+
+    @classmethod
+    def of(cls, table: AutobalancerTable, candidate: Candidate, race: Track, why_not: str | None = None) -> Self:
+        """Record of a candidate and its race; `table`: the file's demands on it."""
+        groove = race.groove_radius
+        return cls(
+            ball_count=candidate.ball_count,
+            ball_diameter_mm=from_si(candidate.ball_diameter, "mm"),
+            ball_mass_g=from_si(candidate.ball_mass, "g"),
+            race_radius_mm=from_si(candidate.race_radius, "mm"),
+            pitch_radius_mm=from_si(candidate.pitch_radius, "mm"),
+            groove_radius_mm=None if groove is None else from_si(groove, "mm"),
+            capacity_g_mm=from_si(candidate.capacity, "g_mm"),
+            capacity_ratio=finite(candidate.capacity_ratio),
+            outer_diameter_mm=from_si(candidate.housing.outer_diameter, "mm"),
+            width_mm=from_si(candidate.housing.width, "mm"),
+            mass_g=from_si(candidate.mass, "g"),
+            mass_fraction=candidate.mass_fraction,
+            ball_force_N=candidate.strength.ball_force,
+            contact_pressure_MPa=from_si(candidate.strength.contact_pressure, "MPa"),
+            hoop_stress_MPa=from_si(candidate.strength.hoop_stress, "MPa"),
+            optimum_drag_per_s=race.optimum_drag,
+            slowest_decay_per_s=race.decay_rates[0][1],
+            carry_over_rpm=from_si(race.carry_over, "rpm"),
+            residual_um=_um(candidate.budget.residual),
+            corrector=table.corrector,
+            ball_material=table.ball_material,
+            housing=RULES[table.design].text,
+            why_not=why_not,
+        )
+
+
+@record
+class AccuracyBudget(Record):
+    """Displacements 0–peak at the wheel that stay when the balls have settled; None: without bound."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
+
+    race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
+    speed_rpm: Annotated[float, Quantity("at its worst speed", "Ω", 6)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fan)", "w_f/cos(γ_g/2)", 3)]
+    rolling_friction_worst_um: Annotated[
+        float | None, Quantity("dry friction, worst", "", 3, "at the worst arrangement of the balls")
+    ]
+    race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a_k", 3)]
+    plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
+    capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
+    residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
+    worst_um: Annotated[float | None, Quantity("worst residual (plain sum)", "", 3)]
+    permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
+    rolling_friction_reached_um: Annotated[float | None, Quantity("friction band where balls came to rest", "", 3)] = (
+        None
+    )
+
+    @classmethod
+    def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:
+        """Record of a design; `reached`: angles [rad] at which the simulated balls came to rest."""
+        candidate, budget = design.autobalancer, design.autobalancer.budget
+        worst = next(each for each in design.worst if each.speed == budget.speed)
+        band = None
+        if reached is not None:
+            band = friction_band(design.case.friction_arm, candidate.pitch_radius, candidate.ball_diameter / 2, reached)
+        return cls(
+            race_eccentricity_um=_um(budget.race_eccentricity),
+            speed_rpm=from_si(budget.speed, "rpm"),
+            rolling_friction_um=_um(budget.rolling_friction),
+            rolling_friction_worst_um=_um(worst.rolling_friction),
+            race_ovality_um=_um(budget.race_ovality),
+            plane_offset_um=_um(budget.plane_offset),
+            capacity_shortfall_um=_um(budget.shortfall),
+            residual_um=_um(budget.residual),
+            worst_um=_um(worst.residual),
+            permitted_um=_um(budget.permitted),
+            rolling_friction_reached_um=None if band is None else _um(band),
+        )
+
+
+def _um(length: float) -> float | None:
+    return finite(from_si(length, "um"))
+
+
+@record
+class SpeedLevel(Record):
+    """Level with the autobalancer at one speed, at the loudest place."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    level_after_db: Annotated[float, Quantity("level after", "L")]
+
+    @classmethod
+    def of(cls, level: LevelAtSpeed) -> Self:
+        """Record in user units."""
+        return cls(speed_rpm=from_si(level.speed, "rpm"), level_after_db=level.after)
+
+
+@record
+class IdleSpeedLevels(Record):
+    """Levels at the motor's idle speed, at the loudest place; None after: balls cannot balance."""
+
+    speed_rpm: Annotated[float, Quantity("idle speed of the motor", "Ω", 6)]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+
+    @classmethod
+    def of(cls, design: Design) -> Self | None:
+        """Record of a design; None without a motor, or if the motor idles at the rated speed."""
+        possible = design.frequency.balancing_possible
+        levels = idle_speed_levels(design.case, design.imbalance.value, design.autobalancer, possible)
+        if levels is None or design.case.idle_speed is None:
+            return None
+        return cls(
+            speed_rpm=from_si(design.case.idle_speed, "rpm"),
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            reduction_db=levels.reduction,
+        )
+
+
+@record
+class Vibration(Record):
+    """Levels at the loudest place, at the rated speed, and at each; None after: balls cannot balance.
+
+    `at_idle_speed`: at the idle speed of a motor, where that is another. `by_speed`: over the speed range;
+    `worst_arrangement`: the highest of the range where friction holds the balls at their worst; none under load. Under
+    load the level after is that of a machine pressed to the work when its balls have settled, `level_at_once_db` that
+    of one pressed before. `parts`: whether wheel and work part: then levels are simulated, and that of steady contact
+    is not valid. `starts`: the start cases of grinding; `bound`: whether the level after is a lower bound.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {
+            "at_idle_speed",
+            "by_speed",
+            "worst_arrangement",
+            "parts",
+            "steady_level_after_db",
+            "level_at_once_db",
+            "at_once_stays",
+            "starts",
+            "bound",
+        }
+    )
+
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    handles: tuple[HandleLevels, ...]
+    at_idle_speed: IdleSpeedLevels | None = None
+    by_speed: tuple[SpeedLevel, ...] | None = None
+    worst_arrangement: SpeedLevel | None = None
+    parts: Annotated[bool | None, Quantity("wheel and work part")] = None
+    steady_level_after_db: Annotated[float | None, Quantity("level after if they did not part (not valid)", "L")] = None
+    level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
+    at_once_stays: Annotated[bool | None, Quantity("pressed at once, wheel and work go on bouncing louder")] = None
+    starts: LoadedStarts | None = None
+    bound: LevelBound | None = None
+
+    @classmethod
+    def of(cls, vibration: Levelled, levels: SpeedLevels | None = None, speed: float | None = None) -> Self:
+        """Record in the words of the interface; `speed` [rad/s]: the rated one, for instrument readings."""
+        worst = vibration.worst
+        return cls(
+            level_before_db=worst.before,
+            level_after_db=worst.after,
+            reduction_db=worst.reduction,
+            handles=tuple(HandleLevels.of(place, speed) for place in vibration.places),
+            by_speed=None if levels is None else tuple(map(SpeedLevel.of, levels.by_speed)),
+            worst_arrangement=None if levels is None else SpeedLevel.of(levels.arranged),
+        )
+
+    @classmethod
+    def of_loaded(cls, loaded: LevelsUnderLoad, speed: float | None = None) -> Self:
+        """Record of the vibration under load."""
+        levels = cls.of(loaded.levels, speed=speed)
+        steady = loaded.steady.after if loaded.parts_after else None
+        levels = replace(levels, parts=loaded.parts_before or loaded.parts_after, steady_level_after_db=steady)
+        if loaded.hasty is None:
+            return levels
+        handles = tuple(HandleLevels.of(place, speed, hasty) for place, hasty in
+                        zip(loaded.levels.places, loaded.hasty.places, strict=True))  # fmt: skip
+        return replace(levels, handles=handles, level_at_once_db=loaded.hasty.worst.after, at_once_stays=loaded.stays)
+
+
+@record
+class DrawingLine(Record):
+    """One requirement for the drawing."""
+
+    feature: Annotated[str, Quantity("feature")]
+    requirement: Annotated[str, Quantity("requirement")]
+    cost_db: Annotated[float | None, Quantity("cost", "", 3, "what the level rises by when the tolerance is used up")]
+
+
+@record
+class SectionPart(Record):
+    """One part of the housing.
+
+    `outline_mm`: half section, counter-clockwise, of each corner the place along the axis from the closed web's face,
+    the distance from the axis, and the bulge of the edge that leaves it (tangent of a quarter of its arc).
+    """
+
+    name: Annotated[str, Quantity("part")]
+    material: Annotated[str, Quantity("material")]
+    mass_g: Annotated[float, Quantity("mass")]
+    section_area_mm2: Annotated[float, Quantity("area of the half section")]
+    outline_mm: Annotated[tuple[tuple[float, float, float], ...], Quantity("outline of the half section")]
+
+    @classmethod
+    def of(cls, part: "TurnedPart") -> Self:
+        """Record in user units."""
+        return cls(
+            name=part.name,
+            material=part.material,
+            mass_g=from_si(part.mass, "g"),
+            section_area_mm2=1e6 * part.area,
+            outline_mm=tuple((_mm(v.x), _mm(v.r), v.bulge) for v in part.outline),
+        )
+
+
+@record
+class Section(Record):
+    """Lengths, tolerances and parts of the housing, as its drawing shows them; requirements are assumed practice."""
+
+    design: Annotated[str, Quantity("kind of housing")]
+    bore_diameter_mm: Annotated[float, Quantity("bore", "", 5)]
+    bore_class: Annotated[str, Quantity("tolerance class of the bore")]
+    bore_limits_um: Annotated[tuple[float, float] | None, Quantity("limits of the bore")]
+    hub_diameter_mm: Annotated[float, Quantity("hub", "", 5)]
+    race_diameter_mm: Annotated[float, Quantity("race", "2R", 5)]
+    race_tolerance_mm: Annotated[float, Quantity("tolerance of the race's radius", "±")]
+    shoulder_diameter_mm: Annotated[float, Quantity("race at the webs", "", 5)]
+    groove_tolerance_mm: Annotated[float, Quantity("tolerance of the groove's radius", "±")]
+    ring_diameter_mm: Annotated[float, Quantity("outside of the race ring", "", 5)]
+    wall_mm: Annotated[float, Quantity("wall outside the race")]
+    web_mm: Annotated[float, Quantity("web and cover")]
+    inner_width_mm: Annotated[float, Quantity("between web and cover")]
+    runout_um: Annotated[float, Quantity("runout race to bore, all in", "TIR")]
+    circularity_um: Annotated[float, Quantity("circularity of the race")]
+    roughness_Ra_um: Annotated[float, Quantity("roughness of the race", "Ra")]
+    hardness: Annotated[str, Quantity("hardness of the race")]
+    case_depth_mm: Annotated[float, Quantity("depth of the hard case, at least")]
+    parts: tuple[SectionPart, ...]
+
+    @classmethod
+    def of(cls, design: "Design") -> Self:
+        """Record of a design."""
+        cut = section(design.case, design.autobalancer)
+        limits = bore_limits(2 * cut.bore_radius)
+        return cls(
+            design=design.case.autobalancer.design,
+            bore_diameter_mm=_mm(2 * cut.bore_radius),
+            bore_class=BORE,
+            bore_limits_um=None if limits is None else (_micrometres(limits.lower), _micrometres(limits.upper)),
+            hub_diameter_mm=_mm(2 * cut.hub_radius),
+            race_diameter_mm=_mm(2 * cut.race_radius),
+            race_tolerance_mm=_mm(RACE_TOLERANCE),
+            shoulder_diameter_mm=_mm(2 * cut.shoulder_radius),
+            groove_tolerance_mm=_mm(GROOVE_TOLERANCE),
+            ring_diameter_mm=_mm(2 * cut.ring_radius),
+            wall_mm=_mm(cut.ring_radius - cut.race_radius),
+            web_mm=_mm(cut.web),
+            inner_width_mm=_mm(cut.inner_width),
+            runout_um=_micrometres(2 * design.case.race_eccentricity),
+            circularity_um=_micrometres(OVALITY),
+            roughness_Ra_um=_micrometres(ROUGHNESS),
+            hardness=HARDNESS,
+            case_depth_mm=_mm(CASE_DEPTH),
+            parts=tuple(map(SectionPart.of, cut.parts)),
+        )
+
+
+def _mm(length: float) -> float:
+    """Millimetres, freed of the rounding of the conversion."""
+    return round(from_si(length, "mm"), 9)
+
+
+def _micrometres(length: float) -> float:
+    return round(from_si(length, "um"), 6)

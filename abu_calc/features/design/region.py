@@ -1,0 +1,261 @@
+"""The frequency region of a machine without approximations: where its idle balanced state is stable.
+
+Starts of a design at whose end dry friction holds every ball at rest in its race.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.stability.boundaries import Boundary, excess_of, limits_of_all, quick
+from abu_calc.dynamics.stability.search import MARGIN, Search, searched
+from abu_calc.dynamics.stability.stall import HangingBounds
+from abu_calc.dynamics.stability.two_modes import LinearMotion
+from abu_calc.dynamics.stability.verdict import judged
+from abu_calc.dynamics.switching.stick_slip import AT_REST
+from abu_calc.features.design.verification import DAMPED, other_drags
+from abu_calc.formulas.suspension import Springs
+from abu_calc.foundation import patience
+from abu_calc.foundation.checks import Check, coded
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
+from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
+from abu_calc.simulation.start_cases import Member, members
+from abu_calc.sizing.design import Design
+
+
+@dataclass(frozen=True)
+class StuckBalls:
+    """Number of start cases simulated at the given drag rate, and of those that end balanced and stuck.
+
+    In the latter all balls balance and are held by friction.
+    """
+
+    starts: int
+    held: int
+
+    @property
+    def proves(self) -> bool:
+        """True if friction held the balls in every start case."""
+        return 0 < self.starts == self.held
+
+    @property
+    def words(self) -> str:
+        """The proof, or why there is none."""
+        if not self.starts:
+            return "no dry friction is given that could hold the balls"
+        proof = "dry friction holds all balls at rest" if self.proves else "dry friction holds the balls"
+        return f"{proof} in {self.held} of {self.starts} simulated starts"
+
+
+def stuck_balls(design: Design, doubtful: float, accuracy: float = 0.01) -> StuckBalls:
+    """Simulate every start at the drag given to its end, and count those whose balls stick and balance.
+
+    A ball sticks when its mean speed in the last twentieth of the run is below 1e-9 of the rotor's: a disturbance that
+    friction can carry then moves nothing. Runs that give no trustworthy number count as not held. `doubtful` [1/s]: see
+    `members`. Range: one speed; a disturbance beyond what friction carries may still free the balls.
+    """
+    if not design.case.friction_arm:
+        return StuckBalls(0, 0)
+    starts = list(members(design, doubtful, (1.0,)))
+    return StuckBalls(len(starts), sum(_sticks(design, member, accuracy) for member in starts))
+
+
+def _sticks(design: Design, member: Member, accuracy: float) -> bool:
+    try:
+        run = run_of_start(design, member, accuracy, TIGHTER * first_tolerance(design))
+    except NotTrustworthyError:
+        return False
+    return run.outcome.balanced and run.outcome.slip <= AT_REST
+
+
+PLACES: Final = 9
+"""Speeds of a range at which the growth rate is compared."""
+
+NAMED: Final = 3
+"""Boundaries that the check names, those nearest to the worst speed."""
+
+
+@dataclass(frozen=True)
+class FreeMode:
+    """A free motion of the idle machine with its balls: frequency |λ| [rad/s] and damping ratio −Re λ/|λ|."""
+
+    frequency: float
+    damping_ratio: float
+
+
+@dataclass(frozen=True)
+class TrueRegion:
+    """Stability of the idle balanced state at the rated speed, and the speeds at which it changes.
+
+    None: not known. It is judged in the worst arrangement that balances. Boundaries are searched from half
+    the lowest natural frequency, or half the lowest speed if that is less, to twice the highest speed.
+    `modes`: the oscillating ones, ascending.
+    """
+
+    stable: bool | None
+    boundaries: tuple[Boundary, ...] | None
+    modes: tuple[FreeMode, ...]
+    hanging: HangingBounds
+    check: Check
+
+
+@dataclass(frozen=True)
+class SpeedRange:
+    """The idle balanced state over the speeds of a design; `worst_speed` [rad/s] and the `growth` rate [1/s] there.
+
+    `rated`: the growth rate at the rated speed.
+    """
+
+    boundaries: tuple[Boundary, ...]
+    worst_speed: float
+    growth: float
+    rated: float
+    stable: bool
+
+
+def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
+    """Stability of the idle scene by its eigenvalues, with the drag and the damping of the file.
+
+    If a disturbance grows, start cases are simulated to see whether dry friction holds the balls: see
+    `stuck_balls`.
+    """
+    modes, hanging = _modes(idle_scene(design)), hanging_bounds(design)
+    try:
+        speeds = _speed_range(design)
+        if speeds is None:
+            reason = "there is no balanced state: the balls cannot carry the imbalance"
+            remedy = "Heavier or more balls, a larger race, or a better balanced wheel."
+            check = coded("ABU103", "fail", reason, unit="1/s", remedy=remedy)
+            return TrueRegion(False, (), modes, hanging, check)
+        check = _stable(design, speeds) if speeds.stable else _unstable(design, speeds, hanging, accuracy)
+        return TrueRegion(speeds.rated < -MARGIN * design.case.speed, speeds.boundaries, modes, hanging, check)
+    except NotTrustworthyError as error:
+        reason = f"not known: {str(error).splitlines()[0]}"
+        check = coded("ABU103", "not-done", reason, unit="1/s", remedy="Another drag, or springs in place of hands.")
+        return TrueRegion(None, None, modes, hanging, check)
+
+
+def _speed_range(design: Design, *, with_boundaries: bool = True) -> SpeedRange | None:
+    """Every speed of the range: its ends, the rated one, those of a grid, and no boundary between; None: no balance.
+
+    `with_boundaries`: also those outside the range.
+    """
+    scene, half = idle_scene(design), contact_half_angle(design)
+    low, high = design.case.speed_range
+    listed = judged(scene, half)[1]
+    if not listed:
+        return None
+    motions, search, rated = quick(listed), searched(listed, half), design.case.speed
+    ends = tuple(dict.fromkeys((low, rated, high)))
+    scanned = _scanned(motions, search, ends)
+    limits: tuple[Boundary, ...] = ()
+    if with_boundaries or low < high:
+        first = min(low, *design.frequency.natural_frequencies) / 2
+        scanned, limits = limits_of_all(scanned, search, scene, first, 2 * high, coarse=True)
+    grid = np.geomspace(low, high, PLACES).tolist() if low < high else ()
+    rates = {speed: _rate(scanned, speed) for speed in grid}
+    # The search looks at all the arrangements listed.
+    rates |= {speed: search.growth(speed) if search else _rate(motions, speed) for speed in ends}
+    worst = max(rates, key=lambda speed: rates[speed])
+    stable = rates[worst] < -MARGIN * worst and not any(low < limit.speed < high for limit in limits)
+    return SpeedRange(limits, worst, rates[worst], rates[rated], stable)
+
+
+def _scanned(
+    motions: tuple[LinearMotion, ...], search: Search | None, speeds: Sequence[float]
+) -> tuple[LinearMotion, ...]:
+    """Motions to look for boundaries with: all where that is quick.
+
+    Elsewhere the least even one, which mostly needs the highest speed; of a search also those that grow at the speeds.
+    """
+    if all(motion.isotropic for motion in motions):
+        return motions
+    return search.added(motions[-1:], speeds) if search else motions[-1:]
+
+
+def _rate(motions: Sequence[LinearMotion], speed: float) -> float:
+    """The largest growth rate [1/s]."""
+    return (excess_of(motions, speed) - MARGIN) * speed
+
+
+def _stable(design: Design, speeds: SpeedRange) -> Check:
+    low, high = design.case.speed_range
+    where = f"the slowest at {_rpm(speeds.worst_speed)}" if low < high else f"at {_rpm(speeds.worst_speed)}"
+    message = f"every small disturbance dies out, {where}, in the worst arrangement that balances"
+    return coded("ABU103", "pass", message, speeds.growth, 0.0, "1/s")
+
+
+def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accuracy: float) -> Check:
+    """A failure, or a warning where dry friction holds the balls in every start that was simulated."""
+    low, high = design.case.speed_range
+    message = (
+        f"not every small disturbance dies out at {_rpm(speeds.worst_speed)}, in the worst arrangement that balances"
+    )
+    nearest = sorted(speeds.boundaries, key=lambda limit: abs(limit.speed - speeds.worst_speed))[:NAMED]
+    if nearest:
+        named = (f"{_rpm(limit.speed)} ({'stable' if limit.stable_above else 'unstable'} above)" for limit in nearest)
+        message += f"; stability changes at {', '.join(named)}"
+    held = StuckBalls(0, 0)
+    if low < high:
+        message += "; starts prove nothing for a range of speeds"
+    else:
+        held = stuck_balls(design, hanging.largest or 0.0, accuracy)
+        message += f"; {held.words}"
+        if not held.proves and patience.over():
+            message += ", the others were not simulated in the time of --patience"
+            return coded("ABU103", "not-done", message, speeds.growth, 0.0, "1/s")
+    return coded(
+        "ABU103", "warn" if held.proves else "fail", message, speeds.growth, 0.0, "1/s", _action(design, speeds)
+    )  # fmt: skip
+
+
+def _action(design: Design, speeds: SpeedRange) -> str:
+    """Speeds above the last boundary where it is inside the range; else the first change that makes the range stable.
+
+    Changes are other drags, the nearest first, and more damping of springs; each is judged as the design was.
+    """
+    low, high = design.case.speed_range
+    last = speeds.boundaries[-1] if speeds.boundaries and speeds.boundaries[-1].stable_above else None
+    if last and low < last.speed < high:
+        return f"Keep all speeds above {_rpm(last.speed)}."
+    case = design.case
+    for drag in other_drags(case.drag, only_more=False):
+        changed = _speed_range(replace(design, case=replace(case, drag=drag)), with_boundaries=False)
+        if changed and changed.stable:
+            return _calculated(
+                f"autobalancer.rolling_drag_per_s = {drag:.3g} (instead of {case.drag:.3g})", speeds, changed
+            )
+    if isinstance(case.suspension, Springs):
+        x, y = (DAMPED * damping for damping in case.suspension.damping)
+        held = replace(design, case=replace(case, suspension=replace(case.suspension, damping=(x, y))))
+        changed = _speed_range(held, with_boundaries=False)
+        if changed and changed.stable:
+            return _calculated("suspension.damping_ratios twice as large", speeds, changed)
+    above = f"Keep all speeds above {_rpm(last.speed)}, beyond this range. " if last else ""
+    return (
+        f"{above}No other drag makes it stable: change the damping, use lighter balls, or hold the machine more softly."
+    )
+
+
+def _calculated(change: str, before: SpeedRange, after: SpeedRange) -> str:
+    return (
+        f"Set {change}: the growth rate falls from {before.growth:.3g} to {after.growth:.3g} 1/s (calculated, in the "
+        "worst arrangement)."
+    )
+
+
+def _rpm(speed: float) -> str:
+    return f"{from_si(speed, 'rpm'):.6g} rpm"
+
+
+def _modes(scene: Scene) -> tuple[FreeMode, ...]:
+    rates = np.linalg.eigvals(scene.small_motion.motion)
+    swinging = rates[rates.imag > 0]
+    modes = (FreeMode(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging)
+    return tuple(sorted(modes, key=lambda mode: mode.frequency))

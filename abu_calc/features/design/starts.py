@@ -1,0 +1,238 @@
+"""Results of many start cases of one design, as results hold them.
+
+Starts of an ensemble run once more, to be looked at: the worst, a typical one, each kind.
+
+Ways in which one machine was switched on, to be looked at: run again when somebody asks, which few do.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cached_property
+from operator import attrgetter
+from typing import Annotated, Final, Self
+
+from abu_calc.dynamics.integrators.compiled.code import installed
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.ensemble import TIGHTER, WORK, first_tolerance, run_of_start
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.records import finite
+from abu_calc.simulation.rotor_view import RotorView
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.vibration import level_at_loudest
+
+MOST: Final = 12
+MOST_WORK, MOST_PLAIN = 400_000, 60_000
+"""Evaluations of all starts together, in SciPy's, in compiled code and without: a second or two."""
+
+
+@dataclass(frozen=True)
+class ReplayedStart:
+    """A start's run, what it came to, and why it is shown: "worst", "typical" or nothing."""
+
+    why: str
+    outcome: StartOutcome
+    scene: Scene
+    trajectory: Trajectory
+
+
+def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
+    """The worst of all; at the rated speed that of the median time among those that balance, then the slowest of each
+    kind at the drag given.
+    """
+    choices = [] if ensemble.worst is None else [("worst", ensemble.worst)]
+    settled = sorted((start for start in ensemble.rated if math.isfinite(start.time)), key=lambda start: start.time)
+    if settled:
+        choices.append(("typical", settled[len(settled) // 2]))
+    given = [start for start in ensemble.given if start.member.speed is None]
+    kinds = dict.fromkeys(start.member.name for start in given)
+    choices += [("", max((start for start in given if start.member.name == kind), key=_slow)) for kind in kinds]
+    first: dict[int, tuple[str, StartOutcome]] = {}
+    for why, outcome in choices:
+        first.setdefault(id(outcome), (why, outcome))
+    return tuple(first.values())[:MOST]
+
+
+def _slow(outcome: StartOutcome) -> tuple[bool, bool, float]:
+    return outcome.hanging, not outcome.balanced, outcome.time
+
+
+def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[ReplayedStart]:
+    """Repeat the chosen start cases, as far as the allowed work permits, each by the run of its outcome."""
+    left, first = MOST_WORK if installed() else MOST_PLAIN, first_tolerance(design)
+    for why, outcome in chosen_starts(ensemble):
+        if outcome.work > left:
+            continue
+        for tolerance in (TIGHTER * first, first) if outcome.confirmed else (first,):
+            try:
+                repeat, scene, trajectory = run_of_start(design, outcome.member, accuracy, tolerance)
+            except NotTrustworthyError:
+                left -= WORK
+                continue
+            left -= repeat.work
+            if (repeat.hanging, repeat.balanced) == (outcome.hanging, outcome.balanced):
+                yield ReplayedStart(why, outcome, scene, trajectory)
+                break
+
+
+def levels_of(design: Design, scene: Scene) -> Callable[[float], float]:
+    """Function from an rms velocity of the axis [m/s] to the level [dB] at the loudest place.
+
+    The level is that which an ensemble reports.
+    """
+
+    case = replace(design.case, speed=scene.speed)
+
+    def level(velocity: float) -> float:
+        return level_at_loudest(case, design.autobalancer, math.sqrt(2) * velocity / scene.speed)
+
+    return level
+
+
+SAMPLES: Final = 250
+"""Samples of each start case, so few that a page with all of them stays small."""
+
+
+@dataclass(frozen=True)
+class StartView:
+    """One start as seen in the rotor. `why`: worst, typical or nothing; `settling_time_s`: None where it never does."""
+
+    why: str
+    start: str
+    drag_per_s: float
+    settling_time_s: float | None
+    level_db: float
+    balanced: bool
+    view: RotorView
+
+
+@dataclass(frozen=True)
+class Starts:
+    """Start cases of an ensemble; `of`: design, ensemble and accuracy, None if there is no ensemble."""
+
+    of: tuple[Design, Ensemble, float] | None
+
+    @property
+    def drag_per_s(self) -> float | None:
+        """The drag given."""
+        return None if self.of is None else self.of[1].drag
+
+    @cached_property
+    def views(self) -> tuple[StartView, ...]:
+        """The worst, a typical one, and each kind at the drag given: at most a dozen, run again at the first look."""
+        if self.of is None:
+            return ()
+        design, ensemble, accuracy = self.of
+        views = (_view(design, start) for start in starts_again(design, ensemble, accuracy))
+        return tuple(view for view in views if view is not None)
+
+
+def _view(design: Design, start: ReplayedStart) -> StartView | None:
+    view = RotorView.of(start.scene, start.trajectory, levels_of(design, start.scene), SAMPLES)
+    if view is None:
+        return None
+    outcome = start.outcome
+    return StartView(
+        why=start.why,
+        start=outcome.member.name,
+        drag_per_s=outcome.member.drag,
+        settling_time_s=outcome.settling if outcome.balanced else None,
+        level_db=outcome.level,
+        balanced=outcome.balanced,
+        view=view,
+    )
+
+
+@record
+class Spread(Record):
+    """The median over all starts at the rated speed, and the worst of all; None where a start never gets there."""
+
+    typical: Annotated[float | None, Quantity("typical")]
+    worst: Annotated[float | None, Quantity("worst")]
+
+    @classmethod
+    def of(cls, ensemble: Ensemble, value: Callable[[StartOutcome], float]) -> Self:
+        """Spread of one number over all start cases."""
+        worst = max(map(value, ensemble.outcomes), default=None)
+        return cls(typical=ensemble.typical(map(value, ensemble.rated)), worst=finite(worst))
+
+
+@record
+class WorstMember(Record):
+    """The start that ended worst: with balls that hang, not balanced, or the loudest; no speed: the rated one."""
+
+    start: Annotated[str, Quantity("start")]
+    drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
+    run_up_s: Annotated[float | None, Quantity("run-up", "", 3)]
+    speed_rpm: Annotated[float | None, Quantity("speed", "", 6)]
+    race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
+
+    @classmethod
+    def of(cls, worst: StartOutcome) -> Self:
+        """A start at full speed has no run-up."""
+        speed = None if worst.member.speed is None else from_si(worst.member.speed, "rpm")
+        return cls(
+            start=worst.member.way, drag_per_s=worst.member.drag, run_up_s=worst.member.run_up or None, speed_rpm=speed,
+            race_centre_deg=worst.member.race_centre_deg,
+        )  # fmt: skip
+
+
+@record
+class SettlingOfStart(Record):
+    """Settling time of one kind of start at one drag, from full speed: with the race off to the slower side.
+
+    `race_centre_deg`: that side, the angle of the race's centre from the imbalance. None: it never settles.
+    """
+
+    start: Annotated[str, Quantity("start")]
+    drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
+    settling_time_s: Annotated[float | None, Quantity("settling time", "t_s", 3)]
+    race_centre_deg: Annotated[float, Quantity("centre of the race from the imbalance", "", 3)]
+
+    @classmethod
+    def all_of(cls, ensemble: Ensemble) -> tuple[Self, ...]:
+        """Each kind of start at each drag, in the order in which they ran."""
+        slowest: dict[tuple[str, float], StartOutcome] = {}
+        for outcome in ensemble.outcomes:
+            key = outcome.member.name, outcome.member.drag
+            slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("time"))
+        return tuple(
+            cls(
+                start=start, drag_per_s=drag, settling_time_s=finite(outcome.time),
+                race_centre_deg=outcome.member.race_centre_deg,
+            )
+            for (start, drag), outcome in slowest.items()
+        )  # fmt: skip
+
+
+@record
+class EnsembleResult(Record):
+    """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
+
+    members: Annotated[int, Quantity("starts")]
+    balanced: Annotated[int, Quantity("that balance")]
+    hanging: Annotated[int, Quantity("that leave balls hanging")]
+    settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
+    level_db: Annotated[Spread, Quantity("level", "L")]
+    residual_um: Annotated[Spread, Quantity("residual", "w")]
+    worst_member: Annotated[WorstMember | None, Quantity("worst start")]
+    settling_by_start: tuple[SettlingOfStart, ...]
+
+    @classmethod
+    def of(cls, ensemble: Ensemble) -> Self:
+        """Record in user units."""
+        return cls(
+            members=ensemble.members,
+            balanced=ensemble.balanced,
+            hanging=len(ensemble.hanging),
+            settling_time_s=Spread.of(ensemble, lambda outcome: outcome.time),
+            level_db=Spread.of(ensemble, lambda outcome: outcome.level),
+            residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),
+            worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
+            settling_by_start=SettlingOfStart.all_of(ensemble),
+        )

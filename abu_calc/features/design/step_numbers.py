@@ -1,0 +1,104 @@
+"""The formulas of each step with the numbers of a sized machine put in: lines, or None where it has no such step."""
+
+from typing import TYPE_CHECKING
+
+from abu_calc.foundation.units import from_si
+from abu_calc.reporting.blocks import number
+
+if TYPE_CHECKING:
+    from abu_calc.features.design.study import SizeResult
+
+Lines = tuple[str, ...]
+
+
+def _n(value: float | None) -> str:
+    return "not computed" if value is None else number(value)
+
+
+def frequency(result: "SizeResult") -> Lines:
+    """The finite-mass gap, where the speed lies, and the drag above which no balls hang."""
+    frequency, design, model = result.frequency, result.autobalancer, result.model
+    natural = ", ".join(map(_n, frequency.natural_frequencies_hz))
+    return (
+        f"(2m/(J·M))^(1/3) = (2 · {_n(design.ball_mass_g)} g / ({_n(model.inertia_factor)} · "
+        f"{_n(result.effective_mass_kg)} kg))^(1/3) = {_n(frequency.finite_mass_gap)}",
+        f"Ω/2π = {_n(frequency.speed_hz)} Hz, ω/2π = {natural} Hz: {frequency.region}",
+        f"no balls hang above h₀ = {_n(frequency.hanging_drag_per_s)} 1/s; given {_n(model.drag_per_s)} 1/s",
+    )
+
+
+def imbalance(result: "SizeResult") -> Lines:
+    """Imbalance, and its source."""
+    return (f"m₀e = {_n(result.imbalance_g_mm)} g·mm ({result.model.imbalance_source})",)
+
+
+def mass(result: "SizeResult") -> Lines:
+    """Mass of the whole system, and the effective mass at the wheel."""
+    return (f"M = {_n(result.system_mass_kg)} kg, felt at the wheel: {_n(result.effective_mass_kg)} kg",)
+
+
+def capacity(result: "SizeResult") -> Lines:
+    """The sum, the printed limit, the compliant contact."""
+    model = result.model
+    return (
+        f"m₀e + M·ε·√{{…}} + M·Δ = {_n(result.imbalance_g_mm)} + {_n(model.runout_part_g_mm)} + "
+        f"{_n(model.eccentricity_part_g_mm)} = {_n(result.required_capacity_g_mm)} g·mm, with √{{…}} = "
+        f"{_n(model.runout_factor)} and the ratio of the planes {_n(model.plane_ratio)}",
+        f"as printed, m₀e + Mε = {_n(result.required_capacity_limit_g_mm)} g·mm",
+        f"compliant contact: {_n(result.required_capacity_compliant_g_mm)} g·mm",
+    )
+
+
+def budget(result: "SizeResult") -> Lines:
+    """The root of squares, and what is permitted."""
+    budget = result.accuracy_budget
+    parts = budget.race_eccentricity_um, budget.rolling_friction_um, budget.race_ovality_um, budget.plane_offset_um
+    squares = " + ".join(f"{_n(part)}²" for part in parts)
+    return (f"√({squares}) = {_n(budget.residual_um)} µm, permitted {_n(budget.permitted_um)} µm",)
+
+
+def balls(result: "SizeResult") -> Lines:
+    """Capacity that the chosen balls reach."""
+    design, model, pitch = result.autobalancer, result.model, _n(result.autobalancer.pitch_radius_mm)
+    return (
+        f"sin β = r/(R−r) = {_n(model.ball_radius_mm)}/{pitch}; {_n(design.ball_mass_g)} g · {pitch} mm · "
+        f"sin({design.ball_count}β)/sin β = {_n(design.capacity_g_mm)} g·mm = {_n(design.capacity_ratio)} × need",
+        f"{model.candidates} diameters and counts were examined",
+    )
+
+
+def track(result: "SizeResult") -> Lines:
+    """The groove, and what presses on it."""
+    design, model = result.autobalancer, result.model
+    return (
+        f"R_g = r + (5/7)(R−r) = {_n(model.ball_radius_mm)} + (5/7)·{_n(design.pitch_radius_mm)} = "
+        f"{_n(design.groove_radius_mm)} mm",
+        f"F = m·R_p·Ω² = {_n(design.ball_force_N)} N, p₀ = {_n(design.contact_pressure_MPa)} MPa, permitted "
+        f"{_n(from_si(model.permitted_pressure_Pa, 'MPa'))} MPa",
+    )
+
+
+def vibration(result: "SizeResult") -> Lines:
+    """Level before and after."""
+    return (f"{_n(result.vibration.level_before_db)} dB → {_n(result.vibration.level_after_db)} dB",)
+
+
+def seats(result: "SizeResult") -> Lines | None:
+    """None of its own: `abu check-fit --explain` puts them in, bearing by bearing; None without bearings."""
+    return () if result.fits else None
+
+
+def swing_arm(result: "SizeResult") -> Lines | None:
+    """Stiffness and damping; None without an arm."""
+    arm = result.swing_arm
+    if arm is None:
+        return None
+    return (
+        f"c_n < {_n(arm.contact_stiffness_limit_N_per_m)} N/m (series), "
+        f"{_n(arm.contact_stiffness_limit_exact_N_per_m)} N/m (exact, at Z* = {_n(arm.worst_contact_angle_deg)}°)",
+        f"h_sh > {_n(arm.damping_limit_N_s_per_m)} N·s/m; at Ω = 2ω₀* = 2 · {_n(arm.resonance_rpm)} rpm the arm grows "
+        f"at {_n(arm.parametric_growth_rate_per_s)} 1/s",
+        f"off the work {_n(arm.idle_frequency_rpm)} rpm, at work {_n(arm.cutting_frequency_rpm)} rpm; the joint alone "
+        f"makes it stand at every contact angle above c_sh = {_n(arm.joint_stiffness_standing_N_per_m)} N/m",
+        f"T_a = {_n(arm.pressing_moment_N_m)} > {_n(arm.least_pressing_moment_N_m)} N·m; N = {_n(arm.press_force_N)} N",
+    )

@@ -1,0 +1,379 @@
+"""A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design.
+
+The SI numbers behind a sized design, for those who check it by hand.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field, replace
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
+
+from abu_calc.features.design.records import (
+    AccuracyBudget,
+    AutobalancerRecord,
+    DrawingLine,
+    Frequency,
+    IdleSpeedLevels,
+    Section,
+    Vibration,
+)
+from abu_calc.features.design.region import true_region
+from abu_calc.features.design.start_search import with_searched
+from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
+from abu_calc.features.design.verification import Proven, proven
+from abu_calc.features.grinding.outcomes import Loads, LowerBound, lower_bound, with_starts
+from abu_calc.features.grinding.start_cases import FEW, WHEN, loaded_ensemble
+from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
+from abu_calc.features.grinding.work import Work, loaded_levels, work_of
+from abu_calc.features.seats.records import SeatResult, seat_results
+from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
+from abu_calc.foundation.checks import Check
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.parallel import processors
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.foundation.validity import Range
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.arguments import checked
+from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
+from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
+from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
+from abu_calc.simulation.records import SceneModel, SettlingEstimate, SimulatedScene
+from abu_calc.simulation.result import Provenance, Result
+from abu_calc.simulation.rotor_view import RotorView
+from abu_calc.simulation.run_checks import loudest
+from abu_calc.simulation.simulate import ACCURACY
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared_design, level_where_measured
+from abu_calc.sizing import size as size_design
+from abu_calc.sizing.design import Design
+
+if TYPE_CHECKING:
+    from abu_calc.features.swing_arm.verdict import ArmJudgement
+
+
+@record
+class SizeModel(Record):
+    """Numbers behind the steps of sizing, a few in user units too; complex ones as (real, imaginary)."""
+
+    speed_rad_per_s: float
+    speed_range_rad_per_s: tuple[float, float]
+    mass_without_autobalancer_kg: float
+    effective_mass_kg: float
+    natural_frequencies_rad_per_s: tuple[float, float]
+    reaction_N_per_m: tuple[tuple[float, float], ...]
+    runout_m: float
+    runout_factor: float
+    runout_part_kg_m: float
+    runout_part_g_mm: float
+    eccentricity_part_kg_m: float
+    eccentricity_part_g_mm: float
+    plane_ratio: float
+    ball_radius_mm: float
+    inertia_factor: float
+    drag_per_s: float
+    ball_stiffness_per_s2: float | None
+    resting_angles_rad: tuple[float, ...]
+    permitted_pressure_Pa: float
+    candidates: int
+    imbalance_source: str
+    scenes: Mapping[str, SceneModel]
+
+    @classmethod
+    def of(cls, design: Design, runs: Sequence[SceneRun]) -> Self:
+        """Model of a design and its simulations."""
+        case, autobalancer = design.case, design.autobalancer
+        need, reactions = autobalancer.requirement, (case.suspension.reaction(axis, case.speed) for axis in (0, 1))
+        return cls(
+            speed_rad_per_s=case.speed,
+            speed_range_rad_per_s=case.speed_range,
+            mass_without_autobalancer_kg=case.body.mass,
+            effective_mass_kg=need.effective_mass,
+            natural_frequencies_rad_per_s=design.frequency.natural_frequencies,
+            reaction_N_per_m=tuple((force.real, force.imag) for force in reactions),
+            runout_m=case.runout,
+            runout_factor=need.runout_factor,
+            runout_part_kg_m=need.runout_part,
+            runout_part_g_mm=from_si(need.runout_part, "g_mm"),
+            eccentricity_part_kg_m=need.eccentricity_part,
+            eccentricity_part_g_mm=from_si(need.eccentricity_part, "g_mm"),
+            plane_ratio=need.plane_ratio,
+            ball_radius_mm=from_si(autobalancer.ball_diameter / 2, "mm"),
+            inertia_factor=case.inertia_factor,
+            drag_per_s=case.drag,
+            ball_stiffness_per_s2=design.track.ball_stiffness,
+            resting_angles_rad=autobalancer.budget.resting_angles,
+            permitted_pressure_Pa=autobalancer.strength.permitted_pressure,
+            candidates=design.choice.examined,
+            imbalance_source=design.imbalance.source,
+            scenes={run.ledger.scene.name: SceneModel.of(run.ledger.scene) for run in runs},
+        )
+
+
+IDLE_START: Final = "bunched"
+"""Start of the idle scene."""
+
+
+@record
+class SizeResult(Result):
+    """A design that can be made, its checks, and a simulation that shows it works."""
+
+    command: ClassVar[str] = "size"
+    optional: ClassVar[frozenset[str]] = frozenset({"idle_speed_rpm", "measured_after", "arm_motion"})
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"idle_run", "grinding_run", "starts"}
+
+    model: SizeModel
+    system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
+    effective_mass_kg: Annotated[float, Quantity("mass felt at the wheel", "m_eff")]
+    frequency: Frequency
+    idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
+    imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
+    required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
+    required_capacity_limit_g_mm: Annotated[float, Quantity("as printed in the source", "m₀e + Mε")]
+    required_capacity_compliant_g_mm: Annotated[float | None, Quantity("for the compliant contact")]
+    autobalancer: AutobalancerRecord
+    section: Section
+    alternatives: tuple[AutobalancerRecord, ...]
+    accuracy_budget: AccuracyBudget
+    vibration: Vibration
+    vibration_loaded: Vibration | None
+    measured_after: MeasuredAfterRecord | None
+    ensemble: EnsembleResult | None
+    simulation: tuple[SimulatedScene, ...]
+    fits: tuple[SeatResult, ...]
+    swing_arm: SwingArmRecord | None
+    arm_motion: ArmMotion | None
+    drawing: tuple[DrawingLine, ...]
+    idle_run: RotorView | None = field(compare=False, repr=False)
+    """The idle machine's way to rest, thinned; None: it was not simulated, or for too long."""
+    grinding_run: RotorView | None = field(compare=False, repr=False)
+    """The same at work."""
+    starts: Starts = field(compare=False, repr=False)
+    """Some starts of the ensemble, run again when they are asked for."""
+
+
+WORKERS: Final = Range("workers", 1, 1024, key="workers")
+
+
+@checked
+def size(
+    machine: Machine, accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None
+) -> SizeResult:
+    """Size the autobalancer of a machine, simulate the scenes its file calls for to `accuracy`, and many starts of it.
+
+    `workers`: how many starts run side by side, in threads; the result does not depend on it. None: one for each
+    processor.
+    Raises InputError with file, line, key and remedy for what is wrong in the file.
+    """
+    ACCURACY.check(accuracy)
+    WORKERS.check(1 if workers is None else workers)
+    tables = machine.whole("size")
+    with machine.located():
+        threads = processors() if workers is None else workers
+        tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads)
+        design = tried.design
+        runs, failures = simulated(design, accuracy, progress, workers=threads)
+        work = work_of(design, accuracy, progress, _grinding(runs, failures))
+        work, loads = _pressed(work, tried.ensemble, accuracy, progress, threads)
+        region = true_region(design, accuracy)
+    arm, moved = _arm(design, failures, accuracy, progress)
+    stays = _on_work(design, runs, accuracy, progress)
+    answered = tried.ensemble is not None and bool(tried.ensemble.given)
+    lost = (not_simulated(fault.scene, fault.reason, answered=answered, mean=_mean(fault, work)) for fault in failures)
+    remarks = (f"{run.ledger.scene.name}: {text}" for run in runs for text in run.simulation.warnings)
+    need, loaded = design.autobalancer.requirement, loaded_levels(design, work)
+    bound = None if loaded is None else lower_bound(loaded.levels.worst.after, design.case)
+    reached = next((run.simulation.response.final.ball_angles for run in runs), None)
+    return SizeResult(
+        title=tables.machine.name,
+        checks=(
+            *_checks(tried, arm),
+            *stays,
+            region.check,
+            *(
+                with_searched(check, tried.searched, design)
+                for check in ensemble_checks(design, tried.ensemble, tried.remedy)
+            ),
+            *lost,
+        ),
+        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work, loads, bound)),
+        model=SizeModel.of(design, runs),
+        provenance=Provenance.of(machine),
+        system_mass_kg=design.system_mass,
+        effective_mass_kg=need.effective_mass,
+        frequency=Frequency.of(design, region),
+        idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
+        imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
+        required_capacity_g_mm=from_si(need.required, "g_mm"),
+        required_capacity_limit_g_mm=from_si(need.printed_limit, "g_mm"),
+        required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
+        autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
+        section=Section.of(design),
+        alternatives=tuple(
+            AutobalancerRecord.of(design.case.autobalancer, runner_up, race, why)
+            for (runner_up, why), race in zip(design.choice.runners_up, design.runner_up_tracks, strict=True)
+        ),
+        accuracy_budget=AccuracyBudget.of(design, reached),
+        vibration=replace(
+            Vibration.of(design.idle, design.speed_levels, design.case.speed), at_idle_speed=IdleSpeedLevels.of(design)
+        ),
+        vibration_loaded=None
+        if loaded is None
+        else replace(
+            Vibration.of_loaded(loaded, design.case.speed), starts=LoadedStarts.of(loads), bound=LevelBound.of(bound)
+        ),
+        measured_after=MeasuredAfterRecord.of(
+            compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
+        ),
+        ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
+        simulation=tuple(
+            SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
+        ),
+        fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
+        swing_arm=None if arm is None else SwingArmRecord.of(arm),
+        arm_motion=moved,
+        drawing=tuple(
+            DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
+            for line in design.drawing
+        ),
+        idle_run=_view(design, runs, "idle"),
+        grinding_run=_view(design, runs, "grinding"),
+        starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
+    )
+
+
+def _checks(tried: Proven, arm: "ArmJudgement | None") -> Iterator[Check]:
+    """Checks of the sizing, the level by its worst start case and the arm's checks as they were judged."""
+    held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
+    for check in tried.design.checks:
+        if check.code == "ABU401":
+            yield with_searched(level_check(check, tried.ensemble, tried.remedy), tried.searched, tried.design)
+        else:
+            yield held.pop(check.code, check)
+    yield from held.values()
+
+
+def _view(design: Design, runs: Sequence[SceneRun], scene: str) -> RotorView | None:
+    """View of a scene's run, with the levels that the limit of the file is for."""
+    run = next((run.simulation for run in runs if run.ledger.scene.name == scene), None)
+    return None if run is None else RotorView.of(run.scene, run.trajectory, loudest(design, run.response))
+
+
+def _grinding(runs: Sequence[SceneRun], failures: Sequence[SceneFailure]) -> SceneRun | SceneFailure | None:
+    """Run of the grinding scene, or its failure; None if there is neither."""
+    outcomes: list[SceneRun | SceneFailure] = [run for run in runs if run.ledger.scene.name == "grinding"]
+    outcomes += [failure for failure in failures if failure.scene == "grinding"]
+    return next(iter(outcomes), None)
+
+
+def _mean(failure: SceneFailure, work: Work | SceneFailure | None) -> str | None:
+    """Average result of the grinding scene; None unless it is chaotic and the average is known."""
+    if failure.scene != "grinding" or not isinstance(work, Work) or not work.at_once.scatter:
+        return None
+    return f"chaotic bouncing, {work.level_at_once:.1f} ± {work.at_once.scatter:.1f} dB on average"
+
+
+def _pressed(
+    work: Work | SceneFailure | None, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
+) -> tuple[Work | SceneFailure | None, Loads | None]:
+    """The machine at its workpiece with a few start cases: `abu grinding` runs all of them."""
+    if not isinstance(work, Work):
+        return work, None
+    idle: tuple[StartOutcome | Lost, ...] | None = None if ensemble is None else (*ensemble.outcomes, *ensemble.lost)
+    return with_starts(work, loaded_ensemble(work.design, accuracy, progress, workers, idle, FEW))
+
+
+def _under_load(work: Work | SceneFailure | None, loads: Loads | None, bound: LowerBound | None) -> Iterator[str]:
+    """Warnings about the levels under load that a reader must know."""
+    if bound is not None and bound.sentence:
+        yield bound.sentence
+    if loads is not None:
+        yield from _starts(loads, stays=isinstance(work, Work) and work.stays_loud)
+    if isinstance(work, SceneFailure):
+        yield f"Levels under load are not known: {work.reason}."
+        return
+    if work is None:
+        return
+    sides = [side for side in (work.without, work.fitted, work.at_once) if side.scatter]
+    scatter = max((side.scatter for side in sides), default=0.0)
+    yield from dict.fromkeys(f"grinding: {text}, known to {scatter:.1f} dB" for side in sides if side.run
+                             for text in side.run.warnings)  # fmt: skip
+    if work.stays_loud:
+        louder = [] if loads is None else loads.louder("at once")
+        share = f", in {len(louder)} of {loads.count('at once')} start cases" if loads is not None and louder else ""
+        yield (
+            f"Pressed to the work before the balls have settled, wheel and work go on bouncing, at "
+            f"{work.level_at_once:.1f} dB{share}: abu grinding tells what prevents it."
+        )
+
+
+def _starts(loads: Loads, *, stays: bool) -> Iterator[str]:
+    """The start cases of grinding that do not lower the level, and those without an answer.
+
+    `stays`: pressed at once the machine keeps bouncing louder, which a sentence of its own tells.
+    """
+    for when in ("settled", "at once"):
+        if (louder := loads.louder(when)) and not (stays and when == "at once"):
+            yield (
+                f"Under load the level is not lower than without the autobalancer in {len(louder)} of "
+                f"{loads.count(when)} start cases pressed {WHEN[when]}, {louder[-1].level:.1f} dB at most: abu "
+                "grinding runs more of them."
+            )
+    if loads.lost:
+        yield (
+            f"{len(loads.lost)} of {loads.ensemble.count} start cases pressed to the workpiece gave no answer: "
+            f"{loads.lost[0].reason}."
+        )
+
+
+def _arm(
+    design: Design, failures: Sequence[SceneFailure], accuracy: float, progress: Progress
+) -> "tuple[ArmJudgement | None, ArmMotion | None]":
+    """The swing arm judged, and its motion where it stands at the work; nothing of machines without one.
+
+    Where a scene of the arm gave no answer, also how much more joint damping would give one.
+    """
+    if design.swing_arm is None:
+        return None, None
+    from abu_calc.features.swing_arm.motion import ForcedArmMotion as Moved
+    from abu_calc.features.swing_arm.motion import arm_motion
+    from abu_calc.features.swing_arm.verdict import judge_arm
+    from abu_calc.simulation.scene_of_design import scene_of_design
+
+    judged = judge_arm(design, progress)
+    if judged is not None and judged.may_pass and any(failure.scene.startswith("swing-arm") for failure in failures):
+        from abu_calc.features.swing_arm.scenes import damping_to_simulate
+
+        more = damping_to_simulate(design, judged, accuracy, progress)
+        if more is not None:
+            text = f"{judged.advice} ABU703: its scenes can be simulated with {more.text} (tried)."
+            judged = replace(judged, advice=text)
+    try:
+        moved = arm_motion(scene_of_design(design, "swing-arm-cutting"))
+    except NotTrustworthyError:  # it does not stand, or does not reach the work: checks say so
+        return judged, None
+    return judged, ArmMotion.of(moved) if isinstance(moved, Moved) else None
+
+
+def _on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress: Progress) -> tuple[Check, ...]:
+    """Check that the disk of a swing arm stays on its workpiece.
+
+    There is none for machines without an arm, or with one that does not press.
+    """
+    bounds = design.swing_arm
+    if bounds is None or any(check.status != "pass" for check in bounds.checks if check.code in ("ABU503", "ABU504")):
+        return ()
+    from abu_calc.features.swing_arm.scenes import on_work
+
+    check = on_work(design, runs, accuracy, progress)
+    return () if check is None else (check,)
+
+
+def _other_drags(ensemble: Ensemble | None, run: SceneRun) -> tuple[SettlingEstimate, ...] | None:
+    """Settling of the idle scene's start at the other drags of the ensemble; None for other scenes, or without one."""
+    if run.ledger.scene.name != "idle" or ensemble is None:
+        return None
+    return tuple(
+        SettlingEstimate(drag_per_s=row.drag_per_s, settling_time_s=row.settling_time_s)
+        for row in SettlingOfStart.all_of(ensemble)
+        if row.start == IDLE_START and row.drag_per_s != ensemble.drag
+    )

@@ -1,0 +1,307 @@
+"""The whole report of `abu size`: verdict, checks, warnings, design, then what it rests on."""
+
+from collections.abc import Iterator, Sequence
+
+from abu_calc.features.design.figures import size_charts
+from abu_calc.features.design.records import AutobalancerRecord, Frequency, StabilityBoundary, Vibration
+from abu_calc.features.design.screen import about, balls, numbers_that_matter, section_picture
+from abu_calc.features.design.starts import SettlingOfStart
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.grinding.view import start_blocks
+from abu_calc.features.swing_arm.view import arm_facts, motion_blocks, printed_otherwise
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
+from abu_calc.reporting.charts.characters import pictured
+from abu_calc.reporting.parts import (
+    check_blocks,
+    default_blocks,
+    facts,
+    measured_after_blocks,
+    provenance_blocks,
+    shown_blocks,
+    value_of,
+    warning_blocks,
+)
+from abu_calc.simulation.records import SimulatedScene
+
+CONVENTIONS = (
+    "Amplitudes are 0–peak, velocities of levels rms, levels 20 lg(v / 5e-8 m/s) in the louder of x and y; "
+    "interference is positive when tight; angles of balls are measured from the imbalance in the sense of rotation."
+)
+START = (
+    "Every scene starts at full speed, the axis at rest at its place, balls at rest in the race, bunched side by side "
+    "20° ahead of the imbalance, the race's centre at 180° from it; rolling inertia and viscous drag are always in. A "
+    "weight is what leaving the effect out may change, `abu effects` tells more."
+)
+
+WAYS = (
+    "Drag from a third to three times of the file's, as of hot and cold oil. Below the optimum drag small disturbances "
+    "decay by h₀/2J whatever the balls, above it heavier balls are quicker: see the runners-up. From standstill they "
+    "take up the speed by h₀/J. The groove's radius plays no part in the plane. Settling times count from full speed. "
+    "Each is that of the slower side of the race: its centre at 0° from the imbalance, or, at the drag given, at 180°. "
+    "`abu simulate --start … --race-centre 0` repeats one."
+)
+ROWS = 15
+"""Rows of the section's picture."""
+
+
+def size_blocks(result: SizeResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return pictured(_blocks(result), size_charts(result))
+
+
+def _blocks(result: SizeResult) -> tuple[Block, ...]:
+    return (
+        *about(result),
+        *numbers_that_matter(result),
+        *check_blocks(result.checks),
+        *warning_blocks(result.warnings),
+        *_design(result.autobalancer),
+        *_section(result),
+        *_need(result),
+        *_vibration(result),
+        *_ensemble(result),
+        *_simulation(result.simulation),
+        *_alternatives(result.alternatives),
+        *_swing_arm(result),
+        *_seats(result),
+        *_drawing(result),
+        Heading("Conventions"),
+        Paragraph(CONVENTIONS),
+        *default_blocks(result.provenance.defaults),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def _design(design: AutobalancerRecord) -> list[Block]:
+    names = (
+        *("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm"),
+        *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),
+        *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s", "slowest_decay_per_s"),
+    )
+    rows = ((f"{design.ball_material} {design.corrector}s", "n × 2r", balls(design)), *facts(design, *names).rows)
+    return [Heading("Design"), Facts(rows), Paragraph(f"Housing {design.housing}.")]
+
+
+def _section(result: SizeResult) -> list[Block]:
+    """The picture, and what the drawing shows."""
+    section = result.section
+    names = (
+        *("bore_diameter_mm", "bore_class", "bore_limits_um", "hub_diameter_mm", "race_diameter_mm"),
+        *("race_tolerance_mm", "ring_diameter_mm", "wall_mm", "web_mm", "inner_width_mm"),
+    )
+    rows = tuple((part.name, part.material, value_of(part, "mass_g")) for part in section.parts)
+    return [
+        Heading("Section"),
+        *section_picture(result, ROWS),
+        facts(section, *names),
+        Grid(("part", "material", "mass"), rows, frozenset({2})),
+        Paragraph("To scale with dimensions: --output section.dxf or section.svg."),
+    ]
+
+
+def _ensemble(result: SizeResult) -> list[Block]:
+    """Medians and the worst of many starts."""
+    many = result.ensemble
+    if many is None:
+        return []
+    spreads = (
+        ("settling time", many.settling_time_s, "s"),
+        ("level", many.level_db, "dB"),
+        ("residual", many.residual_um, "µm"),
+    )
+    rows = tuple((name, _or_never(spread.typical), _or_never(spread.worst), unit) for name, spread, unit in spreads)
+    return [
+        Heading("Many starts"),
+        facts(many, "members", "balanced", "hanging"),
+        Grid(("", "median", "worst", ""), rows, frozenset({1, 2})),
+        Heading("What shortens the balls' way: settling time in s, by start and drag"),
+        _ways(many.settling_by_start),
+        Paragraph(WAYS),
+    ]
+
+
+def _ways(settling_times: Sequence[SettlingOfStart]) -> Grid:
+    """A row for each kind of start, a column for each drag, ascending."""
+    drags = sorted({entry.drag_per_s for entry in settling_times})
+    times = {(entry.start, entry.drag_per_s): entry.settling_time_s for entry in settling_times}
+    rows = tuple(
+        (start, *(_or_never(times[start, drag]) if (start, drag) in times else "" for drag in drags))
+        for start in dict.fromkeys(entry.start for entry in settling_times)
+    )
+    return Grid(("", *(f"{number(drag, 3)} 1/s" for drag in drags)), rows, frozenset(range(1, len(drags) + 1)))
+
+
+def _or_never(value: float | None) -> str:
+    return "never" if value is None else number(value)
+
+
+def _need(result: SizeResult) -> list[Block]:
+    budget = result.accuracy_budget
+    silent = {name for name in ("plane_offset_um", "capacity_shortfall_um") if not getattr(budget, name)}
+    return [
+        Heading("Frequencies and capacity"),
+        facts(result, "system_mass_kg", "effective_mass_kg"),
+        facts(result.frequency, "speed_hz", "natural_frequencies_hz", "region", "finite_mass_gap"),
+        facts(result, "idle_speed_rpm"),
+        Paragraph(_stability(result.frequency)),
+        Paragraph(_hanging(result)),
+        facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
+              "required_capacity_compliant_g_mm"),
+        Heading("Accuracy budget, displacements at the wheel"),
+        facts(budget, *(name for name in budget.entries() if name not in silent)),
+    ]  # fmt: skip
+
+
+def _stability(frequency: Frequency) -> str:
+    """Stability by the eigenvalues, stated beside the simple rule."""
+    stable, limits = frequency.stable, frequency.stability_boundaries_rpm
+    if stable is None or limits is None:
+        return "Whether the balanced state is stable at idle is not known."
+    word = "stable" if stable else "not stable"
+    changes = ", ".join(f"{number(boundary.speed_rpm, 4)} rpm ({_above(boundary)} above)" for boundary in limits)
+    modes = (f"{number(mode.frequency_hz, 3)} Hz (ζ {number(mode.damping_ratio, 2)})" for mode in frequency.modes)
+    return (
+        f"Balanced state at idle, by its eigenvalues, in the worst arrangement: {word} at the rated speed. Changes at "
+        f"{changes or 'no speed'}. The machine swings at {', '.join(dict.fromkeys(modes)) or 'no frequency'}."
+    )
+
+
+def _hanging(result: SizeResult) -> str:
+    """The closed bound, with the margin of the drag."""
+    bound, drag = result.frequency.hanging_drag_per_s, result.model.drag_per_s
+    if bound is None:
+        return "Balls may hang at a resonance whatever their drag: nothing damps it."
+    if drag > bound:
+        return f"No balls hang above a drag of {number(bound, 3)} 1/s: {number(drag / bound, 3)} times that is given."
+    return (
+        f"Balls may hang, going round at a resonance or not at all, below a drag of {number(bound, 3)} 1/s; "
+        f"{number(drag, 3)} is given. That is a bound, no verdict: a slow run-up tells."
+    )
+
+
+def _above(boundary: StabilityBoundary) -> str:
+    return "stable" if boundary.stable_above else "not stable"
+
+
+def _vibration(result: SizeResult) -> list[Block]:
+    states = (("idle", result.vibration), ("under load", result.vibration_loaded))
+    rows: list[tuple[str, ...]] = [
+        (state, place.name, *map(_tenths, (place.level_before_db, place.level_after_db, place.level_at_once_db,
+                                           place.reduction_db, place.effective_mass_kg)))
+        for state, vibration in states if vibration
+        for place in vibration.handles
+    ]  # fmt: skip
+    header: tuple[str, ...] = "", "place", "before, dB", "after, dB", "at once", "reduction", "felt mass, kg"
+    loaded = result.vibration_loaded
+    if loaded is None or loaded.level_at_once_db is None:
+        header, *rows = (row[:4] + row[5:] for row in (header, *rows))
+    blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset(range(2, len(header))))]
+    if result.vibration.at_idle_speed:
+        blocks.append(facts(result.vibration.at_idle_speed))
+    if loaded:
+        blocks += [Paragraph(text) for text in _under_load(loaded)]
+        blocks += start_blocks(loaded.starts)
+    shown = [
+        (f"{place.name}, {state}{when}", readings)
+        for state, vibration in states if vibration
+        for place in vibration.handles
+        for when, readings in ((", before", place.shown_before), (", after", place.shown_after)) if readings
+    ]  # fmt: skip
+    return [*blocks, *shown_blocks(shown), *measured_after_blocks(result.measured_after)]
+
+
+def _under_load(loaded: Vibration) -> Iterator[str]:
+    """Explanation of the levels under load."""
+    yield "Under load is information, not a check: it rests on the contact's stiffness."
+    if loaded.level_at_once_db is not None:
+        stays = "; then wheel and work go on bouncing, another state that stays" if loaded.at_once_stays else ""
+        yield f"After: pressed to the work when the balls have settled; at once: pressed before{stays}."
+    if loaded.steady_level_after_db is not None:
+        steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
+        yield f"Wheel and work part: the level after is simulated; {steady}."
+
+
+def _tenths(value: float | None) -> str:
+    return "–" if value is None else f"{value:.1f}"
+
+
+def _simulation(scenes: Sequence[SimulatedScene]) -> list[Block]:
+    blocks = [block for scene in scenes for block in _scene(scene)]
+    return [*blocks, Paragraph(START)] if blocks else []
+
+
+def _scene(scene: SimulatedScene) -> list[Block]:
+    cost, angles = scene.cost, ", ".join(f"{angle:.1f}°" for angle in scene.final.ball_angles_deg)
+    work = f"{cost.integrator}, tolerance {cost.tolerance:g}, {cost.evaluations} evaluations"
+    others = tuple(
+        (f"settling at a drag of {other.drag_per_s:g} 1/s, slower side", "", value_of(other, "settling_time_s"))
+        for other in scene.settling_estimates or ()
+        if other.settling_time_s is not None
+    )
+    return [
+        Heading(f"Simulation: {scene.scene}"),
+        facts(scene, "duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db",
+              "error_estimate"),
+        Facts(others),
+        Paragraph(f"The balls end at {angles} from the imbalance."),
+        Paragraph(f"Effects in: {_in(scene)}. Left out: {_out(scene)}."),
+        Paragraph(f"Cost: {work}, {cost.wall_s:.2f} s."),
+    ]  # fmt: skip
+
+
+def _in(scene: SimulatedScene) -> str:
+    return ", ".join(each.name for each in scene.effects if each.included) or "none"
+
+
+def _out(scene: SimulatedScene) -> str:
+    return ", ".join(f"{each.name} ({_weight(each.weight)})" for each in scene.effects if not each.included) or "none"
+
+
+def _weight(weight: float | None) -> str:
+    return "weight not known" if weight is None else f"weight {number(weight, 2)}"
+
+
+def _alternatives(others: Sequence[AutobalancerRecord]) -> list[Block]:
+    if not others:
+        return []
+    names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um", "slowest_decay_per_s")
+    rows = tuple((balls(other), *(_bare(other, name) for name in names), other.why_not or "") for other in others)
+    header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "decay, 1/s", "why not")
+    return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4, 5}))]
+
+
+def _bare(autobalancer: AutobalancerRecord, name: str) -> str:
+    """A number whose unit stands in the header."""
+    return "–" if getattr(autobalancer, name) is None else value_of(autobalancer, name).split(" ")[0]
+
+
+def _swing_arm(result: SizeResult) -> list[Block]:
+    arm, motion = result.swing_arm, result.arm_motion
+    if arm is None:
+        return []
+    moved = [*motion_blocks(motion, " while cutting"), *printed_otherwise()] if motion else []
+    return [*arm_facts(arm), *moved]
+
+
+def _seats(result: SizeResult) -> tuple[Block, ...]:
+    if not result.fits:
+        return ()
+    from abu_calc.features.seats.view import fit_blocks
+
+    return fit_blocks(result.fits)
+
+
+def _drawing(result: SizeResult) -> list[Block]:
+    rows = tuple(
+        (line.feature, line.requirement, "" if line.cost_db is None else f"{line.cost_db:.1f}")
+        for line in result.drawing
+    )
+    note = (
+        "The cost is what the level rises by when the tolerance is used up, the rest of the budget standing. "
+        "Requirements are engineering practice (assumed)."
+    )
+    return [
+        Heading("For the drawing"),
+        Grid(("feature", "requirement", "costs, dB"), rows, frozenset({2})),
+        Paragraph(note),
+    ]

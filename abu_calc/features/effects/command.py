@@ -1,0 +1,47 @@
+"""`abu effects [MACHINE|SCENE]`: the effects there are; with a file, which of them are simulated, and why."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import Accuracy, Overrides, WhichScene, With, Without, add_command
+from abu_calc.foundation.errors import InputError
+from abu_calc.reporting.outcome import Outcome
+
+Optional = Annotated[
+    str | None, typer.Argument(metavar="[MACHINE|SCENE]", help="A machine file, a preset's name, or a scene file.")
+]
+
+
+def effects(
+    file: Optional = None,
+    set_: Overrides = None,
+    scene: WhichScene = None,
+    accuracy: Accuracy = 0.01,
+    with_effects: With = None,
+    without_effects: Without = None,
+) -> Outcome:
+    """The effects there are; with a file: which are simulated, which are not, their weights and why."""
+    from abu_calc.features.effects.study import effects as study
+    from abu_calc.features.effects.study import known_effects
+    from abu_calc.features.effects.view import effects_blocks, effects_screen, known_blocks
+    from abu_calc.inputs.scene import read_any
+
+    if file is None:
+        if set_ or scene or with_effects or without_effects:
+            raise InputError("these options need a file", remedy="Name a machine or a scene.")
+        known = known_effects()
+        return Outcome.of(known, lambda: known_blocks(known))
+    result = study(
+        read_any(file, set_ or ()),
+        scene,
+        accuracy=accuracy,
+        with_effects=with_effects or (),
+        without_effects=without_effects or (),
+    )
+    return Outcome.of(result, lambda: effects_blocks(result), lambda: effects_screen(result))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "effects", effects)

@@ -1,0 +1,98 @@
+"""`abu explain [STEP|CODE|EFFECT]`: a step's formulas, what a check asks or what an effect is, without a machine."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.foundation.errors import InputError
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.reporting.outcome import Outcome
+
+What = Annotated[
+    str | None,
+    typer.Argument(metavar="[STEP|CODE|EFFECT]", help="A step of sizing, the code of a check, or an effect."),
+]
+
+
+def explain(step: What = None) -> Outcome:
+    """Show the formulas of a step, what a check asks, or what an effect is; without one, list."""
+    from abu_calc.features.explain.steps import STEPS
+    from abu_calc.foundation.checks import CHECK_CODES
+    from abu_calc.inputs.reading.suggestions import nearest
+
+    if step is None:
+        return _listed()
+    if step in STEPS:
+        return _step(step)
+    if step.upper() in CHECK_CODES:
+        return _code(step.upper())
+    from abu_calc.dynamics.effects.registry import REGISTRY
+
+    effects = dict(REGISTRY)
+    if step in effects:
+        return _effect(step, effects[step].kind, effects[step].about, effects[step].detail)
+    near = nearest(step, (*STEPS, *CHECK_CODES, *effects))
+    allowed = ", ".join(STEPS) + ", the code of a check, such as ABU201, or an effect, such as ball_contact"
+    raise InputError(
+        "no such step, check or effect", found=step, allowed=allowed, remedy=f'Did you mean "{near}"?' if near else None
+    )
+
+
+def _listed() -> Outcome:
+    from abu_calc.features.explain.steps import STEPS
+    from abu_calc.foundation.checks import CHECK_CODES
+
+    steps = tuple((name, each.title, ", ".join(entry.name for entry in each.formulas)) for name, each in STEPS.items())
+    blocks = (
+        Heading("Steps of `abu size`"),
+        Grid(("step", "what", "formulas"), steps),
+        Heading("Checks"),
+        Grid(("code", "check", "step"), tuple((check.code, check.name, check.step) for check in CHECK_CODES.values())),
+        Paragraph(
+            "abu explain STEP or CODE shows them, abu explain EFFECT one of `abu effects`; abu size MACHINE --explain "
+            "puts the numbers in."
+        ),
+    )
+    result = {
+        "steps": {name: each.title for name, each in STEPS.items()},
+        "checks": {code: check.name for code, check in CHECK_CODES.items()},
+    }
+    return Outcome("explain", result, blocks)
+
+
+def _step(name: str) -> Outcome:
+    from abu_calc.features.explain.steps import STEPS, step_blocks
+
+    step = STEPS[name]
+    texts = {formula.name: "\n".join(formula.for_users) for formula in step.formulas}
+    return Outcome("explain", {"step": name, "formulas": texts}, tuple(step_blocks(step)))
+
+
+def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
+    texts = (f"{about}.", detail) if detail else (f"{about}.",)
+    blocks: list[Block] = [Heading(f"{name}: {kind}"), *(Paragraph(text) for text in texts)]
+    return Outcome("explain", {"effect": name, "kind": kind, "about": about, "detail": detail}, tuple(blocks))
+
+
+def _code(code: str) -> Outcome:
+    from abu_calc.features.explain.steps import code_blocks
+    from abu_calc.foundation.checks import CHECK_CODES
+    from abu_calc.foundation.formula import formula_of
+
+    check = CHECK_CODES[code]
+    result = {
+        "check": check.code,
+        "name": check.name,
+        "asks": check.asks,
+        "fails": check.fails,
+        "remedy": check.remedy,
+        "step": check.step or None,
+        "formulas": {each.name: "\n".join(each.for_users) for each in map(formula_of, check.formulas)},
+    }
+    return Outcome("explain", result, tuple(code_blocks(check)))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "explain", explain)

@@ -1,0 +1,252 @@
+"""Steps, formulas and checks explained, and with a result the numbers put in.
+
+What a formula says of itself (equation, units, range, source, where the print differs) is registered where it stands.
+
+The steps of sizing as `abu explain` shows them: the formulas of each, and how the numbers of a result go in.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Final
+
+from abu_calc.features.design import step_numbers
+from abu_calc.foundation.checks import CheckCode
+from abu_calc.foundation.formula import Formula, formula_of
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.reporting.blocks import Block, Heading, Paragraph
+
+if TYPE_CHECKING:
+    from abu_calc.features.design.study import SizeResult
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step of sizing: the keys of its registered formulas, and lines with the numbers of a result put in."""
+
+    title: str
+    keys: tuple[str, ...]
+    numbers: "Callable[[SizeResult], step_numbers.Lines | None]" = lambda result: ()
+    """None: that machine has no such step."""
+
+    @property
+    def formulas(self) -> tuple[Formula, ...]:
+        """Formulas of this step."""
+        return tuple(map(formula_of, self.keys))
+
+
+STEPS: Final[Mapping[str, Step]] = {
+    "frequency": Step(
+        "Frequency region",
+        (
+            "sizing.operating_speed:zones",
+            "sizing.operating_speed:finite_mass_gap",
+            "formulas.suspension:natural_frequency",
+            "formulas.motor:idle_speed",
+            "formulas.motor:working_speed",
+            "formulas.slow_motion:resonance_drag",
+            "formulas.slow_motion:side_by_side",
+            "formulas.slow_motion:damped_drag",
+            "formulas.slow_motion:gravity_drag",
+        ),
+        step_numbers.frequency,
+    ),
+    "imbalance": Step(
+        "Imbalance",
+        (
+            "sizing.imbalance:imbalance_from_level",
+            "sizing.instruments:velocity_shown",
+            "standards.vibration:permissible_imbalance",
+        ),
+        step_numbers.imbalance,
+    ),
+    "mass": Step(
+        "Mass that moves",
+        ("sizing.case:RigidMachine.inertance", "sizing.case:RigidMachine.effective_mass", "formulas.suspension:Hands"),
+        step_numbers.mass,
+    ),
+    "capacity": Step(
+        "Required capacity",
+        (
+            "sizing.capacity:required_capacity",
+            "sizing.capacity:runout_factor",
+            "formulas.balls:SteadyContact.balancing_imbalance",
+            "sizing.capacity:plane_ratio",
+        ),
+        step_numbers.capacity,
+    ),
+    "budget": Step(
+        "Accuracy budget",
+        (
+            "formulas.friction_band:friction_band",
+            "formulas.friction_band:worst_friction",
+            "sizing.budget:oval_rest",
+            "sizing.budget:permitted_displacement",
+            "sizing.budget:plane_rest",
+        ),
+        step_numbers.budget,
+    ),
+    "balls": Step(
+        "Balls",
+        (
+            "formulas.balls:half_angle",
+            "formulas.balls:capacity",
+            "formulas.balls:best_count",
+            "sizing.balls:choose",
+        ),
+        step_numbers.balls,
+    ),
+    "track": Step(
+        "Track and housing",
+        (
+            "sizing.housing:groove_radius",
+            "sizing.housing:housing",
+            "sizing.strength:hertz_ball_in_toroid",
+            "sizing.strength:hertz_roller_in_cylinder",
+            "sizing.strength:permitted_pressure",
+            "sizing.strength:hoop_stress",
+            "sizing.strength:ring_flexure",
+            "sizing.strength:web_lobes",
+            "sizing.strength:wall_lobes",
+            "sizing.strength:hinged_wall_lobes",
+            "sizing.track:carry_over_speed",
+            "formulas.slow_motion:ball_stiffness",
+            "formulas.slow_motion:decay_rate",
+            "formulas.slow_motion:optimum_drag",
+            "features.sweep.columns:drag_ratio",
+        ),
+        step_numbers.track,
+    ),
+    "vibration": Step(
+        "Vibration level",
+        (
+            "sizing.vibration:idle_vibration",
+            "sizing.vibration:loaded_vibration",
+            "sizing.budget:displacement_level",
+            "sizing.drawing_requirements:extra_level",
+        ),
+        step_numbers.vibration,
+    ),
+    "levels": Step(
+        "Levels as instruments show them, weighted acceleration, exposure",
+        ("sizing.instruments:readings", "standards.vibration:hand_arm_response", "standards.vibration:daily_exposure"),
+    ),
+    "grinding": Step(
+        "Machine at its work",
+        (
+            "features.grinding.formulas:printed_resultant",
+            "features.grinding.formulas:loaded_stiffness",
+            "features.grinding.formulas:flutter_drag",
+            "features.grinding.formulas:characteristic",
+            "features.grinding.formulas:stiffness_regions",
+            "features.grinding.formulas:hodograph_limit",
+            "features.grinding.formulas:runout_rate",
+            "features.grinding.formulas:shaking_threshold",
+            "features.grinding.formulas:shaken_drag",
+        ),
+    ),
+    "seats": Step(
+        "Bearing seats",
+        (
+            "features.seats.interference:theoretical_interference",
+            "features.seats.interference:probable_interference",
+            "features.seats.interference:clearance_probability",
+            "features.seats.interference:truncated_clearance_probability",
+            "features.seats.requirement:creep_interference",
+            "features.seats.requirement:load_loss",
+            "features.seats.requirement:smoothing_loss",
+            "features.seats.requirement:catalogue_smoothing_loss",
+            "features.seats.requirement:temperature_loss",
+            "features.seats.requirement:centrifugal_loss",
+            "features.seats.joint:contact_pressure",
+            "features.seats.joint:inner_ring_stress",
+            "features.seats.joint:outer_ring_stress",
+            "features.seats.joint:raceway_change",
+            "features.seats.creep:friction_torque",
+            "features.seats.clearance:clearance_left",
+            "features.seats.notes:selective_groups",
+            "features.seats.drawing_requirements:seat_requirements",
+            "features.seats.drawing_requirements:seat_repair",
+            "features.seats.notes:load_intensity",
+        ),
+        step_numbers.seats,
+    ),
+    "swing-arm": Step(
+        "Swing arm",
+        (
+            "formulas.swing_arm:contact_gain",
+            "formulas.swing_arm:worst_contact_angle",
+            "formulas.swing_arm:series_gain",
+            "formulas.swing_arm:lifting_angle",
+            "formulas.swing_arm:standing_stiffness",
+            "formulas.swing_arm:lifted_angles",
+            "formulas.swing_arm:parametric_angles",
+            "formulas.swing_arm:stiffness_limit",
+            "formulas.swing_arm:resonance",
+            "formulas.swing_arm:damping_limit",
+            "formulas.swing_arm:growth_rate",
+            "formulas.swing_arm:arm_stiffness",
+            "formulas.swing_arm:pressed_angle",
+            "formulas.swing_arm:least_pressing_moment",
+            "formulas.swing_arm:press_force",
+            "formulas.swing_arm:forced_harmonics",
+            "formulas.swing_arm:free_rates",
+            "formulas.swing_arm:averaged_edge",
+        ),
+        step_numbers.swing_arm,
+    ),
+    "balance": Step(
+        "Balancing in two planes (`abu balance`)",
+        (
+            "features.balancing.formulas:displacement",
+            "features.balancing.formulas:kernels",
+            "features.balancing.formulas:imbalances",
+            "features.balancing.formulas:support_damping",
+            "features.balancing.formulas:natural_frequencies",
+            "features.balancing.formulas:influence",
+            "features.balancing.formulas:condition_number",
+            "features.balancing.formulas:bar_bending_speed",
+            "features.balancing.formulas:printed_answer",
+        ),
+        lambda result: None,
+    ),
+    "simulation": Step(
+        "Simulation",
+        ("formulas.motion:equations", "formulas.motion:settling_time", "formulas.motion:simulate"),
+    ),
+}
+"""Steps in the order of the pipeline."""
+
+
+def explanation_blocks(result: "SizeResult") -> tuple[Block, ...]:
+    """Every step that the result has, formulas and numbers."""
+    blocks: list[Block] = [Heading("FORMULAS, WITH THE NUMBERS OF THIS MACHINE")]
+    for step in STEPS.values():
+        numbers = step.numbers(result)
+        if numbers is not None:
+            blocks += step_blocks(step, numbers)
+    return tuple(blocks)
+
+
+def step_blocks(step: Step, numbers: tuple[str, ...] = ()) -> list[Block]:
+    """One step: numbers first, then each formula as it speaks of itself."""
+    return [Heading(step.title), *(Paragraph(f"→ {line}") for line in numbers), *formula_blocks(step.formulas)]
+
+
+def formula_blocks(formulas: tuple[Formula, ...]) -> list[Block]:
+    """Each formula under its name."""
+    blocks: list[Block] = []
+    for formula in formulas:
+        blocks += [Heading(f"  {formula.name}"), *(Paragraph(part, indent=4) for part in formula.for_users)]
+    return blocks
+
+
+def code_blocks(code: CheckCode) -> list[Block]:
+    """One check code: what is asked, what fails it, what to do, and the formulas that decide it."""
+    see = [Paragraph(f"Step: abu explain {code.step}")] if code.step else []
+    return [
+        Heading(f"{code.code} {code.name}"),
+        Paragraph(f"Asks: {code.asks}"),
+        Paragraph(f"Fails: {code.fails}"),
+        Paragraph(f"To do: {code.remedy}"),
+        *see,
+        *formula_blocks(tuple(map(formula_of, code.formulas))),
+    ]

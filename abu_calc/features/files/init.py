@@ -1,0 +1,46 @@
+"""`abu init [--preset NAME|--scene|--readings] FILE`: write a commented file to start from."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.foundation.errors import InputError
+from abu_calc.reporting.blocks import Paragraph
+from abu_calc.reporting.outcome import Outcome
+
+
+def init(
+    how: Delivery,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The file to write, ending in .toml.")],
+    preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset instead.")] = None,
+    scene: Annotated[bool, typer.Option("--scene", help="Write a scene file, for `abu simulate`.")] = False,
+    readings: Annotated[
+        bool, typer.Option("--readings", help="Write a file of readings on a balancing rig, for `abu balance`.")
+    ] = False,
+) -> Outcome:
+    """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
+    from abu_calc.inputs.read_machine import read_file
+    from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
+    from abu_calc.inputs.reading.sources import text_of
+    from abu_calc.reporting.write import Target, check_target
+
+    check_target(file, force=how.force, suffixes=(".toml",))
+    asked = [name for name, wanted in (("scene", scene), ("readings", readings)) if wanted]
+    if len(asked) + (preset is not None) > 1:
+        options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
+        raise InputError(f"{' and '.join(options)} exclude each other", remedy="A preset is of the kind it is.")
+    if preset is not None:
+        text, kind = text_of(preset), kind_of(read_file(preset).document.content)
+    else:
+        kind = BY_NAME[asked[0] if asked else "machine"]
+        text = kind.call("template")
+    next_step = Paragraph(f"{file} is written. Edit it, then: abu {kind.command} {file}", "pass")
+    return Outcome("init", {"file": str(file), "preset": preset}, (next_step,), further=(Target(file, text),))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "init", init)

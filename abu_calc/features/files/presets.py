@@ -1,0 +1,31 @@
+"""`abu presets [NAME]`: list the presets, or print one."""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.reporting.blocks import Grid, Heading, Paragraph
+from abu_calc.reporting.outcome import Outcome
+
+
+def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Print this preset.")] = None) -> Outcome:
+    """List the files that come with abu-calc, or print one."""
+    from abu_calc.inputs.read_machine import read_file
+    from abu_calc.inputs.reading.sources import names, text_of
+
+    if name is not None:
+        text = text_of(name)
+        return Outcome("presets", {"name": name, "text": text}, (), plain=text, plain_suffix=".toml")
+    listed = [{"name": each, "machine": read_file(each).title} for each in names()]
+    blocks = (
+        Heading("Presets"),
+        Grid(("name", "machine or roll"), tuple((each["name"], each["machine"]) for each in listed)),
+        Paragraph("A preset's name serves wherever a file of its kind is asked for: abu size avtovaz-707-222"),
+    )
+    return Outcome("presets", {"presets": listed}, blocks)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "presets", presets)

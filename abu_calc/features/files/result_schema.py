@@ -1,0 +1,141 @@
+"""The JSON Schema of results, drawn from their types: what `--json` prints, key by key."""
+
+import types
+from collections.abc import Mapping
+from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, get_type_hints
+
+from abu_calc.features.accuracy.study import AccuracyResult
+from abu_calc.features.balancing.study import BalanceResult
+from abu_calc.features.compare.study import CompareResult
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.effects.study import EffectsResult, KnownEffectsResult
+from abu_calc.features.factory.study import FactoryResult
+from abu_calc.features.grinding.study import GrindingResult
+from abu_calc.features.levels.study import LevelsResult
+from abu_calc.features.seats.study import CheckFitResult
+from abu_calc.features.simulate.study import SimulateResult
+from abu_calc.features.stability.study import StabilityResult
+from abu_calc.features.sweep.result import SweepResult
+from abu_calc.features.verify.study import VerifyResult
+from abu_calc.foundation.checks import Check, Status
+from abu_calc.foundation.quantity import Quantity, Record, hints, quantities
+from abu_calc.foundation.units import unit_of
+from abu_calc.simulation.result import Result
+
+DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
+
+RESULTS: Final[tuple[type[Result], ...]] = (
+    SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
+    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, SweepResult, CompareResult, VerifyResult,
+)  # fmt: skip
+
+SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
+
+Schema = dict[str, Any]
+
+
+def result_schema() -> Schema:
+    """The schema of the documents that `--json` prints; each command's result under its name among the definitions."""
+    definitions: dict[str, Schema] = {}
+    results = [_of_command(command, definitions) for command in dict.fromkeys(kind.command for kind in RESULTS)]
+    return {
+        "$schema": DRAFT,
+        "title": "abu-calc results",
+        "type": "object",
+        "properties": _envelope(definitions),
+        "required": ["abu", "input", "status", "checks", "result", "model", "warnings"],
+        "allOf": results,
+        "$defs": definitions,
+    }
+
+
+def _envelope(definitions: dict[str, Schema]) -> Schema:
+    """Properties of every document; a document of an error has `error` and no result."""
+    text, anything = {"type": "string"}, {"type": "object"}
+    check = {name: _type(hint, definitions) for name, hint in get_type_hints(Check).items()}
+    return {
+        "abu": _object(version=text, command=text, schema={"type": "integer"}, date=text),
+        "input": {"anyOf": [_object(file=text, sha256=text, overrides=anything, defaults=anything), {"type": "null"}]},
+        "status": _type(Status, definitions),
+        "checks": {"type": "array", "items": _object(**check)},
+        "result": {},
+        "model": anything,
+        "warnings": {"type": "array", "items": text},
+        "error": {"type": "object", "properties": {"kind": text, "message": text}, "required": ["kind", "message"]},
+    }
+
+
+def _object(**properties: Schema) -> Schema:
+    """An object with all of these."""
+    return {"type": "object", "properties": properties, "required": list(properties)}
+
+
+def _of_command(name: str, definitions: dict[str, Schema]) -> Schema:
+    """Schema rule of one command: its documents without an error have this result and this model."""
+    command = {"properties": {"abu": {"properties": {"command": {"const": name}}}}}
+    kinds = [
+        {"properties": {"result": _type(kind.json_type(), definitions), "model": _type(_model(kind), definitions)}}
+        for kind in RESULTS
+        if kind.command == name
+    ]
+    good = {"not": {"required": ["error"]}}
+    return {"if": {"allOf": [command, good]}, "then": kinds[0] if len(kinds) == 1 else {"anyOf": kinds}}
+
+
+def _model(kind: type[Result]) -> Any:
+    return hints(kind)["model"]
+
+
+def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
+    """A reference to the definition of a record."""
+    if kind.__name__ not in definitions:
+        definitions[kind.__name__] = {}  # known from here on, should it hold itself
+        names, labelled = kind.entries(), quantities(kind)
+        properties = {name: _type(hints(kind)[name], definitions) for name in names}
+        for name in names:
+            if name in labelled:
+                properties[name] = {"description": _description(name, labelled[name]), **properties[name]}
+        definitions[kind.__name__] = {
+            "type": "object",
+            "description": (kind.__doc__ or "").split("\n\n")[0],
+            "properties": properties,
+            "required": [name for name in names if name not in kind.optional],
+        }
+    return {"$ref": f"#/$defs/{kind.__name__}"}
+
+
+def _description(name: str, quantity: Quantity) -> str:
+    """Label, symbol, unit and meaning in a line."""
+    unit = unit_of(name)
+    head = " ".join(part for part in (quantity.label, quantity.symbol, f"[{unit}]" if unit else "") if part)
+    return f"{head}: {quantity.meaning}" if quantity.meaning else head
+
+
+def _type(hint: Any, definitions: dict[str, Schema]) -> Schema:
+    """The schema of a type."""
+    origin, arguments = get_origin(hint), get_args(hint)
+    if hint is Any:
+        return {}
+    if origin is Annotated:
+        return _type(arguments[0], definitions)
+    if origin is Literal:
+        return {"enum": list(arguments)}
+    if origin in (Union, types.UnionType):
+        return {"anyOf": [_type(argument, definitions) for argument in arguments]}
+    if origin is tuple:
+        return {"type": "array", "items": _items(arguments, definitions), **_length(arguments)}
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        return {"type": "object", "additionalProperties": _type(arguments[1], definitions)}
+    if isinstance(hint, type) and issubclass(hint, Record):
+        return _record(hint, definitions)
+    return {"type": SIMPLE[hint]}
+
+
+def _items(arguments: tuple[Any, ...], definitions: dict[str, Schema]) -> Schema:
+    kinds = [argument for argument in dict.fromkeys(arguments) if argument is not Ellipsis]
+    return _type(kinds[0], definitions) if len(kinds) == 1 else {"anyOf": [_type(kind, definitions) for kind in kinds]}
+
+
+def _length(arguments: tuple[Any, ...]) -> Schema:
+    """Length limits of tuples that are written out; none for others."""
+    return {} if Ellipsis in arguments else {"minItems": len(arguments), "maxItems": len(arguments)}

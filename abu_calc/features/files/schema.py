@@ -1,0 +1,40 @@
+"""`abu schema [machine|scene|readings|result]`: the JSON Schema of files, for editors, or of results, for programs."""
+
+from typing import Annotated, Any
+
+import typer
+
+from abu_calc.cli.command import add_command
+from abu_calc.foundation.errors import InputError
+from abu_calc.reporting.outcome import Outcome, to_json
+
+KINDS = ("machine", "scene", "readings", "result")
+
+
+def schema(
+    kind: Annotated[
+        str,
+        typer.Argument(metavar="[machine|scene|readings|result]", help="Which kind of file, or what --json prints."),
+    ] = "machine",
+) -> Outcome:
+    """Print the JSON Schema of a kind of files (draft 4, as editors take it), or of results (2020-12)."""
+    if kind not in KINDS:
+        raise InputError("no schema of this kind", found=kind, allowed=", ".join(KINDS))
+    json_schema = _schema(kind)
+    return Outcome("schema", json_schema, (), plain=to_json(json_schema) + "\n")
+
+
+def _schema(kind: str) -> dict[str, Any]:
+    if kind == "result":
+        from abu_calc.features.files.result_schema import result_schema
+
+        return result_schema()
+    from abu_calc.inputs.reading.kinds import BY_NAME
+
+    json_schema: dict[str, Any] = BY_NAME[kind].call("schema")
+    return json_schema
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "schema", schema)

@@ -1,0 +1,92 @@
+"""`abu validate FILE…`: check files and nothing else.
+
+Early refusal of files that cannot be computed with.
+
+A file that its own commands would refuse, seconds later, is refused at once.
+"""
+
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import Overrides, add_command
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.foundation.quantity import as_plain
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.reading.document import FileReading
+from abu_calc.inputs.scene import SceneDescription
+from abu_calc.reporting.blocks import Block, Paragraph
+from abu_calc.reporting.outcome import Outcome
+
+
+def refuse_unusable(source: FileReading) -> None:
+    """Go the way of the file's commands as far as closed formulas lead, and simulate nothing.
+
+    Raises InputError with file, line and key for what sizing, seats or the scenes of the file would refuse.
+    """
+    with source.located():
+        if isinstance(source, SceneDescription):
+            from abu_calc.simulation.durations import lasting
+            from abu_calc.simulation.scene_of_file import scene_from
+
+            lasting(scene_from(source.scene), None, "scene.duration_s")
+        if isinstance(source, Machine):
+            _machine(source)
+
+
+def _machine(machine: Machine) -> None:
+    if machine.tables.bearing:
+        from abu_calc.features.seats.study import judged_seats
+
+        judged_seats(machine)
+    if getattr(machine.tables, "autobalancer", None) is not None:
+        _design(machine)
+
+
+def _design(machine: Machine) -> None:
+    from abu_calc.simulation.design_scenes import scenes_of
+    from abu_calc.simulation.scene_of_design import scene_of_design
+    from abu_calc.sizing import size
+
+    design = size(machine.whole("size"))
+    for name in scenes_of(design):
+        try:
+            scene_of_design(design, name)
+        except NotTrustworthyError:  # for `abu size` to tell: the file may be right
+            continue
+
+
+def validate(
+    files: Annotated[
+        list[str], typer.Argument(metavar="FILE...", help="Files of machines, scenes or readings, or names of presets.")
+    ],
+    set_: Overrides = None,
+) -> Outcome:
+    """Check files: keys, types, ranges, rules between keys, and whether their commands would take them."""
+    from abu_calc.inputs.read_machine import read_file
+
+    results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()
+    for file in files:
+        try:
+            loaded = read_file(file, set_ or ())
+            refuse_unusable(loaded)
+        except InputError as error:
+            faults.append(error)
+            continue
+        defaults = dict(loaded.defaults_used)
+        replaced = {override.key: override.value for override in loaded.overrides}
+        results.append({"file": file, "sha256": loaded.sha256, "overrides": as_plain(replaced), "defaults": defaults,
+                        "warnings": list(loaded.warnings)})  # fmt: skip
+        warnings += [f"{file}: {warning}" for warning in loaded.warnings]
+        blocks.append(Paragraph(f"{file}: right, {len(defaults)} defaults in force", "pass"))
+        blocks += [Paragraph(f"! {warning}", indent=4) for warning in loaded.warnings]
+    if len(faults) == 1:
+        raise faults[0]
+    if faults:
+        raise InputError("\n".join(map(str, faults)))
+    return Outcome("validate", {"files": results}, tuple(blocks), warnings=tuple(warnings))
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "validate", validate)

@@ -1,0 +1,295 @@
+"""Checks on a machine at its workpiece that its autobalancer must pass, in `abu grinding`.
+
+Agreement of closed form and simulation for the same machine on its workpiece.
+"""
+
+import cmath
+from dataclasses import replace
+from typing import Final
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.features.grinding.formulas import flutter_drag, loaded_stiffness
+from abu_calc.features.grinding.outcomes import Loads
+from abu_calc.features.grinding.simulation import WorkSimulation, only_contact, working
+from abu_calc.features.grinding.steady_contact import RestingBalls, SteadyWork, contact_presses, leaving
+from abu_calc.features.grinding.work import Work
+from abu_calc.foundation.checks import Check, Grade, coded, verdict
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.units import from_si
+from abu_calc.simulation.durations import free_rates
+from abu_calc.simulation.scene_of_design import scene_of_design
+from abu_calc.sizing.advice import power_checks
+from abu_calc.sizing.design import Design
+
+AGREES: Final = 0.02
+"""Permitted relative difference between closed form and simulation of the same contact.
+
+The averages leave out that balls swing twice per turn, and the run may not have settled completely.
+"""
+
+LONG, LONGEST = 7.0, 6.0
+"""Decay times of the slowest balls that a run to be compared lasts, and the most seconds."""
+
+STAYS: Final = 3.0
+"""Seconds at least for balls to stay where they were put: near a resonance axis and balls decay slower than either."""
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """Relative differences of the simulated contact from the closed form: axis, force, resulting imbalance.
+
+    `apart`: the largest; `failure`: why there is none. `reached`: whether balls get there from where they stand at
+    idle; if not, they were started where the closed form has them.
+    """
+
+    axis: float | None = None
+    reaction: float | None = None
+    imbalance: float | None = None
+    failure: str | None = None
+    reached: bool = True
+
+    @property
+    def apart(self) -> float | None:
+        """The largest."""
+        return max((each for each in (self.axis, self.reaction, self.imbalance) if each is not None), default=None)
+
+
+def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
+    """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
+
+    Balls that do not get to their places from there, or not within what is simulated, are started at them: they must
+    stay. None where wheel and work part or balls do not balance: the closed form does not speak of these. A face leaves
+    balls where they stand.
+    """
+    steady = work.fitted.steady
+    if (
+        not contact_presses(work.design.case)
+        or work.fitted.parts
+        or steady.balls is None
+        or steady.balls.places != "balanced"
+        or steady.axis is None
+    ):
+        return None
+    scene = only_contact(scene_of_design(work.design, "grinding", "settled"))
+    sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
+    slowest = min(loaded_rate(work.design, each) for each in (steady.balls.stiffness, steady.balls.worst))
+    if min(slowest, sway) * LONGEST >= LONG:
+        comparison = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
+        if comparison.apart is not None and comparison.apart <= AGREES:
+            return comparison
+    there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
+    return replace(there, reached=False)
+
+
+def _lasting(scene: Scene, rate: float) -> Scene:
+    """Until what dies out at a rate [1/s] is gone, within bounds."""
+    longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
+    return replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
+
+
+def _placed(scene: Scene, balls: RestingBalls) -> Scene:
+    """Started where the closed form has its balls."""
+    return replace(scene, races=tuple(replace(race, start_angles=balls.angles) for race in scene.races))
+
+
+def _compared(work: Work, scene: Scene, accuracy: float, progress: Progress) -> Agreement:
+    try:
+        run = working(scene, accuracy, progress)
+    except NotTrustworthyError as error:
+        return Agreement(failure=str(error).splitlines()[0])
+    return compared(work.fitted.steady, run, work.design.autobalancer.static_moment)
+
+
+def loaded_rate(design: Design, stiffness: tuple[complex, complex]) -> float:
+    """Slowest decay rate of the balls under load [1/s]; below zero where they flutter or go away."""
+    drag, inertia = design.case.drag, design.case.inertia_factor
+    return min((drag - abs(cmath.sqrt(drag**2 - 4 * inertia * k).real)) / (2 * inertia) for k in stiffness)
+
+
+def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Agreement:
+    """Differences relative to the larger of what is compared and what the imbalance that the balls carry would cause.
+
+    `moment` Σ m·R_p [kg m].
+    """
+    axis, total = steady.axis or (0j, 0j), steady.imbalance or 0j
+    carried = max(abs(total - steady.own), 0.01 * moment)
+    force = carried * steady.contact.speed**2
+    off = max(abs(simulated - calculated) for simulated, calculated in zip(run.axis, axis, strict=True))
+    usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
+    reaction = steady.reaction or 0j
+    pressed = abs(run.reaction - reaction) / max(abs(reaction), force) if len(run.force) else None
+    return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)
+
+
+def work_checks(
+    work: Work, remedy: str | None, compared: Agreement | None, loads: Loads | None = None
+) -> tuple[Check, ...]:
+    """Level, capacity, stability, contact kept, power, and how far the closed form can be trusted.
+
+    `remedy`: what was tried and lowers the level; `loads`: the start cases of grinding.
+    """
+    return (
+        _lowered(work, remedy) if loads is None else _lowered_in_all(_lowered(work, remedy), work, remedy, loads),
+        _carried(work),
+        _still(work),
+        *_kept(work, remedy, loads),
+        *power_checks(work.design.case),
+        *_agrees(compared),
+    )
+
+
+def _lowered(work: Work, remedy: str | None) -> Check:
+    before, after = work.levels.before, work.levels.after
+    if work.lowered is None:
+        sides = {"without": before, "with": after}
+        missing = " and ".join(side for side, level in sides.items() if level is None)
+        if not missing:
+            why = "with and without the autobalancer are no further apart than runs of chaotic bouncing"
+            return coded("ABU421", "not-done", why, after, before, "dB", remedy or "What keeps the wheel on the work.")
+        usual = 'Give the contact a stiffness, contact = "compliant": then a simulation tells how they part.'
+        return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
+                     remedy or usual)  # fmt: skip
+    message = "with the autobalancer against without, pressed to the work when the balls have settled"
+    if work.fitted.scatter or work.without.scatter:
+        message += f"; chaotic bouncing, known to {max(work.fitted.scatter, work.without.scatter):.1f} dB"
+    if work.lowered and not work.always:
+        hasty = "not known" if work.level_at_once is None else f"{work.level_at_once:.1f} dB"
+        message += f"; pressed at once: {hasty}{', and it stays so' if work.stays_loud else ''}"
+    return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
+
+
+def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) -> Check:
+    """The check of the usual case, judged by every start case, as the idle machine is.
+
+    A start case pressed after the balls settled fails it, one pressed at once warns. One without an answer leaves it
+    open; so does one whose level is no further from the level without than chaotic runs scatter.
+    """
+    settled, early = loads.lowered("settled"), loads.lowered("at once")
+    if usual.status == "fail" or (usual.status == "not-done" and settled is not False):
+        return usual
+    before, worst = (
+        work.levels.before,
+        max((outcome.level for outcome in loads.ensemble.pressed("settled")), default=None),
+    )
+    after = max((level for level in (work.levels.after, worst) if level is not None), default=None)
+    if settled is False:
+        louder, count = loads.louder("settled"), loads.count("settled")
+        message = (
+            f"not lower than without the autobalancer in {len(louder)} of {count} start cases pressed after the balls "
+            f"settled; the loudest is {louder[-1].start.name}"
+        )
+        return coded("ABU421", "fail", message, after, before, "dB", remedy)
+    if settled is None:
+        missing = loads.ensemble.without_answer("settled")
+        message = "start cases pressed after the balls settled are no further from the level without than they scatter"
+        if missing:
+            message = f"{len(missing)} of {loads.count('settled')} start cases gave no answer: {missing[0].reason}"
+        return coded("ABU421", "not-done", message, after, before, "dB",
+                     remedy or "Less accuracy (--accuracy), or more drag.")  # fmt: skip
+    if early is True:
+        return coded("ABU421", usual.status, usual.message, after, before, "dB", remedy)
+    message = f"{usual.message}; {_early_starts(loads)}"
+    return coded("ABU421", "warn", message, after, before, "dB", remedy)
+
+
+def _early_starts(loads: Loads) -> str:
+    """Text on the start cases pressed at once that do not lower the level."""
+    louder, count = loads.louder("at once"), loads.count("at once")
+    if louder:
+        highest = max(outcome.level for outcome in louder)
+        return f"not lower in {len(louder)} of {count} start cases pressed at once, {highest:.1f} dB at most"
+    missing = loads.ensemble.without_answer("at once")
+    if missing:
+        return f"{len(missing)} of {count} start cases pressed at once gave no answer"
+    return "start cases pressed at once are no further from it than they scatter"
+
+
+def _carried(work: Work) -> Check:
+    balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
+    needed = abs(balls.needed) if balls else 0.0
+    enough = needed <= autobalancer.capacity
+    return coded("ABU422", verdict(enough), "balls side by side against what this contact asks of them",
+                 from_si(autobalancer.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
+                 None if enough else "More or larger balls, a truer or better balanced wheel, a softer contact.",
+                 "least")  # fmt: skip
+
+
+def flutter_limits(work: Work) -> tuple[float, float] | None:
+    """Drag [1/s] below which light balls flutter where they stand, and in a cross; None where they do not balance."""
+    balls, case, autobalancer = work.fitted.steady.balls, work.design.case, work.design.autobalancer
+    if balls is None or balls.places not in ("balanced", "restless"):
+        return None
+    whirl = work.fitted.steady.contact.whirl_per_imbalance
+    cross = loaded_stiffness(whirl, autobalancer.ball_mass, case.speed, autobalancer.ball_count, 0.0)
+    return flutter_drag(balls.stiffness, case.inertia_factor), flutter_drag(cross, case.inertia_factor)
+
+
+def _still(work: Work) -> Check:
+    balls, drag = work.fitted.steady.balls, work.design.case.drag
+    limits = flutter_limits(work)
+    if balls is None or limits is None:
+        short = balls is not None and balls.places == "short"
+        status: Grade = "not-done" if short else "fail"
+        why = "the balls cannot carry what the work asks for" if short else (
+            "at this contact stiffness and speed balls go where they add to the imbalance")  # fmt: skip
+        return coded("ABU423", status, why, drag, None, "1/s", None, "least")
+    here, cross = limits
+    if balls.places == "restless":
+        why = "nothing damps their motion in the race" if drag == 0 else (
+               "cutting friction feeds their flutter, at less drag than the limit" if drag < here else
+               "the machine on its contact has a natural frequency too near the speed for such balls")  # fmt: skip
+        return coded("ABU423", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
+    loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,
+                                                      work.design.autobalancer, line)]  # fmt: skip
+    message = "small disturbances die out; drag against the flutter that cutting friction feeds"
+    if drag < cross:
+        message += f"; in a cross, as other wheels may have them, balls need {cross:.3g} 1/s"
+    elif loose:
+        message += "; in another arrangement that balances they would not"
+    return coded("ABU423", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
+
+
+def _lines(work: Work) -> tuple[float, ...]:
+    """|Σe^{2iΘ}| of arrangements that more than two balls may take."""
+    count = work.design.autobalancer.ball_count
+    return () if count == 2 else tuple(count * step / 4 for step in range(5))
+
+
+def _kept(work: Work, remedy: str | None, loads: Loads | None) -> tuple[Check, ...]:
+    """Never failed: wheels bounce, and are judged by their level."""
+    contact, force = work.design.case.contact, work.fitted.steady.reaction
+    if contact is None or contact.kind == "face":
+        return ()
+    amplitude, press = None if force is None else abs(force), contact.press_force
+    parts = work.fitted.parts
+    message = "variable force of wheel and work against the press force, with the autobalancer"
+    if parts:
+        apart = work.fitted.run.apart if work.fitted.run and contact.kind == "compliant" else None
+        message += "; they part" + (f", {100 * apart:.0f} % of the time" if apart else "")
+    elif work.at_once.parts:
+        message += "; they keep bouncing when pressed before the balls have settled"
+    elif work.without.parts:
+        message += "; without it they part"
+    bouncing = [] if loads is None else [outcome for outcome in loads.ensemble.outcomes if outcome.parts]
+    if loads is not None and bouncing:
+        message += f"; in {len(bouncing)} of {loads.ensemble.count} start cases they lose contact"
+    warned = parts or work.at_once.parts or bool(bouncing)
+    return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press, "N",
+                  remedy if warned else None),)  # fmt: skip
+
+
+def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
+    if compared is None:
+        return ()
+    if compared.apart is None:
+        return (coded("ABU425", "not-done", f"no trustworthy simulation: {compared.failure}", None, 100 * AGREES, "%",
+                      "A drag nearer to the optimum, or less accuracy (--accuracy)."),)  # fmt: skip
+    near = compared.apart <= AGREES
+    remedy = None if near else "Damp the suspension, or take another drag: something has not died out in the run."
+    message = "simulated contact, ideal race, against the closed form"
+    if not compared.reached:
+        message += "; balls started there, since from where they stand at idle they do not get there, or not in time"
+    return (coded("ABU425", verdict(True, near and compared.reached), message,
+                  100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip

@@ -1,0 +1,38 @@
+"""`abu grinding MACHINE`: does the autobalancer help at work, and how does the wheel wear?"""
+
+from typing import TYPE_CHECKING
+
+import typer
+
+from abu_calc.cli.command import Accuracy, Machine, Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.grinding.study import GrindingResult
+    from abu_calc.reporting.charts.figure import Extras
+
+
+def grinding(how: Delivery, machine: Machine, set_: Overrides = None, accuracy: Accuracy = 0.01) -> Outcome:
+    """The machine at its work: where balls rest, how it moves, how wheel and work press, how the wheel wears."""
+    from abu_calc.features.grinding.study import grinding as study
+    from abu_calc.features.grinding.view import grinding_blocks, grinding_screen
+    from abu_calc.inputs.read_machine import read_machine
+
+    with progress(how) as tell:
+        result = study(read_machine(machine, set_ or ()), accuracy, tell)
+    return Outcome.of(
+        result, lambda: grinding_blocks(result), lambda: grinding_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _extras(result: "GrindingResult") -> "Extras":
+    from abu_calc.features.grinding.figures import grinding_extras
+
+    return grinding_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "grinding", grinding, simulates=True)

@@ -1,0 +1,318 @@
+"""Levels under load that are lower bounds, because the model lacks what sets the level on the shop floor.
+
+The motions that the start cases of grinding end with, sorted into groups, and what the groups say of the level.
+"""
+
+import cmath
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Final, Literal
+
+from abu_calc.features.grinding.start_cases import (
+    FEW,
+    STEADY,
+    LoadedEnsemble,
+    LoadedLost,
+    LoadedOutcome,
+    Pressed,
+    loaded_ensemble,
+)
+from abu_calc.features.grinding.steady_contact import contact_presses
+from abu_calc.features.grinding.work import LOUDER, Work, below
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import velocity_from_level
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.instruments import readings
+from abu_calc.sizing.vibration import handle_levels
+
+State = Literal["balanced", "held by friction", "not balanced", "swinging", "stalled", "bouncing"]
+
+SAME: Final = 10 ** (LOUDER / 20) - 1
+"""Imbalances that differ by this share of the smaller one differ by 1 dB."""
+
+HARDLY: Final = 0.02
+"""Share of the wheel's imbalance by which friction that is shaken out lets balls rest beside their places."""
+
+
+@dataclass(frozen=True)
+class LoadedGroup:
+    """Start cases of one way of pressing that end with the same motion; `count` of `all` of that way of pressing.
+
+    Levels [dB]: the median, the lowest and the highest of the group; `apart`: the largest share of the time in which
+    wheel and workpiece do not touch; `steady`: whether no level still changes by more than 0.5 dB.
+    """
+
+    pressed: Pressed
+    state: State
+    count: int
+    all: int
+    level: float
+    lowest: float
+    highest: float
+    apart: float
+    steady: bool
+    loudest_start: str
+
+    @property
+    def share(self) -> float:
+        """Share among the start cases of that way of pressing, those without an answer included."""
+        return self.count / self.all
+
+
+def state_of(work: Work, outcome: LoadedOutcome) -> State:
+    """The motion in one word.
+
+    A machine bounces if wheel and workpiece lose contact in the observed time. Balls at rest balance if the imbalance
+    is within 1 dB of the one that steady contact asks for with this place of the race's centre, or within a fiftieth
+    of the wheel's imbalance; else dry friction holds them. Without friction, or if no place at this contact is one
+    where they balance, they are not balanced.
+    """
+    if outcome.parts:
+        return "bouncing"
+    if outcome.stalls:
+        return "stalled"
+    if outcome.swings:
+        return "swinging"
+    steady, autobalancer = work.fitted.steady, work.design.autobalancer
+    balls = steady.balls
+    friction = work.design.case.friction_arm > 0
+    if balls is None or balls.places not in ("balanced", "restless"):
+        return "held by friction" if balls is not None and balls.places == "turning" and friction else "not balanced"
+    wanted = _without_friction(work, outcome)
+    near = max(SAME * abs(wanted), HARDLY * abs(work.design.imbalance.value * autobalancer.requirement.plane_ratio))
+    if abs(outcome.imbalance - wanted) <= near:
+        return "balanced"
+    return "held by friction" if friction else "not balanced"
+
+
+def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
+    """Imbalance [kg m] of wheel and balls in the race plane with which the centre of the race does not whirl forward.
+
+    G·U + runout's part + Δ·e^{iβ} = 0 with the whirl G per imbalance: U = U₀ − Δ·e^{iβ}/G, where U₀ is that of a
+    race on the axis. Source: derived, from `formulas.contact`; race in the plane of the wheel.
+    """
+    steady, case, autobalancer = work.fitted.steady, work.design.case, work.design.autobalancer
+    centre = cmath.rect(case.race_eccentricity, outcome.start.member.eccentricity)
+    ratio = autobalancer.requirement.plane_ratio
+    on_axis = work.design.imbalance.value * abs(ratio) + (steady.balls.needed if steady.balls else 0j)
+    return on_axis - centre / steady.contact.whirl_per_imbalance
+
+
+def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
+    """Motions that start cases end with, for each way of pressing, the loudest first.
+
+    Levels of one state that leave a gap of more than 1 dB are two motions, and of more by as much as they still change.
+    Balls held by friction may rest anywhere within a band, so that they are one.
+    """
+    groups: list[LoadedGroup] = []
+    for when in ("settled", "at once"):
+        outcomes = ensemble.pressed(when)
+        count = len(outcomes) + len(ensemble.without_answer(when))
+        by_state: dict[State, list[LoadedOutcome]] = {}
+        for outcome in sorted(outcomes, key=lambda candidate: candidate.level):
+            by_state.setdefault(state_of(work, outcome), []).append(outcome)
+        groups = [_group(when, state, part, count) for state, several in by_state.items()
+                  for part in _parts(state, several)]  # fmt: skip
+        groups += sorted(groups, key=lambda group: -group.highest)
+    return tuple(groups)
+
+
+def _parts(state: State, outcomes: Sequence[LoadedOutcome]) -> list[list[LoadedOutcome]]:
+    """Outcomes of one state in ascending level, cut where a gap is."""
+    parts = [[outcomes[0]]]
+    for before, outcome in pairwise(outcomes):
+        if state != "held by friction" and outcome.level - before.level > LOUDER + before.drift + outcome.drift:
+            parts.append([])
+        parts[-1].append(outcome)
+    return parts
+
+
+def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count: int) -> LoadedGroup:
+    return LoadedGroup(
+        pressed=when,
+        state=state,
+        count=len(outcomes),
+        all=count,
+        level=statistics.median(outcome.level for outcome in outcomes),
+        lowest=outcomes[0].level,
+        highest=outcomes[-1].level,
+        apart=max(outcome.apart for outcome in outcomes),
+        steady=all(outcome.drift <= STEADY for outcome in outcomes),
+        loudest_start=outcomes[-1].start.name,
+    )
+
+
+@dataclass(frozen=True)
+class Loads:
+    """The start cases of a machine at its workpiece, sorted, and whether each is below the level without.
+
+    `before` [dB]: that level; `scatter` [dB]: how far it may be off; `bouncing` [dB]: how far the level of a start case
+    that bounces may be off, by the scatter of the chaotic runs with the autobalancer.
+    """
+
+    ensemble: LoadedEnsemble
+    groups: tuple[LoadedGroup, ...]
+    before: float | None
+    scatter: float = 0.0
+    bouncing: float = 0.0
+
+    @property
+    def worst(self) -> float | None:
+        """The highest level of all start cases [dB]."""
+        return max((outcome.level for outcome in self.ensemble.outcomes), default=None)
+
+    @property
+    def loudest(self) -> LoadedGroup | None:
+        """The group with the highest level."""
+        return max(self.groups, key=lambda group: group.highest, default=None)
+
+    def lowered(self, when: Pressed) -> bool | None:
+        """True if every start case of one way of pressing ends below the level without the autobalancer.
+
+        False if one does not. None if one has no answer, or its level is too near to tell: they differ by no more than
+        chaotic runs scatter.
+        """
+        answers = [below(outcome.level, self.before, self._doubt(outcome)) for outcome in self.ensemble.pressed(when)]
+        if False in answers:
+            return False
+        return None if None in answers or not answers or self.ensemble.without_answer(when) else True
+
+    def count(self, when: Pressed) -> int:
+        """Number of start cases of one way of pressing, those without an answer included."""
+        return len(self.ensemble.pressed(when)) + len(self.ensemble.without_answer(when))
+
+    def louder(self, when: Pressed) -> tuple[LoadedOutcome, ...]:
+        """The start cases that do not end below the level without the autobalancer, the loudest last."""
+        outcomes = sorted(self.ensemble.pressed(when), key=lambda outcome: outcome.level)
+        return tuple(
+            outcome for outcome in outcomes if below(outcome.level, self.before, self._doubt(outcome)) is False
+        )
+
+    def _doubt(self, outcome: LoadedOutcome) -> float:
+        own = max(outcome.drift if outcome.drift > STEADY else 0.0, self.bouncing if outcome.parts else 0.0)
+        return self.scatter + own
+
+    @property
+    def lost(self) -> tuple[LoadedLost, ...]:
+        """The start cases without an answer."""
+        return self.ensemble.lost
+
+
+def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, Loads | None]:
+    """The machine with the start cases of its grinding, sorted; None for a machine without such.
+
+    The level of the usual case, pressed when the balls have settled, stays what it was, unless the median of the start
+    cases pressed so is more than 1 dB above it: then it was that of an easier case, and the median takes its place. So
+    it does if the usual case has no level, its motion depending on the start, and every start case has one.
+    """
+    if ensemble is None:
+        return work, None
+    settled, usual = ensemble.pressed("settled"), work.levels.after
+    if settled and (usual is not None or not ensemble.without_answer("settled")):
+        typical = statistics.median_high(sorted(outcome.velocity for outcome in settled))
+        moved = math.sqrt(2) * typical / work.design.case.speed
+        raised = handle_levels(work.design.case, work.moved_without, moved, work.design.autobalancer.mass)
+        if usual is None or (raised.worst.after or -math.inf) > usual + LOUDER:
+            work = replace(work, settled=raised, moved=moved)
+    bouncing = max(work.fitted.scatter, work.at_once.scatter)
+    return work, Loads(ensemble, groups_of(work, ensemble), work.levels.before, work.without.scatter, bouncing)
+
+
+def loudest_start(work: Work, accuracy: float) -> float | None:
+    """The highest level [dB] of all start cases of grinding; None unless each is below the level without.
+
+    A few are run first, since one that is not below is enough.
+    """
+    worst = work.levels.after
+    for most in (FEW, None):
+        _, loads = with_starts(work, loaded_ensemble(work.design, accuracy, most=most))
+        if loads is None:
+            return worst
+        if not (loads.lowered("settled") and loads.lowered("at once")):
+            return None
+        worst = loads.worst
+    return worst
+
+
+LEAST: Final = 1.0
+"""Frequency-weighted vibration total a_hv [m/s²] below which the level of a grinder at its work is a lower bound.
+
+Typical declared values of grinders are 3 to 8 m/s² (INRS, Proceedings 2023, 86(1), 13): 1 m/s² is a third of the
+lowest. The lowest level known here of a grinder with an autobalancer at its work, 102 to 103 dB idle and 2 dB more
+under load at 5800 rpm (Kladiev 1996), is 1.1 to 1.3 m/s². The number is reasoned, no standard has it.
+"""
+
+ALWAYS: Final = ("wheel waviness", "forces of chip formation")
+"""No scene of grinding has these."""
+
+
+@dataclass(frozen=True)
+class LowerBound:
+    """Excitation that sets a level under load in the model, and what the model lacks; `total` a_hv [m/s²] of the level.
+
+    `total` None: the speed is beyond the range of W_h.
+    """
+
+    holds: bool
+    total: float | None
+    set_by: tuple[str, ...]
+    lacks: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """One sentence for the screen; empty if the level is no lower bound."""
+        if not self.holds:
+            return ""
+        shown = "" if self.total is None else f" (a_hv {self.total:.2g} m/s²)"
+        return (
+            f"The level under load{shown} is a lower bound: the model sets it by {_listed(self.set_by)}, and lacks "
+            f"{_listed(self.lacks)}."
+        )
+
+
+def lower_bound(level: float | None, case: Case) -> LowerBound | None:
+    """Lower bound that a level under load [dB] at the loudest handle may be; None if the level is not known.
+
+    It is one if its weighted total is below `LEAST`; or if a contact presses in the plane of the wheel and the file
+    gives a wheel without runout: then nothing but the imbalance that the balls remove drives the machine. What the
+    model lacks adds to the levels with and without the autobalancer alike, as squares, so that their order stays.
+    """
+    if level is None:
+        return None
+    total = readings(velocity_from_level(level), case.speed).total
+    presses = contact_presses(case)
+    true = presses and not case.runout
+    return LowerBound(
+        holds=true or (total is not None and total < LEAST),
+        total=total,
+        set_by=_set_by(case, presses),
+        lacks=(
+            *(("the wheel's runout (the file gives 0 mm)",) if true else ()),
+            *(() if presses else ("the force of the contact",)),
+            *ALWAYS,
+            *(() if case.background_level is not None else ("vibration of motor and gear",)),
+        ),
+    )
+
+
+def _set_by(case: Case, presses: bool) -> tuple[str, ...]:
+    """The excitations of this machine that the model has, once per turn all of them."""
+    parts = (
+        ("the imbalance that the balls leave", True),
+        ("the wheel's runout", presses and case.runout > 0),
+        ("race eccentricity", case.race_eccentricity > 0),
+        ("dry friction of the balls", case.friction_arm > 0),
+        ("the background level of the file", case.background_level is not None),
+    )
+    return tuple(name for name, there in parts if there)
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    """
+    >>> _listed(("a", "b", "c")), _listed(("a",))
+    ('a, b and c', 'a')
+    """
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

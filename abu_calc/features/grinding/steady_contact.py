@@ -1,0 +1,231 @@
+"""A machine at its work by steady contact: where its balls go, how its axis moves, how wheel and work press.
+
+Everything in the rotor's frame, angles from the imbalance; phasors as in `formulas.contact`. The race is taken to be
+in the plane of the wheel.
+"""
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Literal
+
+from abu_calc.features.grinding.formulas import characteristic, growing_roots, loaded_stiffness
+from abu_calc.formulas.balls import SteadyContact
+from abu_calc.formulas.suspension import dynamic_stiffness
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import to_si
+from abu_calc.simulation.scene_of_design import contact_half_angle
+from abu_calc.sizing.balls import Candidate
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
+
+Places = Literal["balanced", "restless", "short", "gathered", "turning"]
+"""Balls balance; do not stay where they would; carry too little and lie side by side; gather where they add to the
+imbalance; or come to no rest."""
+
+HALVINGS = 60
+"""Halvings of an interval, down to rounding."""
+
+
+@dataclass(frozen=True)
+class RestingBalls:
+    """Resting places of the balls: resultant needed and reached [kg m], each angle [rad], slow stiffness.
+
+    `stiffness` [1/s²] of their slow motion, as if they were light; `worst`: that of a cross, which more
+    than two may form.
+    """
+
+    places: Places
+    needed: complex
+    resultant: complex | None
+    angles: tuple[float, ...]
+    stiffness: tuple[complex, complex]
+    worst: tuple[complex, complex]
+
+
+@dataclass(frozen=True)
+class SteadyWork:
+    """One steady motion: the contact, runout E [m], imbalance [kg m] of the wheel itself and U in all.
+
+    U None: balls that come to no rest. `balls` None without, or with fixed ones.
+    """
+
+    contact: SteadyContact
+    runout: complex
+    own: complex
+    imbalance: complex | None
+    balls: RestingBalls | None = None
+
+    @property
+    def axis(self) -> tuple[complex, complex] | None:
+        """X, Y [m]."""
+        return None if self.imbalance is None else self.contact.axis(self.imbalance, self.runout)
+
+    @property
+    def amplitude(self) -> float | None:
+        """The larger of |X|, |Y| [m]."""
+        return None if self.axis is None else max(map(abs, self.axis))
+
+    @property
+    def reaction(self) -> complex | None:
+        """N_c [N]: the force of wheel and work is N₀ + Re(N_c e^{iΩt})."""
+        return None if self.imbalance is None else self.contact.normal_force(self.imbalance, self.runout)
+
+    @property
+    def pressure(self) -> complex | None:
+        """H = −i·N_c [N]: where the wheel's point ψ touches, the force is N₀ + Re(H e^{−iψ})."""
+        return None if self.reaction is None else -1j * self.reaction
+
+
+def contact_of(case: Case, added_mass: float, speed: float | None = None, *, rigid: bool = False) -> SteadyContact:
+    """The machine at a speed [rad/s], by default the rated one; `rigid`: as if its contact were.
+
+    A face contact does not press in the plane: an idle machine. So does a file without a contact.
+    """
+    at, mass, contact = speed or case.speed, case.body.effective_mass(added_mass), case.contact
+    dx, dy = (dynamic_stiffness(case.suspension, axis, at, mass) for axis in (0, 1))
+    if contact is None or not contact_presses(case):
+        return SteadyContact(at, (dx, dy), 1.0, 0.0, 0.0)
+    compliance = 0.0 if rigid or contact.kind == "rigid" else 1 / contact.stiffness
+    return SteadyContact(at, (dx, dy), compliance, contact.sense * contact.cutting_coefficient)
+
+
+def contact_presses(case: Case) -> bool:
+    """True if the contact presses in the plane; that of a face does not."""
+    return case.contact is not None and case.contact.kind != "face"
+
+
+def runout_of(case: Case) -> complex:
+    """E [m] of the file."""
+    return cmath.rect(case.runout, to_si(case.table.wheel.runout_angle_deg, "deg"))
+
+
+def bare(design: Design, runout: complex, *, speed: float | None = None, rigid: bool = False) -> SteadyWork:
+    """The machine without its autobalancer."""
+    own = complex(design.imbalance.value)
+    return SteadyWork(contact_of(design.case, 0.0, speed, rigid=rigid), runout, own, own)
+
+
+def fixed(design: Design, runout: complex) -> SteadyWork:
+    """Steady motion with the autobalancer, its balls fixed where they balance at idle."""
+    return SteadyWork(contact_of(design.case, design.autobalancer.mass), runout, complex(design.imbalance.value), 0j)
+
+
+def fitted(
+    design: Design,
+    runout: complex,
+    *,
+    speed: float | None = None,
+    rigid: bool = False,
+    judged: bool = True,
+) -> SteadyWork:
+    """Steady motion with the autobalancer, its balls free, with an ideal race and no dry friction.
+
+    `judged`: see `with_balls`.
+    """
+    contact = contact_of(design.case, design.autobalancer.mass, speed, rigid=rigid)
+    return with_balls(design, contact, runout, complex(design.imbalance.value), judged=judged)
+
+
+def with_balls(
+    design: Design, contact: SteadyContact, runout: complex, imbalance: complex, *, judged: bool = True
+) -> SteadyWork:
+    """Free balls at a contact, with what they leave of the imbalance or add to it.
+
+    Unless `judged`, balls that balance are taken to stay there.
+    """
+    autobalancer, ratio = design.autobalancer, design.autobalancer.requirement.plane_ratio
+    needed = (contact.balancing_imbalance(runout) - imbalance) * ratio
+    whirl, moment = contact.whirl_per_imbalance, autobalancer.ball_mass * autobalancer.pitch_radius
+    balances, enough = whirl.real < 0, abs(needed) <= autobalancer.capacity
+    places: Places = "balanced" if balances and enough else "short" if balances else "gathered"
+    resultant = needed if balances and enough else _side_by_side(whirl, needed, autobalancer.capacity)
+    angles: tuple[float, ...] = ()
+    if resultant is None:
+        places = "turning"
+    else:
+        spread = even_fan(autobalancer.ball_count, abs(resultant) / moment, contact_half_angle(design))
+        angles = tuple(cmath.phase(resultant) + angle for angle in spread)
+    doubled = abs(sum(cmath.exp(2j * angle) for angle in angles))
+
+    def stiffness(line: float) -> tuple[complex, complex]:
+        return loaded_stiffness(whirl, autobalancer.ball_mass, contact.speed, autobalancer.ball_count, line)
+
+    if judged and places == "balanced" and leaving(design.case, contact, autobalancer, doubled):
+        places = "restless"
+    worst = stiffness(doubled if autobalancer.ball_count == 2 else 0.0)
+    balls = RestingBalls(places, needed, resultant, angles, stiffness(doubled), worst)
+    total = None if resultant is None else imbalance + resultant / ratio
+    return SteadyWork(contact, runout, imbalance, total, balls)
+
+
+def leaving(case: Case, contact: SteadyContact, candidate: Candidate, doubled: float) -> int:
+    """Number of growing small disturbances of balls that balance.
+
+    `doubled`: |Σe^{2iΘ}| of their arrangement.
+    """
+    mass = case.body.effective_mass(candidate.mass)
+
+    def whirl(speed: complex) -> complex:
+        dx, dy = (case.suspension.reaction(axis, speed) - mass * speed**2 for axis in (0, 1))
+        return contact.whirl_at(speed, (dx, dy))
+
+    def value(s: complex) -> complex:
+        return characteristic(
+            whirl, candidate.ball_mass, contact.speed, candidate.ball_count, doubled, case.inertia_factor, case.drag, s
+        )
+
+    return growing_roots(value, contact.speed)
+
+
+def _side_by_side(whirl: complex, needed: complex, capacity: float) -> complex | None:
+    """The resultant of balls side by side, where nothing turns them: Im[G(C − V e^{−iψ})] = 0, the stable root.
+
+    None where there is none: they go on turning. Source: derived.
+    """
+    if needed == 0:
+        return complex(capacity) if capacity == 0 else None
+    lean = cmath.phase(-whirl) if whirl.real < 0 else cmath.phase(whirl)
+    turned = capacity / abs(needed) * math.sin(lean)
+    if abs(turned) > 1:
+        return None
+    to = math.asin(turned) if whirl.real < 0 else math.pi - math.asin(turned)
+    return cmath.rect(capacity, cmath.phase(needed) + lean - to)
+
+
+def even_fan(count: int, length: float, beta: float) -> tuple[float, ...]:
+    """Angles [rad] of balls spread evenly about 0 whose unit vectors add up to `length`; β half angle of touching ones.
+
+    Of more than two the typical one of many arrangements.
+
+    >>> [round(math.degrees(angle), 6) for angle in even_fan(2, 1.0, 0.1)]
+    [-60.0, 60.0]
+    """
+    low, high = 2 * beta, 2 * math.pi / count
+    for _ in range(HALVINGS):
+        spacing = (low + high) / 2
+        longer = math.sin(count * spacing / 2) / math.sin(spacing / 2) > length
+        low, high = (spacing, high) if longer else (low, spacing)
+    return tuple((k - (count - 1) / 2) * low for k in range(count))
+
+
+def changed(design: Design, *, stiffness: float | None = None, press: float | None = None) -> Design:
+    """The same design at another contact."""
+    case = design.case
+    if case.contact is None:
+        return design
+    contact = replace(
+        case.contact,
+        stiffness=case.contact.stiffness if stiffness is None else stiffness,
+        press_force=case.contact.press_force if press is None else press,
+    )
+    return replace(design, case=replace(case, contact=contact))
+
+
+def crossing(better: Callable[[float], bool], good: float, bad: float) -> float:
+    """The last value towards `bad` that is better still, with at most 1 % in doubt on the good side."""
+    while abs(bad - good) > 0.01 * abs(good) and abs(bad - good) > 1e-12:
+        middle = (good + bad) / 2
+        good, bad = (middle, bad) if better(middle) else (good, middle)
+    return good

@@ -1,0 +1,353 @@
+"""A machine at its work: whether its autobalancer helps there, what its wheel feels, and how that wears.
+
+The SI numbers behind a machine at its work, for those who check it by hand.
+"""
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import field
+from typing import Annotated, ClassVar, Self
+
+from abu_calc.features.grinding import curves as facts
+from abu_calc.features.grinding import work as analysis
+from abu_calc.features.grinding.checks import agreement, flutter_limits, work_checks
+from abu_calc.features.grinding.curves import shaken
+from abu_calc.features.grinding.formulas import printed_resultant, stiffness_regions
+from abu_calc.features.grinding.outcomes import Loads, loudest_start, lower_bound, with_starts
+from abu_calc.features.grinding.records import (
+    AxisMotion,
+    Comparison,
+    FrictionBand,
+    HodographPoint,
+    Orbit,
+    Printed,
+    ProfilePoint,
+    Reaction,
+    ResponsePoint,
+    Simulated,
+    TriedRemedy,
+)
+from abu_calc.features.grinding.start_cases import loaded_ensemble
+from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
+from abu_calc.features.grinding.steady_contact import (
+    SteadyWork,
+    bare,
+    contact_of,
+    contact_presses,
+    fitted,
+    fixed,
+    runout_of,
+)
+from abu_calc.features.grinding.verdict import in_words, shortest
+from abu_calc.features.grinding.wear import (
+    Claim,
+    WearCourse,
+    bouncing_course,
+    claim,
+    press_of,
+    rigid_course,
+    wear_course,
+)
+from abu_calc.features.grinding.work import Work
+from abu_calc.formulas.suspension import natural_frequency
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.parallel import processors
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si, wrapped_deg
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.simulation.arguments import checked
+from abu_calc.simulation.result import Provenance, Result
+from abu_calc.simulation.simulate import ACCURACY
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared_design, level_where_measured
+from abu_calc.sizing import size as size_design
+from abu_calc.sizing.design import Design
+
+Pair = tuple[float, float]
+
+
+@record
+class GrindingModel(Record):
+    """Masses with and without the autobalancer, the contact, the balls; complex numbers as (real, imaginary)."""
+
+    system_mass_kg: float
+    effective_mass_kg: float
+    mass_without_autobalancer_kg: float
+    speed_rad_per_s: float
+    reaction_of_suspension_N_per_m: tuple[Pair, Pair]
+    dynamic_stiffness_N_per_m: tuple[Pair, Pair]
+    imbalance_kg_m: float
+    runout_m: float
+    runout_angle_deg: float
+    contact: str
+    contact_stiffness_N_per_m: float | None
+    press_force_N: float
+    cutting_coefficient: float
+    rotation_sense: int
+    ball_count: int
+    ball_mass_kg: float
+    ball_radius_m: float
+    pitch_radius_m: float
+    capacity_kg_m: float
+    inertia_factor: float
+    drag_per_s: float
+    slow_stiffness_per_s2: tuple[Pair, Pair] | None
+    total_imbalance_kg_m: Pair | None
+
+    @classmethod
+    def of(cls, work: Work) -> Self:
+        """Model of a design pressed to the workpiece."""
+        design, steady = work.design, work.fitted.steady
+        case, autobalancer, contact = design.case, design.autobalancer, design.case.contact
+        mass = case.body.effective_mass(autobalancer.mass)
+        stiffness = contact_of(case, autobalancer.mass).dynamic_stiffness
+        held = [each + mass * case.speed**2 for each in stiffness]
+        return cls(
+            system_mass_kg=design.system_mass,
+            effective_mass_kg=mass,
+            mass_without_autobalancer_kg=case.body.mass,
+            speed_rad_per_s=case.speed,
+            reaction_of_suspension_N_per_m=(_pair(held[0]), _pair(held[1])),
+            dynamic_stiffness_N_per_m=(_pair(stiffness[0]), _pair(stiffness[1])),
+            imbalance_kg_m=design.imbalance.value,
+            runout_m=case.runout,
+            runout_angle_deg=case.table.wheel.runout_angle_deg,
+            contact=contact.kind if contact else "",
+            contact_stiffness_N_per_m=contact.stiffness if contact and contact.kind == "compliant" else None,
+            press_force_N=contact.press_force if contact else 0.0,
+            cutting_coefficient=contact.cutting_coefficient if contact else 0.0,
+            rotation_sense=contact.sense if contact else 0,
+            ball_count=autobalancer.ball_count,
+            ball_mass_kg=autobalancer.ball_mass,
+            ball_radius_m=autobalancer.ball_diameter / 2,
+            pitch_radius_m=autobalancer.pitch_radius,
+            capacity_kg_m=autobalancer.capacity,
+            inertia_factor=case.inertia_factor,
+            drag_per_s=case.drag,
+            slow_stiffness_per_s2=None if steady.balls is None else (
+                _pair(steady.balls.stiffness[0]), _pair(steady.balls.stiffness[1])),
+            total_imbalance_kg_m=None if steady.imbalance is None else _pair(steady.imbalance),
+        )  # fmt: skip
+
+
+def _pair(value: complex) -> Pair:
+    return value.real, value.imag
+
+
+@record
+class GrindingResult(Result):
+    """A machine at its work; motions as if wheel and work never parted, `simulation` as they are."""
+
+    command: ClassVar[str] = "grinding"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"orbits"}
+    optional: ClassVar[frozenset[str]] = frozenset({"measured_after"})
+
+    model: GrindingModel
+    verdict: Annotated[str, Quantity("verdict")]
+    helps: Annotated[bool | None, Quantity("the autobalancer lowers the level")]
+    contact: Annotated[str, Quantity("contact")]
+    level_before_db: Annotated[float | None, Quantity("level without autobalancer")]
+    level_after_db: Annotated[float | None, Quantity("level with it")]
+    level_at_once_db: Annotated[float | None, Quantity("with it, pressed before the balls have settled")]
+    at_once_stays: Annotated[bool, Quantity("pressed at once, wheel and work go on bouncing louder")]
+    starts: LoadedStarts | None
+    bound: LevelBound | None
+    measured_after: MeasuredAfterRecord | None
+    remedies: tuple[TriedRemedy, ...]
+    ball_resultant_g_mm: Annotated[float | None, Quantity("imbalance of the balls", "|V|")]
+    ball_resultant_angle_deg: Annotated[float | None, Quantity("its angle", "arg V")]
+    needed_resultant_g_mm: Annotated[float, Quantity("imbalance asked of the balls")]
+    ball_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
+    balls: Annotated[str, Quantity("balls", "", 4, "balanced, restless, short, gathered or turning")]
+    printed: Printed | None
+    reaction: Reaction
+    reaction_fixed: Reaction
+    reaction_without: Reaction
+    axis: AxisMotion
+    axis_fixed: AxisMotion
+    axis_without: AxisMotion
+    resting_um: Annotated[float, Quantity("race and friction leave besides", "", 3)]
+    profile: tuple[ProfilePoint, ...] | None
+    hodograph: tuple[HodographPoint, ...]
+    response: tuple[ResponsePoint, ...]
+    resonance_rpm: Annotated[float | None, Quantity("resonance on the contact, without autobalancer")]
+    wear: WearCourse | None
+    wear_without: WearCourse | None
+    wear_rigid: WearCourse | None
+    wear_rigid_without: WearCourse | None
+    wear_bouncing: WearCourse | None
+    wear_bouncing_without: WearCourse | None
+    claim: Claim | None
+    contact_stiffness_regions_N_per_m: Annotated[
+        tuple[float, float] | None, Quantity("contact stiffness up to which balls balance; above which they do again")
+    ]
+    flutter_drag_limit_per_s: Annotated[float | None, Quantity("drag against flutter, as the balls stand", "h₀")]
+    flutter_drag_worst_per_s: Annotated[float | None, Quantity("drag against flutter, balls in a cross", "h₀")]
+    friction: FrictionBand
+    cutting_power_W: Annotated[float, Quantity("cutting power", "fN₀ΩR_w")]
+    simulation: Simulated | None
+    simulation_at_once: Simulated | None
+    simulation_without: Simulated | None
+    agreement: Comparison | None
+    orbits: tuple[Orbit, ...] = field(compare=False, repr=False)
+    """Orbits of the axis without autobalancer, with fixed and with free balls."""
+
+
+@checked
+def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = silent) -> GrindingResult:
+    """The machine of a file at its work, by closed forms and by simulation to `accuracy`.
+
+    Raises InputError for a file without [grinding], and with file, line, key and remedy for what is wrong in it.
+    """
+    ACCURACY.check(accuracy)
+    tables = machine.whole("grinding")
+    with machine.located():
+        _refuse_idle(tables)
+        design = size_design(tables)
+        work = analysis.at_work(design, accuracy, progress)
+        work, loads = with_starts(work, loaded_ensemble(design, accuracy, progress, processors()))
+        tried = () if _always(work, loads) else _remedies(work, accuracy, progress)
+        compared, friction = agreement(work, accuracy, progress), shaken(work, progress)
+    steady, runout = work.fitted.steady, runout_of(design.case)
+    balls, still, limits = steady.balls, fixed(design, runout), flutter_limits(work)
+    resultant = balls.resultant if balls else None
+    resonance, bound = facts.loaded_resonance(design), lower_bound(work.levels.after, design.case)
+    return GrindingResult(
+        title=tables.machine.name,
+        checks=work_checks(work, shortest(tried), compared, loads),
+        warnings=(*machine.warnings, *_warnings(work), *filter(None, [bound.sentence if bound else ""])),
+        model=GrindingModel.of(work),
+        provenance=Provenance.of(machine),
+        verdict=in_words(work, tried, loads),
+        helps=work.lowered,
+        contact=design.case.contact.kind if design.case.contact else "",
+        level_before_db=work.levels.before,
+        level_after_db=work.levels.after,
+        level_at_once_db=work.level_at_once,
+        at_once_stays=work.stays_loud,
+        starts=LoadedStarts.of(loads),
+        bound=LevelBound.of(bound),
+        measured_after=MeasuredAfterRecord.of(compared_design(design), level_where_measured(design, work.moved)),
+        remedies=tuple(map(TriedRemedy.of, tried)),
+        ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
+        ball_resultant_angle_deg=None if not resultant else wrapped_deg(cmath.phase(resultant)),
+        needed_resultant_g_mm=from_si(abs(balls.needed) if balls else 0.0, "g_mm"),
+        ball_angles_deg=tuple(map(wrapped_deg, balls.angles)) if balls and balls.angles else None,
+        balls=balls.places if balls else "",
+        printed=_printed(work),
+        reaction=Reaction.of(design.case, steady),
+        reaction_fixed=Reaction.of(design.case, still),
+        reaction_without=Reaction.of(design.case, work.without.steady),
+        axis=AxisMotion.of(steady.axis),
+        axis_fixed=AxisMotion.of(still.axis),
+        axis_without=AxisMotion.of(work.without.steady.axis),
+        resting_um=from_si(work.rest, "um"),
+        profile=_profile(work),
+        hodograph=tuple(map(HodographPoint.of, facts.hodograph(design))),
+        response=tuple(map(ResponsePoint.of, facts.response(design))),
+        resonance_rpm=None if resonance is None else from_si(resonance, "rpm"),
+        wear=wear_course(work, work.fitted.steady),
+        wear_without=wear_course(work, work.without.steady),
+        wear_rigid=rigid_course(work, fitted),
+        wear_rigid_without=rigid_course(work, bare),
+        wear_bouncing=bouncing_course(design, work.fitted),
+        wear_bouncing_without=bouncing_course(design, work.without),
+        claim=claim(work),
+        contact_stiffness_regions_N_per_m=_regions(design, steady),
+        flutter_drag_limit_per_s=None if limits is None else limits[0],
+        flutter_drag_worst_per_s=None if limits is None else limits[1],
+        friction=FrictionBand.of(facts.friction(work), friction),
+        cutting_power_W=_cutting_power(design),
+        simulation=None if work.fitted.run is None else Simulated.of(work.fitted.run),
+        simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),
+        simulation_without=None if work.without.run is None else Simulated.of(work.without.run),
+        agreement=None if compared is None else Comparison.of(compared),
+        orbits=tuple(_orbits(work, still)),
+    )  # fmt: skip
+
+
+def _always(work: Work, loads: Loads | None) -> bool:
+    """Sentence that tells if the autobalancer lowers the level in every start case."""
+    return bool(work.always) and (loads is None or bool(loads.lowered("settled") and loads.lowered("at once")))
+
+
+def _remedies(work: Work, accuracy: float, progress: Progress) -> tuple[analysis.Remedy, ...]:
+    """Changes that lower the level in every start case."""
+    return analysis.remedies(work, accuracy, progress, lambda tried: loudest_start(tried, accuracy))
+
+
+def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:
+    """Orbits that are known."""
+    sides = (("without", work.without.steady, work.without.run), ("balls fixed", still, None),
+             ("with", work.fitted.steady, work.fitted.run))  # fmt: skip
+    for name, steady, run in sides:
+        if (orbit := Orbit.steady(name, steady)) is not None:
+            yield orbit
+        if run is not None:
+            yield Orbit.through(name, run.path)
+
+
+def _refuse_idle(tables: MachineFile) -> None:
+    if tables.grinding is None:
+        raise InputError(
+            "`abu grinding` needs the machine at its work",
+            place=Place(key="grinding"),
+            found="no [grinding] in the file",
+            remedy="Add a table [grinding] with press_force_N, cutting_coefficient and contact; `abu init` writes a "
+            "file that shows it.",
+        )
+
+
+def _regions(design: Design, steady: SteadyWork) -> tuple[float, float] | None:
+    return stiffness_regions(steady.contact.dynamic_stiffness) if contact_presses(design.case) else None
+
+
+def _cutting_power(design: Design) -> float:
+    case = design.case
+    drag = case.contact.cutting_coefficient * case.contact.press_force if case.contact else 0.0
+    return drag * case.speed * case.wheel_radius
+
+
+def _printed(work: Work) -> Printed | None:
+    """The source's formula beside the general one; None where it does not speak of such a machine."""
+    design, steady, balls = work.design, work.fitted.steady, work.fitted.steady.balls
+    autobalancer, case = design.autobalancer, design.case
+    if not contact_presses(case) or balls is None:
+        return None
+    mass, ratio = case.body.effective_mass(autobalancer.mass), autobalancer.requirement.plane_ratio
+    natural = natural_frequency(case.suspension, 0, mass)
+    printed = ratio * printed_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
+    share = abs(printed) / (2 * autobalancer.ball_mass * autobalancer.pitch_radius)
+    half = math.acos(share) if autobalancer.ball_count == 2 and share <= 1 else None
+    place = cmath.phase(printed)
+    return Printed(
+        resultant_g_mm=from_si(abs(printed), "g_mm"),
+        resultant_angle_deg=wrapped_deg(place),
+        ball_angles_deg=None if half is None else (wrapped_deg(place - half), wrapped_deg(place + half)),
+        error_deg=abs(wrapped_deg(cmath.phase(printed / balls.needed))) if balls.needed and printed else None,
+        open_g_mm=from_si(abs(printed - balls.needed), "g_mm"),
+    )
+
+
+def _profile(work: Work) -> tuple[ProfilePoint, ...] | None:
+    if not contact_presses(work.design.case):
+        return None
+    runs = [{} if side.run is None else dict(side.run.profile) for side in (work.fitted, work.without)]
+    return ProfilePoint.round(press_of(work.design), work.fitted.steady, work.without.steady, runs[0], runs[1])
+
+
+def _warnings(work: Work) -> list[str]:
+    design, notes = work.design, list(work.design.warnings)
+    for side in (work.without, work.fitted, work.at_once):
+        notes += (f"{text[0].upper()}{text[1:]}" for text in (side.run.warnings if side.run else ()))
+        if side.failure and side.steady.amplitude is not None and not side.pulls:
+            notes.append(f"The level is that of the closed form: no trustworthy simulation, {side.failure}.")
+    if design.case.race_offset:
+        notes.append(
+            "The race is off the wheel's plane: closed forms take the wheel's plane, the simulation that of the race."
+        )
+    if work.fitted.parts and contact_presses(design.case):
+        notes.append("Wheel and work part: ball places, axis and reaction are those of a wheel that does not.")
+    return list(dict.fromkeys(notes))

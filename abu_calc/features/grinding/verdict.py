@@ -1,0 +1,164 @@
+"""Verdict on a machine at its workpiece, in words.
+
+It tells whether the autobalancer helps, why, and what would change that.
+"""
+
+import math
+from collections.abc import Sequence
+
+from abu_calc.features.grinding.outcomes import Loads
+from abu_calc.features.grinding.start_cases import WHEN
+from abu_calc.features.grinding.work import LOUDER, Remedy, Side, Work
+from abu_calc.foundation.units import from_si
+
+
+def in_words(work: Work, tried: Sequence[Remedy], loads: Loads | None = None) -> str:
+    """A sentence or two; the level first, then the start cases that are louder than the usual case."""
+    before, after = work.levels.before, work.levels.after
+    if work.lowered is None or before is None or after is None:
+        return f"Whether the autobalancer helps under load is not known: {_unknown(work)}.{changes(tried)}"
+    levels = f"{_level(after, work.fitted)} dB with it, {_level(before, work.without)} without"
+    if work.lowered:
+        haste = "" if work.always else f" {_haste(work)}"
+        starts = starts_in_words(work, loads)
+        every = work.always and (loads is None or not (loads.louder("settled") or loads.louder("at once")))
+        prevents = "" if every else changes(tried, "What prevents that") or NOTHING
+        helps = f"The autobalancer helps under load: {levels}."
+        if loads is not None and (louder := loads.louder("settled")):
+            helps = (
+                f"The autobalancer helps under load, but not in {len(louder)} of {loads.count('settled')} start cases: "
+                f"{levels}, at most {louder[-1].level:.1f} dB in these."
+            )
+        return f"{helps} {_helps(work)}{haste}{starts}{prevents}"
+    return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
+
+
+def starts_in_words(work: Work, loads: Loads | None) -> str:
+    """The loudest motion of the start cases and its share, if it is louder than the usual case by more than 1 dB."""
+    loudest = None if loads is None else loads.loudest
+    if (
+        loads is None
+        or loudest is None
+        or loads.louder("settled")
+        or loudest.highest <= (work.levels.after or math.inf) + LOUDER
+    ):
+        return ""
+    when, hasty = WHEN[loudest.pressed], work.level_at_once or -math.inf
+    if not work.always and loudest.pressed == "at once" and abs(loudest.highest - hasty) <= LOUDER:
+        return f" That is so in {loudest.count} of {loudest.all} start cases pressed at once."
+    cases, ends = (
+        f"{loudest.count} of {loudest.all} start cases pressed {when}",
+        "ends" if loudest.count == 1 else "end",
+    )
+    return f" {cases} {ends} {loudest.state}, at most at {loudest.highest:.1f} dB."
+
+
+def _level(value: float, side: Side) -> str:
+    """Level in words, with the scatter of chaotic runs."""
+    return f"{value:.1f} ± {side.scatter:.1f}" if side.scatter else f"{value:.1f}"
+
+
+NOTHING = " Neither a truer wheel, a softer contact nor a harder press was found to change that."
+
+
+def changes(tried: Sequence[Remedy], what: str = "What helps") -> str:
+    """Sentence on the tried changes that help, with the level of each; empty without any."""
+    if not tried:
+        return ""
+    texts = [f"{_remedy(remedy)} ({remedy.levels.after:.1f} dB against {remedy.levels.before:.1f})" for remedy in tried]
+    return f" {what}, by trial: {', or '.join(texts)}."
+
+
+def shortest(tried: Sequence[Remedy]) -> str | None:
+    """The first remedy alone."""
+    return f"By trial, {_remedy(tried[0])}." if tried else None
+
+
+def _remedy(remedy: Remedy) -> str:
+    if remedy.what == "runout":
+        return f"a runout of {from_si(remedy.value, 'mm'):g} mm at most"
+    if remedy.what == "stiffness":
+        return f"a contact of {_plain(remedy.value)} N/m at most"
+    return f"a press force of {remedy.value:g} N at least"
+
+
+def _haste(work: Work) -> str:
+    """Sentence on a start case with the balls on the heavy side."""
+    start, level, run = "pressed before the balls have settled", work.level_at_once, work.at_once.run
+    if level is None:
+        return f"{start[0].upper()}{start[1:]}: not known, {work.at_once.failure or 'no way to compute it holds'}."
+    level_text = _level(level, work.at_once)
+    if work.stays_loud and run is not None:
+        return f"But {start} wheel and work go on bouncing, at {level_text} dB: so still after {run.duration:.2g} s."
+    return f"But {start} {'they bounce, at' if work.at_once.parts else 'it comes to'} {level_text} dB."
+
+
+def _helps(work: Work) -> str:
+    contact, case = work.design.case.contact, work.design.case
+    if contact is None or contact.kind == "face":
+        return "A face does not press in the plane: balls do as they do at idle."
+    balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
+    if balls is not None and balls.places == "short":
+        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
+        return f"But the balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for."
+    if balls is None or balls.places != "balanced":
+        return "But the balls do not stay where they would balance, see ABU423."
+    if not case.runout:
+        return "The wheel runs true: nothing but its imbalance moves the machine."
+    amplitude = work.fitted.steady.amplitude or 0.0
+    share = f"the axis follows {_um(amplitude)} of the {_um(case.runout)} of runout"
+    if work.fitted.parts:
+        return "The balls balance the wheel, though it parts from the work now and then."
+    return f"The balls balance the wheel, and {share}."
+
+
+def _worse(work: Work) -> str:
+    case, steady = work.design.case, work.fitted.steady
+    balls, autobalancer = steady.balls, work.design.autobalancer
+    moved = work.design.imbalance.value / case.body.effective_mass()
+    runout = f"ε = {_um(case.runout)} {'exceeds' if case.runout > moved else 'against'} m₀e/M = {_um(moved)}"
+    if balls is not None and balls.places in ("gathered", "turning"):
+        return f"At this contact stiffness balls gather where they add to the imbalance; {runout}."
+    if balls is not None and balls.places == "restless":
+        return f"The balls do not stay where they would balance, see ABU423; {runout}."
+    if balls is not None and balls.places == "short":
+        carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
+        return f"The balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for; {runout}."
+    if work.fitted.parts and case.contact is not None:
+        force = abs(steady.reaction or 0.0)
+        return (f"The machine follows its wheel's runout ({runout}), so that the force, {case.contact.press_force:g} ± "
+                f"{force:.0f} N, lets wheel and work part, and they bounce.")  # fmt: skip
+    if work.rest > (work.without.steady.amplitude or 0.0):
+        bare = _um(work.without.steady.amplitude or 0.0)
+        return f"The wheel alone moves it by {bare} only; race and friction leave {_um(work.rest)}."
+    return f"The machine follows its wheel's runout: {runout}."
+
+
+def _unknown(work: Work) -> str:
+    before, after = work.levels.before, work.levels.after
+    if before is not None and after is not None:
+        return (f"{_level(after, work.fitted)} dB with it and {_level(before, work.without)} without are no further "
+                "apart than the runs of chaotic bouncing")  # fmt: skip
+    case, failures = work.design.case, [side.failure for side in (work.without, work.fitted) if side.failure]
+    if failures:
+        return f"no trustworthy simulation, {failures[0]}"
+    rigid = case.contact is not None and case.contact.kind == "rigid"
+    if rigid and case.contact is not None:
+        sides = {"without the autobalancer": work.without, "with it": work.fitted}
+        pulls = " and ".join(f"{abs(side.steady.reaction or 0):.0f} N {name}" for name, side in sides.items()
+                             if side.parts)  # fmt: skip
+        return (f"the contact is taken as rigid, and would have to pull: the force varies by {pulls}, and the press is "
+                f"{case.contact.press_force:g} N")  # fmt: skip
+    return "no way to compute it holds"
+
+
+def _um(length: float) -> str:
+    return f"{from_si(length, 'um'):.3g} µm"
+
+
+def _plain(stiffness: float) -> str:
+    """
+    >>> _plain(4.5e5), _plain(1.2e6)
+    ('4.5e5', '1.2e6')
+    """
+    return f"{stiffness:.2g}".replace("e+0", "e")

@@ -1,0 +1,361 @@
+"""The report of `abu grinding` on one screen.
+
+The start cases of grinding in a report: the motions that they end with, and the share of each.
+
+Wear of the wheel, in the report of `abu grinding`.
+
+The report of `abu grinding`: the verdict, then what stands behind it.
+"""
+
+from typing import Final
+
+from abu_calc.features.grinding.records import AxisMotion, FrictionBand, Simulated
+from abu_calc.features.grinding.start_cases import WHEN
+from abu_calc.features.grinding.start_records import LoadedOutcomeGroup, LoadedStarts
+from abu_calc.features.grinding.study import GrindingResult
+from abu_calc.features.grinding.wear import WearCourse
+from abu_calc.foundation.checks import Status
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.parts import check_blocks, facts, measured_after_blocks, notices, provenance_blocks, value_of
+from abu_calc.reporting.screen import shortened, verdict_line
+
+
+def start_blocks(starts: LoadedStarts | None) -> list[Block]:
+    """The motions that the start cases end with, and the share of each."""
+    if starts is None:
+        return []
+    rows = tuple(
+        (WHEN[group.pressed], f"{group.count} of {group.total}", group.state + ("" if group.steady else ", still changing"),
+         _range(group))
+        for group in starts.outcomes
+    )  # fmt: skip
+    lost = f"; {starts.without_answer} gave no answer" if starts.without_answer else ""
+    return [
+        Heading(f"Start cases under load: {starts.count} simulated{lost}"),
+        Grid(("pressed", "share", "motion", "level"), rows, frozenset({1, 3})),
+    ]
+
+
+def _range(group: LoadedOutcomeGroup) -> str:
+    """The level, or the lowest and the highest of several."""
+    low, high = f"{group.lowest_db:.1f}", f"{group.highest_db:.1f}"
+    return f"{high} dB" if low == high else f"{low} to {high} dB"
+
+
+ENDS: Final = {
+    "halved": "runout halved after",
+    "limit": "level above its limit after",
+    "parted": "wheel and work part after",
+    "settled": "settled after",
+    "worn out": "worn out after",
+}
+
+
+def wear_blocks(result: GrindingResult) -> list[Block]:
+    """Wear with and without autobalancer, at this contact and a rigid one; then the claim of the source."""
+    both = ((result.wear_without, "without"), (result.wear, "with"))
+    rigid = ((result.wear_rigid_without, "rigid, without"), (result.wear_rigid, "rigid, with"))
+    bouncing = ((result.wear_bouncing_without, "bouncing, without"), (result.wear_bouncing, "bouncing, with"))
+    named = (*both, *bouncing, *(rigid if result.contact != "rigid" else ()))
+    rows = tuple(_row(name, wear) for wear, name in named if wear is not None)
+    if not rows:
+        return []
+    header = ("", "dε/ds_w", "wheel is", "what comes first")
+    title = "Wear: change of the runout ε per depth s_w worn off (Archard)"
+    return [Heading(title), Grid(header, rows, frozenset({1})),
+            *_stages(result), *_claim(result)]  # fmt: skip
+
+
+def _row(name: str, wear: WearCourse) -> tuple[str, ...]:
+    turned = "centred" if wear.centres else "driven off"
+    if wear.ends is None or wear.depth_um is None:
+        return name, f"{wear.runout_rate:+.2f}", turned, ""
+    if wear.depth_um == 0:
+        return name, "", "", "wheel and work part already"
+    time = "" if wear.time_min is None else f" ({_minutes(wear.time_min)})"
+    depth = f"{number(wear.depth_um, 3)} µm" if wear.depth_um < 1000 else f"{number(wear.depth_um / 1e3, 3)} mm"
+    left = f", at {number(1e3 * wear.stages[-1].runout_mm, 3)} µm" if wear.ends != "halved" else ""
+    return name, f"{wear.runout_rate:+.2f}", turned, f"{ENDS[wear.ends]} {depth}{time}{left}"
+
+
+def _minutes(time: float) -> str:
+    return f"{number(60 * time, 2)} s" if time < 1 else f"{number(time, 3)} min"
+
+
+def _stages(result: GrindingResult) -> list[Block]:
+    """The course with and without, as far as closed forms go."""
+    blocks: list[Block] = []
+    for wear, name in ((result.wear_without, "without autobalancer"), (result.wear, "with it")):
+        if wear is None or not wear.stages or not wear.depth_um:
+            continue
+        rows = tuple(
+            (number(stage.depth_um, 3), number(1e3 * stage.runout_mm, 4), number(stage.runout_angle_deg, 4),
+             number(stage.imbalance_g_mm, 4), number(stage.variable_force_N, 3))
+            for stage in wear.stages
+        )  # fmt: skip
+        header = ("worn, µm", "runout, µm", "at, °", "imbalance, g·mm", "force ±, N")
+        blocks += [Heading(f"Course of wear {name}"), Grid(header, rows, frozenset(range(5)))]
+    return blocks
+
+
+def _claim(result: GrindingResult) -> list[Block]:
+    claim = result.claim
+    if claim is None:
+        return []
+    power = ("no power of the force up to 50 does that here" if claim.needed_exponent is None
+             else f"wear with the force to the power {number(claim.needed_exponent, 2)}")  # fmt: skip
+    return [
+        Heading("The source's claim"),
+        Paragraph(
+            f"Kladiev 1996 has a wheel last {claim.life_with_min:g} min with an autobalancer, "
+            f"{claim.life_without_min:g} without. By this law both last alike: mean wear goes with the mean force. For "
+            f"the claim it would take {power}; or a mean force of {number(claim.needed_press_N, 3)} N, a calmer "
+            "machine being pressed less; or wheels that are thrown away for their runout."
+        ),
+    ]  # fmt: skip
+
+
+RIGHT: Final = frozenset({1, 2, 3, 4, 5})
+MARKS: Final[dict[bool | None, Status]] = {True: "pass", False: "fail", None: "not-done"}
+STEADY: Final = (
+    "Closed forms, of ideal race and balls, as if wheel and work never parted; levels count race and friction."
+)
+
+
+def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        Heading(f"{result.title}: at work"),
+        Paragraph(result.verdict, _mark(result)),
+        verdict_line(result),
+        numbers_that_matter(result),
+        *measured_after_blocks(result.measured_after),
+        *start_blocks(result.starts),
+        *wear_blocks(result),
+        *balls_blocks(result),
+        *contact_blocks(result),
+        *friction_blocks(result),
+        *_simulated(result),
+        *_hodograph(result),
+        *_response(result),
+        *_profile(result),
+        *check_blocks(result.checks),
+        *notices(result),
+        Heading("Model"),
+        Paragraph(STEADY),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def _mark(result: GrindingResult) -> Status:
+    """Mark of the usual case, unless a start case fails."""
+    lowered = next(check.status for check in result.checks if check.code == "ABU421")
+    return "fail" if lowered == "fail" else MARKS[result.helps]
+
+
+def numbers_that_matter(result: GrindingResult) -> Grid:
+    """Levels, motions, forces: without autobalancer, its balls fixed, free."""
+    axes = result.axis_without, result.axis_fixed, result.axis
+    forces = result.reaction_without, result.reaction_fixed, result.reaction
+    after = _db(result.level_after_db, result.simulation)
+    rows = [
+        ("level", _db(result.level_before_db, result.simulation_without), "", after),
+        ("pressed at once", "", "", _db(result.level_at_once_db, result.simulation_at_once)),
+        ("axis along the work", *(_um(axis.x_amplitude_mm) for axis in axes)),
+        ("axis normal to it", *(_um(axis.y_amplitude_mm) for axis in axes)),
+    ]
+    if result.contact_stiffness_regions_N_per_m is not None:
+        rows += [
+            (f"force, {result.reaction.mean_N:g} N ±", *(_newton(force.amplitude_N, parts=force.separates)
+                                                        for force in forces)),
+            ("largest runout", *(_limit(force.largest_runout_mm) for force in forces)),
+        ]  # fmt: skip
+    return Grid(("", "without", "balls fixed", "with"), tuple(rows), RIGHT)
+
+
+def balls_blocks(result: GrindingResult) -> list[Block]:
+    """Resting places of the balls, and the places that the source gives."""
+    places = {
+        "balanced": "The balls balance",
+        "restless": "The balls do not stay where they would balance",
+        "short": "The balls carry too little and lie side by side",
+        "gathered": "The balls gather where they add to the imbalance",
+        "turning": "The balls come to no rest",
+    }[result.balls]
+    text = places
+    if result.ball_angles_deg is not None and result.ball_resultant_g_mm is not None:
+        many = ", one of many arrangements" if len(result.ball_angles_deg) > 2 and result.balls == "balanced" else ""
+        angles = ", ".join(f"{number(angle, 4)}°" for angle in result.ball_angles_deg)
+        text += f": {number(result.ball_resultant_g_mm, 4)} g·mm, at {angles} from the imbalance{many}"
+    blocks: list[Block] = [Heading("Balls"), Paragraph(f"{text}.")]
+    if result.printed is not None and result.balls == "balanced":
+        given = result.printed.ball_angles_deg or (result.printed.resultant_angle_deg,)
+        angles = " and ".join(f"{number(angle, 4)}°" for angle in given)
+        if len(given) == 1:
+            angles = f"{number(result.printed.resultant_g_mm, 4)} g·mm at {angles}"
+        blocks.append(Paragraph(
+            f"The printed formula (Kladiev 1996, 4), without friction, has {angles}: off by "
+            f"{number(result.printed.error_deg or 0.0, 3)}°, {number(result.printed.open_g_mm or 0.0, 3)} g·mm left."
+        ))  # fmt: skip
+    if result.flutter_drag_limit_per_s is not None and result.flutter_drag_worst_per_s is not None:
+        here, worst = (number(each, 3) for each in (result.flutter_drag_limit_per_s, result.flutter_drag_worst_per_s))
+        blocks.append(Paragraph(f"Drag against flutter: {here} 1/s as they stand, {worst} 1/s at the worst."))
+    return blocks
+
+
+def contact_blocks(result: GrindingResult) -> list[Block]:
+    """Regions of stiffness; resonance; power."""
+    power = f"Cutting takes {number(result.cutting_power_W, 3)} W."
+    if result.contact_stiffness_regions_N_per_m is None:
+        return [Heading("Contact"), Paragraph(f"A face: runout in the plane does not press. {power}")]
+    stiffness, bounds = result.model.contact_stiffness_N_per_m, result.contact_stiffness_regions_N_per_m
+    first, second = map(_stiffness, bounds)
+    if bounds[0] <= 0:
+        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        here = f"{own}. At this speed the suspension is too stiff for balls to balance on any contact"
+        here += f" below {second} N/m" if bounds[1] > 0 else " that gives way"
+    elif stiffness is not None and stiffness < bounds[0]:
+        here = f"{_stiffness(stiffness)} N/m, below {first}: balls balance, and with them wear centres the wheel"
+        here += f". From there to {second} N/m they would add to the imbalance; above, wear drives the wheel off"
+    elif stiffness is not None and stiffness < bounds[1]:
+        here = f"{_stiffness(stiffness)} N/m, from {first} to {second}: there balls add to the imbalance"
+    else:
+        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        here = f"{own}, above {second} N/m: balls balance, and wear drives the wheel off; below {first} N/m it would "
+        here += "be centred"
+    resonance = "" if result.resonance_rpm is None else (
+        f" Without autobalancer the machine resonates on it at {value_of(result, 'resonance_rpm')}.")  # fmt: skip
+    return [Heading("Contact"), Paragraph(f"{here}.{resonance} {power}")]
+
+
+def friction_blocks(result: GrindingResult) -> list[Block]:
+    """Displacement that dry friction holds, and the motion that shakes the friction out."""
+    band = result.friction
+    if band.threshold_um == 0:
+        return [Heading("Dry friction of the balls"), Paragraph("None.")]
+    held = f"It holds the axis off by {number(band.typical_um, 3)} µm, typically"
+    held += "." if band.worst_um is None else f", {number(band.worst_um, 3)} µm at the worst."
+    plane = result.contact_stiffness_regions_N_per_m is not None
+    shaking = "Axial runout of a wheel that is pressed in the plane does not shake the balls"
+    if not plane:
+        shaking = f"Axial runout of the wheel, {number(band.axial_um, 3)} µm, {_shakes(band.axial_shakes)}"
+    if plane and band.whirl_um is not None:
+        shaking += f"; the whirl by its runout there, {number(band.whirl_um, 3)} µm, {_shakes(band.whirl_shakes)}"
+        shaking += f", slowly, in some {number(band.creep_s, 2)} s" if band.creep_s else ""
+    need = f"It takes more than {number(band.threshold_um, 3)} µm."
+    return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaking}. {need}{_shaken(band)}")]
+
+
+def _shaken(band: FrictionBand) -> str:
+    """Sentence on the simulated effect of runout; empty if nothing was simulated."""
+    if band.simulated_way is None or band.simulated_um is None or band.simulated_s is None:
+        return ""
+    left = [f"{number(each, 2)} µm" if each is not None else "not known" for each in (band.unshaken_um, band.shaken_um)]
+    tried = f"an axial runout of {number(band.simulated_um, 2)} µm, as a trial"
+    by, after = "this runout" if band.simulated_given else tried, f"after {band.simulated_s:g} s"
+    worse = band.unshaken_um is not None and band.shaken_um is not None and band.shaken_um > band.unshaken_um
+    more = " So much of it throws the balls off their places." if worse else ""
+    return f" Simulated from bunched balls: {left[0]} without, {left[1]} with {by}, {after}.{more}"
+
+
+def _shakes(does: bool) -> str:
+    return "shakes it out" if does else "does not shake it out"
+
+
+def _simulated(result: GrindingResult) -> list[Block]:
+    """The runs, with every effect that counts."""
+    blocks: list[Block] = []
+    for simulation, title in (
+        (result.simulation, "Simulated with the autobalancer"),
+        (result.simulation_at_once, "Pressed before the balls have settled"),
+        (result.simulation_without, "Without"),
+    ):
+        if simulation is not None:
+            blocks += [Heading(title), facts(simulation)]
+    if result.agreement is not None:
+        blocks += [Heading("Contact alone, simulated against the closed form: relative differences"),
+                   facts(result.agreement)]  # fmt: skip
+    return blocks
+
+
+def _hodograph(result: GrindingResult) -> list[Block]:
+    rows = tuple((number(row.runout_angle_deg, 4), *_pair(row.without), *_pair(row.fitted)) for row in result.hodograph)
+    header = ("runout at, °", "without: x", "y, µm", "with: x", "y, µm")
+    return [Heading("Axis against the angle from imbalance to runout"), Grid(header, rows, RIGHT)]
+
+
+def _response(result: GrindingResult) -> list[Block]:
+    rows = tuple(
+        (number(point.speed_rpm, 5), _largest(point.without), _largest(point.fitted), _newton(point.force_without_N),
+         _newton(point.force_with_N), point.balls or "")
+        for point in result.response
+    )  # fmt: skip
+    header = ("rpm", "axis without", "with", "force without", "with", "balls")
+    return [Heading("Over the speeds"), Grid(header, rows, frozenset({0, 1, 2, 3, 4}))]
+
+
+def _profile(result: GrindingResult) -> list[Block]:
+    if result.profile is None:
+        return []
+    rows = tuple(
+        (number(point.wheel_angle_deg, 4), *(_newton(each) for each in (point.without_N, point.with_N,
+                                           point.simulated_without_N, point.simulated_N)))
+        for point in result.profile
+    )  # fmt: skip
+    header = ("wheel at, °", "without", "with", "simulated without", "simulated with")
+    return [Heading("Force round the wheel, from its imbalance"), Grid(header, rows, RIGHT)]
+
+
+def _pair(axis: AxisMotion) -> tuple[str, str]:
+    """x and y in µm."""
+    x, y = ("" if each is None else number(1e3 * each, 3) for each in (axis.x_amplitude_mm, axis.y_amplitude_mm))
+    return x, y
+
+
+def _largest(axis: AxisMotion) -> str:
+    both = [each for each in (axis.x_amplitude_mm, axis.y_amplitude_mm) if each is not None]
+    return _um(max(both)) if both else ""
+
+
+def _db(level: float | None, run: Simulated | None) -> str:
+    """Level as text, with its scatter if the run is a mean of chaotic ones."""
+    if level is None:
+        return "not known"
+    return f"{level:.1f} ± {run.scatter_db:.1f} dB" if run and run.scatter_db else f"{level:.1f} dB"
+
+
+def _um(length_mm: float | None) -> str:
+    return "" if length_mm is None else f"{number(1e3 * length_mm, 3)} µm"
+
+
+def _newton(force: float | None, *, parts: bool = False) -> str:
+    return "" if force is None else f"{number(force, 3)} N{' (parts)' if parts else ''}"
+
+
+def _stiffness(value: float) -> str:
+    """Stiffness as files have it, 4.9e5."""
+    return f"{value:.3g}".replace("e+0", "e")
+
+
+def _limit(length_mm: float | None) -> str:
+    return "none" if length_mm is None else _um(length_mm)
+
+
+LEFT_OUT = (
+    "Simulated with the autobalancer",
+    "Pressed before the balls have settled",
+    "Without",
+    "Contact alone, simulated against the closed form: relative differences",
+    "Axis against the angle from imbalance to runout",
+    "Over the speeds",
+    "Force round the wheel, from its imbalance",
+    "The source's claim",
+    "Course of wear without autobalancer",
+    "Course of wear with it",
+    "Model",
+)
+
+
+def grinding_screen(result: GrindingResult) -> tuple[Block, ...]:
+    """Verdict, numbers that matter, balls, contact, wear, friction; curves are left to the whole report."""
+    return shortened(result, grinding_blocks(result), *LEFT_OUT, head=3)

@@ -1,0 +1,252 @@
+"""Levels of a simulated motion: at the axis of a scene, or where a machine is held.
+
+Velocity levels of a motion by octaves, its corrected total, and its weighted acceleration, axis by axis.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.features.levels.octaves import (
+    LEAST,
+    RAMP,
+    SETTLED,
+    Array,
+    Signal,
+    acceleration_filter,
+    band_rms,
+    hand_arm_filter,
+    octave_filter,
+    place_filter,
+    weighted_rms,
+    why_not,
+)
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity
+from abu_calc.simulation.response import axis_velocity
+from abu_calc.simulation.simulate import Simulation
+from abu_calc.sizing.design import Design
+from abu_calc.standards.vibration import Octave, hand_arm_response, octaves
+
+ENDS: Final = 0.1
+"""Share of a record at either end over which its mean rises and falls: parts of periods count for less."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """Rms velocity [m/s] in an octave; None with the reason why it is not known."""
+
+    octave: Octave
+    velocity: float | None
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class AxisLevels:
+    """One axis of a place, rms: velocity of the whole motion [m/s], by octaves; displacement [m], acceleration [m/s²]
+    and weighted acceleration a_h [m/s²] within 6 to 1260 Hz, as instruments take them; None with the reason.
+    """
+
+    name: str
+    velocity: float | None
+    bands: tuple[Band, ...]
+    displacement: float | None
+    acceleration: float | None
+    weighted: float | None
+    reason: str | None = None
+
+    @property
+    def corrected(self) -> float | None:
+        """Corrected rms velocity [m/s] of the octaves that are known; None where none is."""
+        parts = [band.octave.share * band.velocity for band in self.bands if band.velocity is not None]
+        return math.hypot(*parts) if parts else None
+
+
+@dataclass(frozen=True)
+class PlaceLevels:
+    """The axes of one place."""
+
+    name: str
+    axes: tuple[AxisLevels, ...]
+
+    @property
+    def velocity(self) -> float | None:
+        """Rms of the louder axis [m/s]."""
+        return largest(axis.velocity for axis in self.axes)
+
+    @property
+    def corrected(self) -> float | None:
+        """Weighted velocity of the axis where it is largest [m/s]."""
+        return largest(axis.corrected for axis in self.axes)
+
+    @property
+    def total(self) -> float | None:
+        """a_hv [m/s²]: vector sum of the weighted accelerations of the axes that there are."""
+        parts = [axis.weighted for axis in self.axes if axis.weighted is not None]
+        return math.hypot(*parts) if len(parts) == len(self.axes) else None
+
+    def louder(self, part: str) -> float | None:
+        """The largest of the axes: velocity, displacement, acceleration or weighted."""
+        return largest(getattr(axis, part) for axis in self.axes)
+
+    @property
+    def complete(self) -> bool:
+        """True if every octave is known."""
+        return all(band.velocity is not None for axis in self.axes for band in axis.bands)
+
+    def loudest(self, index: int) -> Band:
+        """An octave on the axis where it is loudest."""
+        return max((axis.bands[index] for axis in self.axes), key=lambda band: band.velocity or -1.0)
+
+
+def largest(values: Iterable[float | None]) -> float | None:
+    """Largest of the known values; None if there is none."""
+    return max((value for value in values if value is not None), default=None)
+
+
+def level(velocity: float | None) -> float | None:
+    """The level [dB] of an rms velocity; None where there is none."""
+    return level_from_velocity(velocity) if velocity else None
+
+
+def axis_levels(name: str, signal: Signal) -> AxisLevels:
+    """Levels of a signal along one axis.
+
+    The whole velocity is the rms about the mean from the signal's start on; for accelerations it is that of
+    the octaves.
+    """
+    bands = tuple(_band(signal, octave) for octave in octaves())
+    wide = place_filter(), acceleration_filter(), hand_arm_filter()
+    reason = why_not(signal, wide[0])
+    place, acceleration, weighted = (band_rms(signal, weighting) if reason is None else None for weighting in wide)
+    return AxisLevels(name, _whole(signal, bands), bands, place, acceleration, weighted, reason)
+
+
+def _band(signal: Signal, octave: Octave) -> Band:
+    band = octave_filter(octave)
+    reason = why_not(signal, band)
+    return Band(octave, band_rms(signal, band) if reason is None else None, reason)
+
+
+def _whole(signal: Signal, bands: Sequence[Band]) -> float | None:
+    """Rms velocity [m/s]; of places by a spline of the fifth degree, its slope within 0.1 % at 8 samples a turn."""
+    first = min(math.ceil(signal.start * signal.rate), len(signal.samples) - 2)
+    if signal.derivative == 1:
+        known = [band.velocity for band in bands if band.velocity is not None]
+        return math.hypot(*known) if known else None
+    values = np.asarray(signal.samples, dtype=float)
+    if signal.derivative == -1:
+        if len(values) < 8:
+            return None
+        from scipy.interpolate import make_interp_spline
+
+        values = make_interp_spline(np.arange(len(values)), values, k=5).derivative()(np.arange(len(values)))
+        values = values * signal.rate
+    # A simulated window is of few turns, all alike.
+    return weighted_rms(values[first:], 0.5 if signal.whole and signal.start else ENDS)
+
+
+def halves_differ(signal: Signal) -> float | None:
+    """Level of the second half of the averaged signal over the first half [dB]; None if a half is silent."""
+    values = np.asarray(signal.samples[math.ceil(signal.start * signal.rate) :], dtype=float)
+    first, second = (float(np.std(half)) for half in np.array_split(values, 2))
+    return 20 * math.log10(second / first) if first > 0 and second > 0 else None
+
+
+def carried(place: PlaceLevels, name: str, share: float) -> PlaceLevels:
+    """The levels of another place, which moves `share` times as much."""
+    axes = tuple(_each(axis, lambda value, _: share * value) for axis in place.axes)
+    return PlaceLevels(name, axes)
+
+
+def with_tone(place: PlaceLevels, velocity: float, weight: float, frequency: float) -> PlaceLevels:
+    """The levels with a tone of a frequency [rad/s] added as energy to every axis: rms velocity [m/s], `weight` W_h."""
+    parts = {
+        "velocity": velocity,
+        "displacement": velocity / frequency,
+        "acceleration": velocity * frequency,
+        "weighted": weight * velocity * frequency,
+    }
+
+    def added(value: float, part: str | Octave) -> float:
+        if isinstance(part, Octave):
+            return math.hypot(value, velocity if part.low <= frequency < part.high else 0.0)
+        return math.hypot(value, parts[part])
+
+    return PlaceLevels(place.name, tuple(_each(axis, added) for axis in place.axes))
+
+
+def _each(axis: AxisLevels, change: Callable[[float, str | Octave], float]) -> AxisLevels:
+    """An axis with all that is known of it changed."""
+
+    def changed(value: float | None, part: str | Octave) -> float | None:
+        return None if value is None else change(value, part)
+
+    bands = tuple(replace(band, velocity=changed(band.velocity, band.octave)) for band in axis.bands)
+    return replace(
+        axis,
+        bands=bands,
+        velocity=changed(axis.velocity, "velocity"),
+        displacement=changed(axis.displacement, "displacement"),
+        acceleration=changed(axis.acceleration, "acceleration"),
+        weighted=changed(axis.weighted, "weighted"),
+    )
+
+
+SLOWEST: Final = 4096.0
+"""Samples a second at least: enough for all octaves."""
+PER_REVOLUTION: Final = 40
+LAST: Final = 0.95
+"""Share of a run from which on means are taken: the amplitude window is the last twentieth."""
+
+
+def duration_for(scene: Scene) -> float:
+    """Time [s] to simulate so that every octave of the motion left after the scene's own time is known."""
+    return scene.duration + LEAST * _slowest_period()
+
+
+def times_for(scene: Scene) -> Array:
+    """Equally spaced times [s] of a run, often enough for its fastest octave and its revolutions; as much of its end
+    as the slowest octave asks for.
+    """
+    rate, end, period = max(SLOWEST, PER_REVOLUTION / scene.revolution), scene.duration, _slowest_period()
+    begin = max(0.0, min(LAST * end, end - 2 * RAMP * period) - SETTLED * period)
+    return np.linspace(begin, end, math.ceil((end - begin) * rate) + 1)
+
+
+def _slowest_period() -> float:
+    return 2 * math.pi / octaves()[0].centre
+
+
+def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
+    """Levels of the axis along x and y, from the states of a run sampled at these times."""
+    velocities = axis_velocity(run.scene, run.trajectory.at(times))
+    rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * run.scene.duration - float(times[0])
+    signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
+    return PlaceLevels(name, tuple(map(axis_levels, "xy", signals)))
+
+
+def held_levels(design: Design, at_race: PlaceLevels) -> tuple[PlaceLevels, ...]:
+    """Levels at the handles, or in the wheel plane, carried there from the race as by a free rigid body.
+
+    Balls in another plane than the imbalance leave a tone of the spindle. It is added as energy, as in
+    sizing. The background is left out, since its octaves are not known.
+    """
+    case = design.case
+    held = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
+    return tuple(moved_at(design, at_race, name, place) for name, place in held)
+
+
+def moved_at(design: Design, at_race: PlaceLevels, name: str, place: float) -> PlaceLevels:
+    """Levels at one place [m] from the centre of mass, computed like `held_levels`."""
+    case, added = design.case, design.autobalancer.mass
+    body, race = case.body, case.race_place
+    imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
+    moved = carried(at_race, name, abs(body.inertance(place, race, added)) / body.inertance(race, race, added))
+    rest = imbalance * body.inertance(place, body.wheel, added) - balls * body.inertance(place, race, added)
+    tone = abs(rest) * case.speed / math.sqrt(2)
+    return with_tone(moved, tone, abs(hand_arm_response(1j * case.speed)), case.speed) if tone else moved

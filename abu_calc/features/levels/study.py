@@ -1,0 +1,377 @@
+"""Octave levels, weighted acceleration and daily exposure, of a recorded signal or of a simulated motion.
+
+Levels of places, as results hold them.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Final, Self
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.features.levels.checks import held_loads, level_checks
+from abu_calc.features.levels.levels import (
+    LAST,
+    AxisLevels,
+    Band,
+    PlaceLevels,
+    axis_levels,
+    axis_place_levels,
+    duration_for,
+    halves_differ,
+    held_levels,
+    level,
+    moved_at,
+    times_for,
+)
+from abu_calc.features.levels.octaves import SHARE_OF_NYQUIST, Signal, folded_share, needed_rate, octave_filter
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.foundation.validity import Range
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.recording import QUANTITIES, Recording
+from abu_calc.inputs.recording_files import is_recording, read_recording
+from abu_calc.inputs.scene import SceneDescription, read_any
+from abu_calc.simulation.arguments import checked, one_of
+from abu_calc.simulation.result import Provenance, Result
+from abu_calc.simulation.simulate import ACCURACY
+from abu_calc.simulation.simulate import simulate as integrated
+from abu_calc.simulation.subject import Subject, subject_of
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared, compared_design, measured_place
+from abu_calc.sizing.design import Design
+from abu_calc.standards.vibration import daily_exposure, octaves
+
+
+@record
+class OctaveLevel(Record):
+    """One octave, on the axis where it is loudest; no level where the record does not tell it."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"why_not"})
+
+    nominal_hz: Annotated[float, Quantity("octave", "", 4)]
+    low_hz: Annotated[float, Quantity("from", "", 5)]
+    high_hz: Annotated[float, Quantity("to", "", 5)]
+    limit_db: Annotated[float, Quantity("limit", "", 4)]
+    level_db: Annotated[float | None, Quantity("level", "L")]
+    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    why_not: Annotated[str | None, Quantity("why it is not known")]
+
+    @classmethod
+    def of(cls, band: Band) -> Self:
+        """Record in user units."""
+        octave, velocity = band.octave, band.velocity
+        return cls(
+            nominal_hz=float(octave.nominal),
+            low_hz=from_si(octave.low, "hz"),
+            high_hz=from_si(octave.high, "hz"),
+            limit_db=float(octave.limit.level),
+            level_db=level(velocity),
+            velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
+            why_not=band.reason,
+        )
+
+
+@record
+class AxisLevel(Record):
+    """One axis of a place."""
+
+    name: Annotated[str, Quantity("axis")]
+    level_db: Annotated[float | None, Quantity("level", "L")]
+    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    octave_levels_db: Annotated[tuple[float | None, ...], Quantity("octaves 8 … 1000 Hz", "L")]
+    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3)]
+    acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted")]
+    weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_h", 3)]
+
+    @classmethod
+    def of(cls, axis: AxisLevels) -> Self:
+        """Record in user units."""
+        return cls(
+            name=axis.name,
+            level_db=level(axis.velocity),
+            velocity_rms_mm_per_s=None if axis.velocity is None else from_si(axis.velocity, "mm_per_s"),
+            octave_levels_db=tuple(level(band.velocity) for band in axis.bands),
+            displacement_rms_um=None if axis.displacement is None else from_si(axis.displacement, "um"),
+            acceleration_m_per_s2=axis.acceleration,
+            weighted_acceleration_m_per_s2=axis.weighted,
+        )
+
+
+@record
+class PlaceLevel(Record):
+    """One place: its loudest axis, by octaves, corrected; the vector total of its weighted accelerations."""
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"level_before_db", "static_load_without_N", "static_load_N", "daily_exposure_m_per_s2"}
+    )
+
+    name: Annotated[str, Quantity("place")]
+    level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
+    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    octaves: tuple[OctaveLevel, ...]
+    corrected_level_db: Annotated[float | None, Quantity("corrected level", "L", 4, "of the octaves that are known")]
+    displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3, "of the louder axis")]
+    acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted, louder axis")]
+    weighted_axis_m_per_s2: Annotated[float | None, Quantity("weighted acceleration of one axis", "a_h", 3)]
+    weighted_acceleration_m_per_s2: Annotated[
+        float | None, Quantity("weighted acceleration", "a_hv", 3, "vector total of the axes that there are")
+    ]
+    daily_exposure_m_per_s2: Annotated[float | None, Quantity("daily exposure", "A(8)", 3)]
+    axes: tuple[AxisLevel, ...]
+    level_before_db: Annotated[float | None, Quantity("level without autobalancer", "L")]
+    static_load_without_N: Annotated[float | None, Quantity("static load of the hand without autobalancer", "", 3)]
+    static_load_N: Annotated[float | None, Quantity("static load of the hand", "", 3)]
+
+    @classmethod
+    def of(
+        cls, place: PlaceLevels, minutes: float | None, before: float | None = None,
+        loads: tuple[float, float] | None = None,
+    ) -> Self:  # fmt: skip
+        """Record in user units; `minutes` of a day, level `before` [dB].
+
+        `loads` [N]: without and with the autobalancer.
+        """
+        velocity, moved, total = place.velocity, place.louder("displacement"), place.total
+        count = len(place.axes[0].bands)
+        return cls(
+            name=place.name,
+            level_db=level(velocity),
+            velocity_rms_mm_per_s=None if velocity is None else from_si(velocity, "mm_per_s"),
+            octaves=tuple(OctaveLevel.of(place.loudest(index)) for index in range(count)),
+            corrected_level_db=level(place.corrected),
+            displacement_rms_um=None if moved is None else from_si(moved, "um"),
+            acceleration_m_per_s2=place.louder("acceleration"),
+            weighted_axis_m_per_s2=place.louder("weighted"),
+            weighted_acceleration_m_per_s2=total,
+            daily_exposure_m_per_s2=None if minutes is None or total is None else daily_exposure(total, 60 * minutes),
+            axes=tuple(map(AxisLevel.of, place.axes)),
+            level_before_db=before,
+            static_load_without_N=None if loads is None else loads[0],
+            static_load_N=None if loads is None else loads[1],
+        )
+
+
+SCENES: Final = ("idle", "grinding")
+"""Scenes of a machine that is held in the hands."""
+MINUTES: Final = Range("minutes a day", 0.0, 1440.0, "min", open_low=True, key="minutes")
+START: Final = Range("where means begin", 0.0, unit="s", key="from_s")
+FOLDED: Final = 1e-3
+"""Share of the power near half the sampling rate, above which faster motion may have been folded into the octaves."""
+USUAL_DB: Final = (60, 140)
+UNSTEADY_DB: Final = 2.0
+"""Largest difference between two halves of a record that gives no remark [dB]."""
+
+
+@record
+class LevelsResult(Result):
+    """Levels by octaves; those at the top are of the loudest place."""
+
+    command: ClassVar[str] = "levels"
+    optional: ClassVar[frozenset[str]] = frozenset({"scene", "measured_after", "minutes", "daily_exposure_m_per_s2"})
+
+    source: Annotated[str, Quantity("source", "", 4, "recording or simulation")]
+    scene: Annotated[str | None, Quantity("scene")]
+    quantity: Annotated[str, Quantity("quantity")]
+    sampling_rate_hz: Annotated[float, Quantity("sampling rate", "", 6)]
+    duration_s: Annotated[float, Quantity("duration")]
+    averaged_from_s: Annotated[float, Quantity("averaged from", "", 4, "what comes before lets the filters settle")]
+    minutes: Annotated[float | None, Quantity("minutes a day")]
+    loudest_place: Annotated[str, Quantity("loudest place")]
+    level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
+    velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
+    octaves: tuple[OctaveLevel, ...]
+    corrected_level_db: Annotated[float | None, Quantity("corrected level", "L")]
+    weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_hv", 3)]
+    daily_exposure_m_per_s2: Annotated[float | None, Quantity("daily exposure", "A(8)", 3)]
+    places: tuple[PlaceLevel, ...]
+    measured_after: MeasuredAfterRecord | None
+
+
+@checked
+def levels(
+    source: Machine | SceneDescription | Scene | Recording | str | Path,
+    scene: str | None = None,
+    *,
+    quantity: str | None = None,
+    scale: float | None = None,
+    channels: Sequence[str] = (),
+    minutes: float | None = None,
+    from_s: float | None = None,
+    start: str | None = None,
+    accuracy: float = 0.01,
+    duration_s: float | None = None,
+    progress: Progress = silent,
+) -> LevelsResult:
+    """Levels of a recorded signal (a CSV or WAV file), or of a machine or scene that is simulated.
+
+    `quantity`, `scale`, `channels`: how a file is to be taken, see `read_recording`; `from_s`: where its means begin.
+    `scene`: of a machine, idle or grinding, from the `start` of its balls (bunched); `minutes`: of work a day, for
+    A(8). Raises InputError with file, line and column, NotTrustworthyError where a simulation does not reach the
+    accuracy.
+    """
+    if minutes is not None:
+        MINUTES.check(minutes)
+    if isinstance(source, (str, Path)):
+        file = str(source)
+        source = read_recording(file, quantity, scale, channels) if is_recording(file) else read_any(file)
+    if isinstance(source, Recording):
+        _only_for("a machine", scene=scene, start=start, duration_s=duration_s)
+        return _of_recording(source, minutes, from_s)
+    _only_for("a recorded file", quantity=quantity, scale=scale, channels=channels or None, from_s=from_s)
+    one_of("scene", scene, SCENES)
+    ACCURACY.check(accuracy)
+    return _of_motion(subject_of(source, scene, start, command="levels"), minutes, accuracy, duration_s, progress)
+
+
+def _only_for(what: str, **given: object) -> None:
+    for name, value in given.items():
+        if value is not None:
+            raise InputError(f"for {what} only", place=Place(key=name), found=f"{value}", remedy="Leave it out.")
+
+
+def _of_recording(recorded: Recording, minutes: float | None, from_s: float | None) -> LevelsResult:
+    lowest = octave_filter(octaves()[0])
+    if lowest.high > SHARE_OF_NYQUIST * math.pi * recorded.rate:
+        raise InputError(
+            "sampled too slowly for any octave",
+            place=Place(recorded.file),
+            found=f"{recorded.rate:.4g} samples a second",
+            allowed=f"at least {needed_rate(lowest):.3g}",
+            remedy="Is the time in another unit than its name says?",
+        )
+    start, derivative = _start(recorded, from_s), QUANTITIES.index(recorded.quantity)
+    signals = [Signal(values, recorded.rate, 1 - derivative, start, from_s is None) for values in recorded.samples]
+    place = PlaceLevels("file", tuple(map(axis_levels, recorded.names, signals)))
+    return _result(
+        Path(recorded.file).name,
+        (PlaceLevel.of(place, minutes),),
+        checks=level_checks((place,), minutes),
+        warnings=(*recorded.told, *_remarks(recorded, signals), *_unusual(level(place.velocity))),
+        provenance=Provenance.today(recorded.file, recorded.sha256),
+        source="recording",
+        quantity=recorded.quantity,
+        sampling_rate_hz=recorded.rate,
+        duration_s=recorded.duration,
+        averaged_from_s=start,
+        minutes=minutes,
+    )
+
+
+def _start(recorded: Recording, from_s: float | None) -> float:
+    """Time at which means begin [s]: of a simulated run as in `abu simulate`, with its last twentieth."""
+    if from_s is None:
+        return LAST * recorded.duration if recorded.simulated else 0.0
+    replace(START, high=recorded.duration).check(from_s)
+    return from_s
+
+
+def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
+    """Remarks on a record that a reader must know."""
+    if recorded.simulated and signals[0].whole:
+        yield "A trajectory of a simulation: means are taken from the last twentieth on, as abu simulate takes them."
+    folded = max(map(folded_share, signals))
+    if folded > FOLDED:
+        yield (
+            f"{100 * folded:.2g} % of the signal's power lies near half the sampling rate: faster motion may have been "
+            "folded into the octaves. Sample faster, with a filter before the sampling."
+        )
+    for name, signal in zip(recorded.names, signals, strict=True):
+        change = halves_differ(signal)
+        if change is not None and abs(change) > UNSTEADY_DB:
+            word = "louder" if change > 0 else "quieter"
+            yield (
+                f"{name}: the second half is {abs(change):.1f} dB {word} than the first; --from S leaves the start out."
+            )
+
+
+def _unusual(level_db: float | None) -> Iterator[str]:
+    """A level that hardly any machine has."""
+    if level_db is not None and not USUAL_DB[0] <= level_db <= USUAL_DB[1]:
+        yield (
+            f"{level_db:.0f} dB is unusual, {USUAL_DB[0]} … {USUAL_DB[1]} dB is usual: are unit and scale of the file "
+            "what they should be?"
+        )
+
+
+def _of_motion(
+    subject: Subject, minutes: float | None, accuracy: float, duration_s: float | None, progress: Progress
+) -> LevelsResult:
+    design = subject.design
+    subject = subject.lasting(duration_for(subject.scene) if duration_s is None else duration_s)
+    times = times_for(subject.scene)
+    ledger = subject.ledger(accuracy)
+    run = integrated(ledger.scene, accuracy - ledger.spared, times, progress=progress)
+    at_axis = axis_place_levels(run, times, "axis")
+    places = (at_axis,) if design is None else held_levels(design, at_axis)
+    records = tuple(PlaceLevel.of(place, minutes) for place in places)
+    measured = None
+    if design is not None:
+        records = _with_design(design, places, minutes, idle=subject.scene.name == "idle")
+        measured = _measured(design, at_axis, idle=subject.scene.name == "idle")
+    return _result(
+        subject.title,
+        records,
+        checks=level_checks(places, minutes),
+        warnings=(*subject.warnings, *run.warnings, *_held_remarks(design, subject.start)),
+        provenance=subject.provenance,
+        source="simulation",
+        scene=subject.scene.name,
+        quantity="velocity",
+        sampling_rate_hz=(len(times) - 1) / float(times[-1] - times[0]),
+        duration_s=subject.scene.duration,
+        averaged_from_s=LAST * subject.scene.duration,
+        minutes=minutes,
+        measured_after=measured,
+    )
+
+
+def _with_design(
+    design: Design, places: Sequence[PlaceLevels], minutes: float | None, *, idle: bool
+) -> tuple[PlaceLevel, ...]:
+    """Levels, with those without autobalancer, idle, and the loads of the hands beside them."""
+    before = {place.name: place.levels.before for place in design.idle.places} if idle else {}
+    loads = {load.name: (load.without, load.fitted) for load in held_loads(design) or ()}
+    return tuple(PlaceLevel.of(place, minutes, before.get(place.name), loads.get(place.name)) for place in places)
+
+
+def _measured(design: Design, at_axis: PlaceLevels, *, idle: bool) -> MeasuredAfterRecord | None:
+    """[measured_after] against the simulated level of its place; at work against what sizing predicts of it idle."""
+    table = design.case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    level_db = level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity)
+    if idle:
+        return MeasuredAfterRecord.of(compared(design.case, level_db))
+    return MeasuredAfterRecord.of(compared_design(design), level_db)
+
+
+def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
+    """Remarks on what the levels lack."""
+    if design is None:
+        return
+    yield f"One start is simulated: {start}. Others may leave more: abu size runs many."
+    if design.case.background_level is not None:
+        yield (
+            f"The background of {design.case.background_level:g} dB is not in these levels: which octaves hold it is "
+            "not known."
+        )
+    if design.case.handles and held_loads(design) is None:
+        yield (
+            "What each hand carries is not known: that takes two handles on a horizontal spindle, and the rigid body "
+            "(machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm)."
+        )
+
+
+def _result(title: str, places: tuple[PlaceLevel, ...], **others: Any) -> LevelsResult:
+    """The loudest place stands at the top."""
+    loudest = max(places, key=lambda place: place.level_db or -math.inf)
+    others = {"scene": None, "measured_after": None} | others
+    same = (
+        *("level_db", "velocity_rms_mm_per_s", "octaves", "corrected_level_db", "weighted_acceleration_m_per_s2"),
+        "daily_exposure_m_per_s2",
+    )
+    shared = {name: getattr(loudest, name) for name in same}
+    return LevelsResult(title=title, loudest_place=loudest.name, places=places, **shared, **others)

@@ -1,0 +1,156 @@
+"""A bearing with its two seats, in SI, as the formulas of this room take it.
+
+The ranges in which the formulas of bearing seats hold: one each, for the formulas and for what they are given.
+"""
+
+from dataclasses import field
+from typing import Final
+
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+from abu_calc.foundation.validity import Range
+from abu_calc.standards.bearing_catalogue import Series
+from abu_calc.standards.tolerance_classes import BearingType, DeviationLimits, Kind, Ratings, RingLoad
+
+BEARING_SIZE: Final = Range("bearing size", 0.0, 10.0, "m", open_low=True)
+SEAT_DIAMETER: Final = Range("diameter of the seat", 0.0, 10.0, "m", open_low=True)
+SEAT_LENGTH: Final = Range("length of the seat", 0.0, 10.0, "m", open_low=True)
+TUBE_RATIO: Final = Range("ratio of a tube's diameters", 0.0, 0.999)
+ROUGHNESS: Final = Range("roughness Rz of the seat", 0.0, 1e-3, "m")
+RADIAL_LOAD: Final = Range("radial load", 0.0, 1e9, "N")
+WARMER_RING: Final = Range("temperature difference of a ring and its seat", -500.0, 500.0, "K")
+WARMER_INSIDE: Final = Range("temperature of the inner ring above the outer one", -500.0, 500.0, "K")
+WARMER_THAN_MOUNTED: Final = Range("temperature of the bearing above that of mounting", -300.0, 500.0, "K")
+STRENGTH: Final = Range("strength of the part", 0.0, 1e10, "Pa", open_low=True)
+RING_SPEED: Final = Range("ring speed", 0.0, 1e5, "rad/s")
+STARTING_TORQUE: Final = Range("starting torque", 0.0, 1e7, "N·m")
+SEAT_FRICTION: Final = Range("friction coefficient of the seat", 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Ring:
+    """One ring: diameter of its seat, width and chamfer of one edge [m] (None: not known), how the load meets it."""
+
+    diameter: float
+    width: float
+    chamfer: float | None
+    load: RingLoad
+
+    def __post_init__(self) -> None:
+        BEARING_SIZE.check(self.diameter)
+        BEARING_SIZE.check(self.width)
+
+    @property
+    def seat_length(self) -> float | None:
+        """Length of the seat between the chamfers [m]; None if they are not known."""
+        return None if self.chamfer is None else self.width - 2 * self.chamfer
+
+
+@dataclass(frozen=True)
+class MatingPart:
+    """Shaft or housing that a ring sits on or in.
+
+    `fit` tolerance class (None: to be advised), `measured` limits [m] in its place, roughness Rz [m] (None:
+    not given), `other` the part's second diameter [m]: bore of a shaft (None: solid), outside of a housing
+    (None: endless), `strength` [Pa] (None: that of its material), `split` of a housing in halves.
+    """
+
+    fit: str | None
+    roughness: float | None = None
+    other: float | None = None
+    material: str = "steel"
+    measured: DeviationLimits | None = None
+    strength: float | None = None
+    split: bool = False
+
+    def __post_init__(self) -> None:
+        _check(ROUGHNESS, self.roughness)
+        _check(STRENGTH, self.strength)
+
+
+@dataclass(frozen=True)
+class Service:
+    """Service conditions that the seats must stand [SI]; None: not given, and then not counted.
+
+    Temperature differences [K] of either sign: `ring_over_shaft` and `inner_over_outer` of the inner ring
+    over shaft and outer ring; `housing_over_ring` of the housing over the outer ring; `over_mounting` of
+    the rings over mounting (20 °C). `seat_friction`: coefficient of friction between ring and seat.
+    """
+
+    radial_load: float | None = None
+    speed: float | None = None
+    ring_over_shaft: float | None = None
+    inner_over_outer: float | None = None
+    housing_over_ring: float | None = None
+    over_mounting: float | None = None
+    starting_torque: float | None = None
+    seat_friction: float = 0.12
+
+    def __post_init__(self) -> None:
+        _check(RADIAL_LOAD, self.radial_load)
+        _check(RING_SPEED, self.speed)
+        _check(WARMER_RING, self.ring_over_shaft)
+        _check(WARMER_INSIDE, self.inner_over_outer)
+        _check(WARMER_RING, self.housing_over_ring)
+        _check(WARMER_THAN_MOUNTED, self.over_mounting)
+        _check(STARTING_TORQUE, self.starting_torque)
+        SEAT_FRICTION.check(self.seat_friction)
+
+
+@dataclass(frozen=True)
+class SeatedBearing:
+    """A bearing between its shaft and its housing, and what is asked of the two seats.
+
+    `type` by whose table its rings are toleranced, `kind` what it is (None: not told), `ratings` where they are known;
+    `remarks`: what was taken from where the table does not say it; `designation` ISO's, where it is known.
+    """
+
+    name: str
+    type: BearingType
+    inner: Ring
+    outer: Ring
+    shaft: MatingPart
+    housing: MatingPart
+    kind: Kind | None = None
+    ratings: Ratings | None = None
+    service: Service = field(default_factory=Service)
+    bearing_class: str = "0"
+    series: Series = "light"
+    internal_clearance: str | None = None
+    asked_interference: tuple[float, float] | None = None
+    remarks: tuple[str, ...] = ()
+    designation: str | None = None
+
+    def __post_init__(self) -> None:
+        bore, outer = self.inner.diameter, self.outer.diameter
+        _ascending("shaft bore", self.shaft.other or 0.0, "bearing bore", bore)
+        _ascending("bearing bore", bore, "outside diameter", outer)
+        if self.housing.other is not None:
+            _ascending("outside diameter", outer, "housing diameter", self.housing.other)
+        _ascending("two chamfers", 2 * (self.inner.chamfer or 0), "inner ring width", self.inner.width)
+        _ascending("two chamfers", 2 * (self.outer.chamfer or 0), "outer ring width", self.outer.width)
+        if self.asked_interference is not None and not self.asked_interference[0] < self.asked_interference[1]:
+            raise InputError("the band of interference must ascend", place=Place(key="asked_interference_um"))
+
+    @property
+    def load_ratio(self) -> float | None:
+        """P/C, the radial load for P; None where the load or C is not known."""
+        if self.service.radial_load is None or self.ratings is None:
+            return None
+        # freed of rounding, so that a twentieth of C is not above it
+        return round(self.service.radial_load / self.ratings.dynamic, 9)
+
+
+def _check(limits: Range, value: float | None) -> None:
+    if value is not None:
+        limits.check(value)
+
+
+def _ascending(small: str, low: float, large: str, high: float) -> None:
+    if not 0 <= low < high:
+        raise InputError(
+            f"{large} must be above {small}",
+            found=f"{large} {from_si(high, 'mm'):g} mm, {small} {from_si(low, 'mm'):g} mm",
+            remedy="Correct the one or the other.",
+        )

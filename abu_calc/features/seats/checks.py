@@ -1,0 +1,168 @@
+"""The checks of a seat, and of the clearance left in its bearing."""
+
+from typing import TYPE_CHECKING, Final
+
+from abu_calc.features.seats.advice import LOOSE_ENOUGH
+from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.creep import CreepJudgement
+from abu_calc.features.seats.interference import of_all
+from abu_calc.features.seats.joint import Joint
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.units import from_si
+from abu_calc.standards.balls import seat_material
+from abu_calc.standards.tolerance_classes import SOURCE
+
+if TYPE_CHECKING:
+    from abu_calc.features.seats.clearance import ClearanceLeft
+
+_CODES: Final = {
+    "shaft": ("ABU601", "ABU602", "ABU603", "ABU604"),
+    "housing": ("ABU611", "ABU612", "ABU613", "ABU614"),
+}
+_LIKE_STEEL: Final = 3e-6
+"""Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
+_MOST: Final = 0.5
+_ARTICLE: Final = {"rotating": "a rotating", "indeterminate": "an indeterminate", "stationary": "a stationary"}
+
+
+def seat_checks(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
+    """Check the interference where it is needed, the stress of the tightest pair and the thermal effect."""
+    first = _grip if joint.must_grip else _loose
+    return (
+        first(bearing, joint, recommended),
+        _stress(bearing.name, joint, recommended),
+        *_warmth(bearing, joint),
+    )
+
+
+def start_checks(
+    bearing: str, joint: Joint, creep: CreepJudgement, torque: float | None, recommended: str | None
+) -> tuple[Check, ...]:
+    """Check that the least interference carries the starting torque.
+
+    Empty without a starting torque, or if no interference is needed.
+    """
+    if torque is None or not joint.must_grip:
+        return ()
+    code = _CODES[joint.seat][2]
+    if creep.least_torque is None:
+        why = "no chamfer is given, so the length of the seat is not known"
+        return (coded(code, "not-done", why, None, torque, "N·m", "Give chamfer_mm.", "least", of=bearing),)
+    passed = bool(creep.holds_at_start)
+    return (coded(
+        code, verdict(passed), f"friction torque of {joint.told} at its least "
+        "interference, losses taken off, against the starting torque", creep.least_torque, torque, "N·m",
+        None if passed else _remedy(joint, recommended), "least", of=bearing,
+    ),)  # fmt: skip
+
+
+def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check, ...]:
+    """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not."""
+    if left is None:
+        return ()
+    passed, safe = left.below_zero < _MOST, left.probable.smallest >= 0
+    choice = f"{left.group_to_choose} keeps it." if left.group_to_choose else "No group keeps it: looser fits."
+    return (coded(
+        "ABU621", verdict(passed, safe), f"least probable radial clearance of group {left.group} after mounting; "
+        f"{of_all(left.below_zero, 'bearings')} have none left", _um(left.probable.smallest), 0.0, "µm",
+        None if safe else choice, "least", of=bearing,
+    ),)  # fmt: skip
+
+
+def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
+    code = _CODES[joint.seat][0]
+    smallest, required, short = _um(joint.interference.smallest), joint.required, joint.short
+    if required is None or short is None:
+        missing = "radial load" if joint.radial_load is None else "chamfer"
+        key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
+        return coded(
+            code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
+            "known", smallest, None, "µm", f"Give {key}.", of=bearing.name,
+        )  # fmt: skip
+    needs = f"what the ring needs under {_ARTICLE[joint.ring.load]} load by {required.by}{_losses(joint)}"
+    mean = f"the mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
+    remark = "" if joint.grip == "pass" else f"; {mean}, {of_all(short)} fall short"
+    return coded(
+        code, joint.grip, f"least interference of {joint.told} against {needs}{remark}{_makers(bearing, joint)}",
+        smallest, _um(required.value), "µm", _tighter(joint, recommended),
+        "least", of=bearing.name,
+    )  # fmt: skip
+
+
+def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
+    share = f"{of_all(joint.clearance_probability)} are loose"
+    if joint.clearance_probability >= LOOSE_ENOUGH:
+        judgement = f"none is needed under a load fixed in direction; {share}, so the ring can creep and be moved"
+    else:
+        judgement = (
+            f"conservative for a load fixed in direction, which needs none: {share}, so the ring hardly creeps to "
+            "spread its wear and is hard to move along its seat"
+        )
+    return coded(
+        _CODES[joint.seat][0], "pass",
+        f"least interference of {joint.told}; {judgement}{_makers(bearing, joint)}", _um(joint.interference.smallest),
+        None, "µm", None, "least", of=bearing.name,
+    )  # fmt: skip
+
+
+def _makers(bearing: SeatedBearing, joint: Joint) -> str:
+    if joint.maker is None or bearing.load_ratio is None:
+        return ""
+    return f"; the catalogue's class for P/C = {bearing.load_ratio:.2g} is {joint.maker.classes[0]} ({SOURCE})"
+
+
+def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
+    grade, limit = joint.stress, joint.stress_limit if joint.stress == "fail" else joint.permitted
+    warm = " when warm" if joint.tightest > joint.interference.largest else ""
+    remark = "; halves of a split housing pinch a ring tighter than J7" if joint.pinched else ""
+    stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
+    return coded(
+        _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
+        f"largest interference of {joint.told}{warm} against what is permitted by {limit.by}; hoop stress of the "
+        f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
+        _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
+    )  # fmt: skip
+
+
+def _warmth(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
+    """Warning of a part that expands otherwise than its ring while no temperature is given."""
+    shaft, service = joint.seat == "shaft", bearing.service
+    part, known = (bearing.shaft, service.ring_over_shaft) if shaft else (bearing.housing, service.housing_over_ring)
+    more = seat_material(part.material).expansion - seat_material("steel").expansion
+    if abs(more) < _LIKE_STEEL or known is not None or service.over_mounting is not None:
+        return ()
+    change = _um(more * joint.diameter * 10)
+    verb = "gains" if shaft else "loses"
+    return (coded(
+        _CODES[joint.seat][3], "warn", f"the seat in {part.material} {verb} {change:.3g} µm of interference for every "
+        "10 K that it warms with its ring, and no temperature is given", change, None, "µm", "Give temperature_rise_K.",
+        of=bearing.name,
+    ),)  # fmt: skip
+
+
+def _losses(joint: Joint) -> str:
+    return "".join(f" + {loss.name} {_um(loss.value):.1f} µm" for loss in joint.losses if loss.value > 0)
+
+
+def _tighter(joint: Joint, recommended: str | None) -> str | None:
+    """Nothing for a ring that holds, nor in place of one that may creep unless the field advised does better."""
+    better = recommended is not None and joint.with_class(recommended).grip == "pass"
+    return _remedy(joint, recommended) if joint.grip == "fail" or (joint.grip == "warn" and better) else None
+
+
+def _remedy(joint: Joint, recommended: str | None) -> str:
+    """Action: the advised tolerance class, as tried, and its result."""
+    if recommended is None and joint.split:
+        return "A split housing cannot hold a ring whose load turns round it: a one-piece housing."
+    if recommended is None:
+        return "No tabulated class both grips and is borne: a longer seat, a smaller load or a larger bearing."
+    best = joint.with_class(recommended)
+    if best.grip == "pass":
+        return f"{recommended} passes."
+    reaches = best.required is None or best.mean >= best.required.value
+    return f"{recommended} {'reaches it in the mean' if reaches else 'is the class of the catalogue for such a load'}."
+
+
+def _um(metres: float) -> float:
+    # freed of the noise of the conversion
+    return round(from_si(metres, "um"), 6)

@@ -1,0 +1,87 @@
+"""Creep of a ring on its seat: by the kind of load on it, and when the machine starts."""
+
+import math
+from typing import Final, Literal, NamedTuple
+
+from abu_calc.features.seats.bearing import SEAT_FRICTION
+from abu_calc.features.seats.interference import of_all, probable_interference
+from abu_calc.features.seats.joint import Joint
+from abu_calc.foundation.checks import Grade
+from abu_calc.foundation.formula import formula
+
+CreepVerdict = Literal["holds", "may creep", "creeps", "needs no grip", "not known"]
+
+
+class CreepJudgement(NamedTuple):
+    """`probability` that a pair has less interference than its ring needs; friction torques [N·m] of the seat at the
+    least and at the least probable interference, losses taken off; whether the least outweighs the starting torque."""
+
+    verdict: CreepVerdict
+    why: str
+    probability: float | None
+    least_torque: float | None
+    probable_torque: float | None
+    holds_at_start: bool | None
+
+
+@formula(
+    "Torque at which a pressed ring slips on its seat",
+    "μ_s·p·π·d·b_s·d/2",
+    "N·m",
+    where=("μ_s is 0.12 for steel on steel, dry or lightly oiled (assumed)."),
+    checked=(SEAT_FRICTION,),
+    assumed="even pressure",
+    source="Coulomb friction on a cylinder",
+)
+def friction_torque(friction: float, pressure: float, diameter: float, length: float) -> float:
+    """
+    >>> round(friction_torque(0.12, 5e6, 0.080, 0.029), 1)
+    174.9
+    """
+    return SEAT_FRICTION.check(friction) * pressure * math.pi * diameter * length * diameter / 2
+
+
+_VERDICTS: Final[dict[Grade, CreepVerdict]] = {
+    "pass": "holds", "warn": "may creep", "fail": "creeps", "not-done": "not known",
+}  # fmt: skip
+
+
+def creep(joint: Joint, friction: float, starting_torque: float | None) -> CreepJudgement:
+    """Judge a ring: under a load fixed in direction it needs no grip, else its interference must do.
+
+    It holds where the smallest does, may creep where only the mean does.
+    """
+    least, probable = _torques(joint, friction) or (None, None)
+    starts = holds_at_start(joint, friction, starting_torque)
+    if not joint.must_grip:
+        why = f"its load is fixed in direction; {of_all(joint.clearance_probability)} are loose"
+        return CreepJudgement("needs no grip", why, None, least, probable, None)
+    if joint.short is None:
+        return CreepJudgement("not known", "load or length of the seat are not given", None, least, probable, starts)
+    why = f"{of_all(joint.short)} have less than its {joint.ring.load} load asks for"
+    return CreepJudgement(_VERDICTS[joint.grip], why, joint.short, least, probable, starts)
+
+
+def holds_at_start(joint: Joint, friction: float, starting_torque: float | None) -> bool | None:
+    """True if the slip torque at the least interference exceeds the starting torque.
+
+    None: not requested, or not known.
+    """
+    if starting_torque is None or not joint.must_grip:
+        return None
+    torques = _torques(joint, friction)
+    return None if torques is None else torques[0] >= starting_torque
+
+
+def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
+    """Slip torques at the least and at the least probable interference."""
+    if joint.length is None:
+        return None
+    length = joint.length
+    probable = probable_interference(*joint.male_and_female).smallest
+    pressures = (
+        joint.pressure_rate * max(smallest - joint.lasting_losses, 0.0)
+        for smallest in (joint.interference.smallest, probable)
+    )
+    least, likely = (friction_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
+    return least, likely

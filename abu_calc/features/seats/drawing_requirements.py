@@ -1,0 +1,100 @@
+"""Interference left in a worn seat, and the dimensions that a repair must restore.
+
+Requirements for the drawing of a seat: tolerance class, form, roughness, shoulder, hardness.
+"""
+
+from typing import NamedTuple
+
+from abu_calc.features.seats.interference import Interval
+from abu_calc.features.seats.joint import Joint
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.units import to_si
+from abu_calc.standards.bearing_catalogue import next_size
+from abu_calc.standards.tables import toml_table
+from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits, tolerance_classes
+
+SMALL_SEAT = 0.080
+"""Diameter [m] up to which the standard asks for the finer roughness."""
+
+
+class SeatRequirements(NamedTuple):
+    """Field and limits [m] of the seat; roundness and profile [m], on the radius; Ra [m]; axial runout of the shoulder
+    by its grade, and [m] where the grade is tabulated; hardness in words; where it is from. All but the field are
+    unverified."""
+
+    field: str
+    limits: DeviationLimits
+    form: float
+    roughness: float
+    shoulder_grade: str
+    shoulder_runout: float | None
+    hardness: str
+    source: str
+
+
+@formula(
+    "Requirements of a seat made to a tolerance class, for a bearing of an accuracy class",
+    where=(
+        "Roundness and longitudinal profile: a share of the tolerance (¼ for classes 0 and 6, ⅛ for 5 and 4, 1/16 for "
+        "2)."
+    ),
+    checked=("seats of 3 … 500 mm",),
+    source="GOST 3325-85; unverified",
+)
+def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) -> SeatRequirements:
+    table = toml_table("seat_requirements")
+    own, limits = table[joint.seat], part_limits(joint.seat, tolerance_class, joint.diameter)
+    grade = own["shoulder"][bearing_class]
+    basic = f"{'h' if joint.seat == 'shaft' else 'H'}{grade}"
+    known = basic in tolerance_classes(joint.seat)
+    return SeatRequirements(
+        field=tolerance_class,
+        limits=limits,
+        form=limits.tolerance * table["form_share"][bearing_class],
+        roughness=to_si(own["roughness"][bearing_class][joint.diameter > SMALL_SEAT + 1e-9], "um"),
+        shoulder_grade=f"IT{grade}",
+        shoulder_runout=part_limits(joint.seat, basic, joint.diameter).tolerance if known else None,
+        hardness=table["hardness"][joint.seat],
+        source=f"{table['source']}, unverified",
+    )
+
+
+class SeatRepair(NamedTuple):
+    """Interference left, lasting losses taken off [m]; the field to restore, its limits from the nominal size [m];
+    largest gap [m] that a bond must fill (0: none); seat [m] and bearing of the next size (None: not tabulated)."""
+
+    grip_left: Interval
+    restore: str
+    limits: DeviationLimits
+    gap: float
+    next_seat: float | None
+    next_bearing: str | None
+
+
+@formula(
+    "What a measured seat has left, and what a repair must restore",
+    "measured interference − losses; gap = −(least interference)",
+    "m",
+    shown="um",
+    where=(
+        "A sleeve or sprayed metal is finished to the limits of the field to restore. A bond fills the largest gap of "
+        "the loosest pair. The next size is the neighbour of the series: the next smaller bore of a shaft turned down, "
+        "the next larger outside diameter of a housing bored out."
+    ),
+    assumed="limits about one nominal size, the rings new",
+    source="derived from the limits of size",
+)
+def seat_repair(joint: Joint, restore: str, designation: str | None) -> SeatRepair | None:
+    if joint.measured is None:
+        return None
+    losses = joint.lasting_losses
+    left = Interval(joint.interference.smallest - losses, joint.interference.largest - losses)
+    neighbour = next_size(designation, joint.seat) if designation else None
+    return SeatRepair(
+        grip_left=left,
+        restore=restore,
+        limits=part_limits(joint.seat, restore, joint.diameter),
+        gap=max(-joint.interference.smallest, 0.0),
+        next_seat=None if neighbour is None else neighbour.bore if joint.seat == "shaft" else neighbour.outer,
+        next_bearing=neighbour.designation if neighbour else None,
+    )

@@ -1,0 +1,352 @@
+"""A seat as a joint of two parts, the same for shaft and housing: what every judgement of it needs.
+
+Stress in a ring pressed on a shaft or into a housing, by Lamé.
+"""
+
+from dataclasses import replace
+from functools import cached_property
+from typing import Final, NamedTuple
+
+from abu_calc.features.seats.bearing import SEAT_DIAMETER, TUBE_RATIO, Ring
+from abu_calc.features.seats.interference import (
+    Interval,
+    clearance_probability,
+    probability_below,
+    theoretical_interference,
+)
+from abu_calc.features.seats.requirement import creep_interference, load_loss
+from abu_calc.foundation.checks import Grade
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.standards.balls import Material
+from abu_calc.standards.tolerance_classes import DeviationLimits, MakerFits, Seat, part_limits
+
+PERMITTED_RING_STRESS: Final = 400e6
+"""Hoop stress [Pa] permitted in a ring of bearing steel: handbook value quoted by Afanasiev 2015, unverified."""
+
+SECTION_SHARE: Final = 0.28
+"""Share of the section height (D − d) that a ring has as a plain tube: mean diameter of the race, assumed.
+
+It gives d/d₁ = 0.826 for the 80 × 140 mm bearing of Afanasiev 2015.
+"""
+
+
+class Tube(NamedTuple):
+    """One part of a joint: ratio of its inner to its outer diameter (0: solid shaft, endless housing), material."""
+
+    ratio: float
+    material: Material
+
+    @property
+    def hoop_at_bore(self) -> float:
+        """Hoop stress at the bore per pressure inside: (1+q²)/(1−q²)."""
+        return (1 + TUBE_RATIO.check(self.ratio) ** 2) / (1 - self.ratio**2)
+
+    @property
+    def hoop_under_pressure_outside(self) -> float:
+        """Magnitude of the (compressive) hoop stress at the bore per pressure outside: 2/(1−q²)."""
+        return 2 / (1 - TUBE_RATIO.check(self.ratio) ** 2)
+
+
+def inner_ring_diameter(bore: float, outer: float) -> float:
+    """Outer diameter [m] of the inner ring as a plain tube: d₁ = d + 0.28·(D − d).
+
+    Range: usual sections of ball and roller bearings; assumed.
+
+    >>> round(0.080 / inner_ring_diameter(0.080, 0.140), 3)
+    0.826
+    """
+    return bore + SECTION_SHARE * (outer - bore)
+
+
+def outer_ring_diameter(bore: float, outer: float) -> float:
+    """Inner diameter [m] of the outer ring as a plain tube: D₁ = D − 0.28·(D − d). Range as for the inner ring."""
+    return outer - SECTION_SHARE * (outer - bore)
+
+
+@formula(
+    "Pressure between two pressed tubes",
+    "p = (δ/d)/{[(1+q₂²)/(1−q₂²) + ν₂]/E₂ + [(1+q₁²)/(1−q₁²) − ν₁]/E₁}",
+    "Pa",
+    where=("No pressure without interference."),
+    checked=(TUBE_RATIO, SEAT_DIAMETER),
+    assumed="elastic, long tubes of equal length",
+    source="Lamé; DIN 7190-1:2017",
+)
+def contact_pressure(interference: float, diameter: float, male: Tube, female: Tube) -> float:
+    around = (female.hoop_at_bore + female.material.poisson_ratio) / female.material.youngs_modulus
+    inside = (male.hoop_at_bore - male.material.poisson_ratio) / male.material.youngs_modulus
+    return max(interference, 0.0) / SEAT_DIAMETER.check(diameter) / (around + inside)
+
+
+@formula(
+    "Largest hoop stress in an inner ring, tension at its bore",
+    "p·(1+q²)/(1−q²)",
+    "Pa",
+    signs="E δ d",
+    where="On a solid shaft of the same steel E·δ·(1+q²)/(2d).",
+    checked=(TUBE_RATIO, SEAT_DIAMETER),
+    assumed="as of the contact pressure",
+    source="Lamé",
+)
+def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: Tube) -> float:
+    """
+    >>> steel = Material("steel", 7800.0, 206e9, 0.3, 12e-6)
+    >>> round(1e-6 * inner_ring_stress(45e-6, 0.080, Tube(0.0, steel), Tube(80 / 96.8, steel)), 1)
+    97.5
+    """
+    return contact_pressure(interference, diameter, shaft, ring) * ring.hoop_at_bore
+
+
+@formula(
+    "Change of the diameter of a ring's raceway under the pressure of its seat",
+    "2·p·q·d/[(1−q²)·E]",
+    "m",
+    shown="um",
+    signs="δ",
+    where=(
+        "An inner ring grows outside, an outer one shrinks inside, by the same formula. On a solid shaft of the "
+        "ring's steel that is q·δ."
+    ),
+    checked=(TUBE_RATIO,),
+    assumed="as of the contact pressure",
+    source="Lamé",
+)
+def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
+    """
+    >>> steel = Material("steel", 7800.0, 206e9, 0.3, 12e-6)
+    >>> ring = Tube(0.8, steel)
+    >>> round(1e6 * raceway_change(contact_pressure(10e-6, 0.080, Tube(0.0, steel), ring), 0.080, ring), 6)
+    8.0
+    """
+    return pressure * ring.hoop_under_pressure_outside * ring.ratio * diameter / ring.material.youngs_modulus
+
+
+@formula(
+    "Magnitude of the largest hoop stress in an outer ring, compression at its bore",
+    "2p/(1−q²)",
+    "Pa",
+    checked=(TUBE_RATIO, SEAT_DIAMETER),
+    assumed="as of the contact pressure",
+    source="Lamé",
+)
+def outer_ring_stress(interference: float, diameter: float, ring: Tube, housing: Tube) -> float:
+    return contact_pressure(interference, diameter, ring, housing) * ring.hoop_under_pressure_outside
+
+
+CENTRIFUGAL: Final = "centrifugal growth"
+WARMTH: Final = "temperature"
+MEASURED: Final = "measured"
+"""Name in place of a tolerance class if the limits are as measured."""
+_FOR_HALVES: Final = frozenset("FGHJ")
+
+
+class InterferenceBound(NamedTuple):
+    """A bound on the interference [m] and the criterion that sets it."""
+
+    value: float
+    by: str
+
+
+class InterferenceLoss(NamedTuple):
+    """Loss of interference in service [m], and its formula."""
+
+    name: str
+    value: float
+    formula: str
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One ring on its seat, with the limits of the ring; `losses` [m] only those that the input asks for.
+
+    Per interference: `pressure_rate` [Pa/m], `stress_rate` and `part_rate` hoop stress of the ring and of the part
+    [Pa/m], `raceway_rate` change of the raceway's diameter [1]; `part_strength` [Pa]. `maker`: the catalogue's classes
+    for this seat and load, None where it has none or C is not known; `split` of a housing in halves.
+    """
+
+    seat: Seat
+    tolerance_class: str
+    ring: Ring
+    ring_limits: DeviationLimits
+    radial_load: float | None
+    factor: float
+    losses: tuple[InterferenceLoss, ...]
+    pressure_rate: float
+    stress_rate: float
+    raceway_rate: float
+    part_rate: float
+    part_strength: float
+    measured: DeviationLimits | None = None
+    maker: MakerFits | None = None
+    split: bool = False
+
+    @property
+    def diameter(self) -> float:
+        """Nominal diameter of the seat [m]."""
+        return self.ring.diameter
+
+    @property
+    def length(self) -> float | None:
+        """Length of the seat between the chamfers [m]; None where they are not known."""
+        return self.ring.seat_length
+
+    def with_class(self, tolerance_class: str) -> "Joint":
+        """The same joint with its part to another tolerance class."""
+        return replace(self, tolerance_class=tolerance_class, measured=None)
+
+    @property
+    def fit_name(self) -> str:
+        """The tolerance class, or that the limits are measured."""
+        return MEASURED if self.measured else self.tolerance_class
+
+    @property
+    def told(self) -> str:
+        """The tolerance class in a sentence."""
+        return f"the measured {self.seat}" if self.measured else self.tolerance_class
+
+    @cached_property
+    def part(self) -> DeviationLimits:
+        """Limits of the shaft or housing."""
+        return self.measured or part_limits(self.seat, self.tolerance_class, self.diameter)
+
+    @cached_property
+    def male_and_female(self) -> tuple[DeviationLimits, DeviationLimits]:
+        """Limits of the part inside and of the part around it."""
+        return (self.part, self.ring_limits) if self.seat == "shaft" else (self.ring_limits, self.part)
+
+    @cached_property
+    def interference(self) -> Interval:
+        """Theoretical interference."""
+        return theoretical_interference(*self.male_and_female)
+
+    @cached_property
+    def mean(self) -> float:
+        """Interference [m] of the middles of both fields."""
+        male, female = self.male_and_female
+        return round(male.middle - female.middle, 12)
+
+    @cached_property
+    def clearance_probability(self) -> float:
+        """Probability that a pair is loose."""
+        return clearance_probability(*self.male_and_female)
+
+    @property
+    def must_grip(self) -> bool:
+        """True if the load turns round the ring, or may do so, and would make a loose ring creep."""
+        return self.ring.load != "stationary"
+
+    @property
+    def criteria(self) -> tuple[InterferenceBound, ...]:
+        """Interference that a ring under a rotating load needs by each rule, without losses.
+
+        Empty without load or seat length.
+        """
+        if self.radial_load is None or self.length is None:
+            return ()
+        return (
+            InterferenceBound(
+                creep_interference(self.radial_load, self.length, self.factor), "13·F_r·k_B/b_s (Afanasiev 2015)"
+            ),
+            InterferenceBound(
+                load_loss(self.radial_load, self.diameter, self.ring.width), "0.08·√(d·F_r/B) (bearing catalogues)"
+            ),
+        )
+
+    @cached_property
+    def required(self) -> InterferenceBound | None:
+        """The larger of the criteria with the losses given; None where there is no criterion.
+
+        A gain by temperature is not counted: the machine starts cold.
+        """
+        if not self.criteria:
+            return None
+        larger = max(self.criteria, key=lambda bound: bound.value)
+        return InterferenceBound(larger.value + sum(max(loss.value, 0.0) for loss in self.losses), larger.by)
+
+    @cached_property
+    def stress_limit(self) -> InterferenceBound:
+        """Largest interference that the ring and the part bear, by their hoop stresses."""
+        ring = InterferenceBound(PERMITTED_RING_STRESS / self.stress_rate, "hoop stress 400 MPa of the ring (Lamé)")
+        strength = f"{self.part_strength / 1e6:.0f} MPa"
+        part = InterferenceBound(
+            self.part_strength / self.part_rate, f"hoop stress {strength} of the {self.seat} (Lamé)"
+        )
+        return min(ring, part, key=lambda bound: bound.value)
+
+    @property
+    def permitted(self) -> InterferenceBound:
+        """The stress limit, or the d/1000 of the catalogues where that is less."""
+        catalogue = InterferenceBound(self.diameter / 1000, "d/1000 (bearing catalogues)")
+        return min(self.stress_limit, catalogue, key=lambda bound: bound.value)
+
+    @property
+    def tightest(self) -> float:
+        """The largest interference [m] of cold and of warm parts."""
+        return self.interference.largest - min(0.0, sum(loss.value for loss in self.losses if loss.name == WARMTH))
+
+    @property
+    def hoop_stress(self) -> float:
+        """Hoop stress [Pa] of the ring at the largest theoretical interference."""
+        return self.stress_rate * max(self.tightest, 0.0)
+
+    @property
+    def part_stress(self) -> float:
+        """Hoop stress [Pa] of the shaft or housing at the largest theoretical interference."""
+        return self.part_rate * max(self.tightest, 0.0)
+
+    @cached_property
+    def short(self) -> float | None:
+        """Share of pairs with less interference than the ring needs; None where that is not known."""
+        return None if self.required is None else probability_below(self.required.value, *self.male_and_female)
+
+    @cached_property
+    def grip(self) -> Grade:
+        """Grade of the interference: pass by the loosest pair, warn by the mean, else fail.
+
+        It is not-done without a load. Under an indeterminate load the maker's own class warns although its mean
+        falls short: the maker specifies it so.
+        """
+        if not self.must_grip:
+            return "pass"
+        if self.required is None:
+            return "not-done"
+        if self.interference.smallest >= self.required.value:
+            return "pass"
+        if self.mean >= self.required.value or self._as_the_maker_has_it:
+            return "warn"
+        return "fail"
+
+    @property
+    def _as_the_maker_has_it(self) -> bool:
+        if self.ring.load != "indeterminate" or self.maker is None:
+            return False
+        return self.mean >= self.with_class(self.maker.classes[0]).mean
+
+    @property
+    def stress(self) -> Grade:
+        """Grade of the tightest pair: fail by stress, warn above the catalogues' d/1000."""
+        if self.tightest > self.stress_limit.value:
+            return "fail"
+        return "pass" if self.tightest <= self.permitted.value else "warn"
+
+    @property
+    def pinched(self) -> bool:
+        """True if the halves of a split housing pinch the ring: a fit tighter than J."""
+        name = MEASURED if self.measured else self.tolerance_class
+        return self.split and self.interference.largest > 0 and name[0] not in _FOR_HALVES
+
+    @property
+    def holds(self) -> bool:
+        """True if neither interference nor stress fails, and no split housing pinches the ring."""
+        return self.grip != "fail" and self.stress != "fail" and not self.pinched
+
+    @property
+    def lasting_losses(self) -> float:
+        """Losses [m] that are there when the shaft starts to turn: all but the growth by speed and gains by warmth."""
+        return sum(max(loss.value, 0.0) for loss in self.losses if loss.name != CENTRIFUGAL)
+
+    @property
+    def mounted_losses(self) -> float:
+        """Interference [m] that smoothing and thermal effects take, or give, before the shaft turns."""
+        return sum(loss.value for loss in self.losses if loss.name != CENTRIFUGAL)

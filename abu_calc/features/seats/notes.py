@@ -1,0 +1,270 @@
+"""Notes beside the numbers of a seat: the list of losses, the source of advice, sorting.
+
+The handbooks' load intensity of a seat, and the field they allow at it: advice beside the makers'.
+
+Selective assembly: how many groups the parts are sorted into, which go together, how many pairs each gets.
+"""
+
+import math
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
+from abu_calc.features.seats.clearance import makers_classes
+from abu_calc.features.seats.interference import Interval
+from abu_calc.features.seats.joint import MEASURED, WARMTH, InterferenceLoss, Joint
+from abu_calc.features.seats.requirement import catalogue_smoothing_loss
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.units import from_si
+from abu_calc.standards.tables import toml_table
+from abu_calc.standards.tolerance_classes import SOURCE, DeviationLimits, Seat
+
+if TYPE_CHECKING:
+    from abu_calc.features.seats.advice import SeatAdvice
+
+SHOCK_FACTOR: Final = 1.8
+"""k₁ of the load intensity: strong shocks, overload to 300 %, taken always as the safe side (moderate ones: 1.0)."""
+
+
+@formula(
+    "Load intensity of a seat",
+    "P_R = k₁·k₂·k₃·F_r/b_s",
+    "N/m",
+    shown="kN_per_m",
+    where=("Unverified advice."),
+    checked=(SEAT_LENGTH,),
+    source="handbooks as quoted by Afanasiev 2015",
+)
+def load_intensity(load: float, seat_length: float) -> float:
+    """
+    >>> round(1e-3 * load_intensity(3000.0, 29e-3), 1)
+    186.2
+    """
+    return SHOCK_FACTOR * load / SEAT_LENGTH.check(seat_length)
+
+
+def advised_class(seat: Seat, diameter: float, intensity: float) -> str | None:
+    """The loosest class that handbook tables allow at a load intensity [N/m]; None outside the tables.
+
+    Range: shafts over 18 up to 630 mm, housings over 50 up to 1600 mm; unverified advice, never the only criterion.
+    Source: handbooks as quoted by Afanasiev 2015.
+
+    >>> advised_class("shaft", 0.080, 186.2e3), advised_class("housing", 0.140, 186.2e3)
+    ('js6', 'K7')
+    """
+    table = toml_table("load_intensity")[seat]
+    size = round(from_si(diameter, "mm"), 6)
+    for over, to, *limits in table["rows"]:
+        if over < size <= to:
+            pairs = zip(table["fields"], limits, strict=True)
+            return next((field for field, limit in pairs if from_si(intensity, "kN_per_m") <= limit), None)
+    return None
+
+
+MOST_GROUPS: Final = 12
+"""Groups that are listed: nobody sorts into more."""
+_NOISE: Final = 1e-12
+"""Lengths [m] below it are the rounding of conversions."""
+
+
+class Selection(NamedTuple):
+    """Number of groups, and the interference [m] that every pair of matched groups then keeps to."""
+
+    groups: int
+    interference: Interval
+
+
+class Group(NamedTuple):
+    """One group: limits [m] of the parts inside and around, which are matched by number, the interference of their
+    pairs, the share of all pairs that it gets."""
+
+    number: int
+    male: DeviationLimits
+    female: DeviationLimits
+    interference: Interval
+    share: float
+
+
+@formula(
+    "The fewest equal groups that bring every pair into the asked band, none when no number does",
+    signs="n_g T₁ T₂ ei es EI ES",
+    where=(
+        "Both fields are cut into n_g equal groups and matched by number. Group k then has ei − EI + k·(T₁−T₂)/n_g − "
+        "T₂/n_g at least and T₁/n_g + T₂/n_g more at most, so that over all groups least = min(ei − EI, es − ES) − "
+        "min(T₁, T₂)/n_g, most = max(ei − EI, es − ES) + min(T₁, T₂)/n_g and n_g ≥ min(T₁, T₂)/(min(…) − asked "
+        "least), n_g ≥ min(T₁, T₂)/(asked most − max(…)). However fine the groups, the spread stays above |T₁ − T₂|: "
+        "a narrower band, or one beside those middles, cannot be reached by sorting."
+    ),
+    assumed="limits about one nominal size",
+    source="derived from the limits of size",
+)
+def selective_groups(male: DeviationLimits, female: DeviationLimits, asked: Interval) -> Selection | None:
+    """
+    >>> found = selective_groups(DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0), Interval(10e-6, 28e-6))
+    >>> found.groups, round(1e6 * found.interference.smallest, 2), round(1e6 * found.interference.largest, 2)
+    (3, 12.0, 26.0)
+    """
+    ends = male.lower - female.lower, male.upper - female.upper
+    narrower = min(male.tolerance, female.tolerance)
+    groups = 1
+    for room in (min(ends) - asked.smallest, asked.largest - max(ends)):
+        if narrower <= _NOISE and room >= -_NOISE:
+            continue
+        if room <= _NOISE:
+            return None
+        groups = max(groups, math.ceil(narrower / room - 1e-9))
+    share = narrower / groups
+    return Selection(groups, Interval(min(ends) - share, max(ends) + share))
+
+
+def sorting_groups(male: DeviationLimits, female: DeviationLimits, count: int) -> tuple[Group, ...]:
+    """The groups of a selection, from the smallest parts to the largest; none where they are too many to sort.
+
+    Both sizes normal and centred, half a field = 3σ, parts outside their fields sorted out: matched groups of both
+    parts are then equally full.
+
+    >>> [round(100 * one.share) for one in sorting_groups(DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0), 3)]
+    [16, 68, 16]
+    """
+    if not 1 < count <= MOST_GROUPS:
+        return ()
+    groups = []
+    for i in range(count):
+        inside, around = _slice(male, i, count), _slice(female, i, count)
+        pair = Interval(inside.lower - around.upper, inside.upper - around.lower)
+        groups.append(Group(i + 1, inside, around, pair, _share(i, count)))
+    return tuple(groups)
+
+
+def _slice(field: DeviationLimits, index: int, count: int) -> DeviationLimits:
+    width = field.tolerance / count
+    return DeviationLimits(field.lower + index * width, field.lower + (index + 1) * width)
+
+
+def _share(index: int, count: int) -> float:
+    def below(place: float) -> float:
+        return math.erf((6 * place - 3) / math.sqrt(2))
+
+    return (below((index + 1) / count) - below(index / count)) / (2 * math.erf(3 / math.sqrt(2)))
+
+
+class Item(NamedTuple):
+    """An entry of the ledger of losses; `counted` in the required interference, or shown beside it."""
+
+    loss: InterferenceLoss
+    counted: bool
+
+
+def ledger(joint: Joint) -> tuple[Item, ...]:
+    """The load by both rules, of which the larger counts, then the losses given, each by its formula; gains by warmth
+    do not count."""
+    needs = joint.required.by if joint.required else None
+    items = [Item(InterferenceLoss("load", bound.value, bound.by), bound.by == needs) for bound in joint.criteria]
+    for loss in joint.losses:
+        items.append(Item(loss, loss.value > 0 or loss.name != WARMTH))
+        if loss.name == "smoothing":
+            value = catalogue_smoothing_loss(joint.interference.smallest, joint.diameter)
+            items.append(
+                Item(InterferenceLoss("smoothing", value, "δ·2/(d + 2) (bearing catalogues, unverified)"), False)
+            )
+    return tuple(items)
+
+
+def seat_notes(
+    bearing: SeatedBearing,
+    joint: Joint,
+    own: "SeatAdvice",
+    given: bool,
+    intensity: float | None,
+    asked: Interval | None,
+    selection: "Selection | None",
+) -> tuple[str, ...]:
+    """The notes of a seat, what concerns the bearing alike for both."""
+    return (
+        *_needs(joint),
+        *_load(bearing, joint, intensity),
+        *bearing.remarks,
+        *_advised(bearing, joint, own, given),
+        *_sorting(joint, asked, selection),
+    )
+
+
+def _needs(joint: Joint) -> tuple[str, ...]:
+    if not joint.must_grip or not joint.criteria:
+        return ()
+    needs = ", ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
+    return (f"A ring under a rotating load needs, losses aside: {needs}; the larger counts.",)
+
+
+def _load(bearing: SeatedBearing, joint: Joint, intensity: float | None) -> tuple[str, ...]:
+    if intensity is None:
+        return ()
+    static = bearing.ratings.static if bearing.ratings else 0.0
+    heavy = joint.must_grip and joint.radial_load is not None and 0 < static < 4 * joint.radial_load
+    field = advised_class(joint.seat, joint.diameter, intensity)
+    advice = f"handbook tables advise {field}" if field else "outside the handbook tables"
+    return (
+        f"k = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
+        f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m with strong shocks: {advice} (unverified advice).",
+        *(("The load is above a quarter of C0: catalogues then take 0.02·F_r/B for what it takes.",) if heavy else ()),
+    )
+
+
+def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: bool) -> tuple[str, ...]:
+    best = own.best.tolerance_class if own.best else None
+    notes = (
+        [] if given or best is None else [f"No fit of the {joint.seat} is given: {best}, the one to write, is judged."]
+    )
+    if joint.maker is not None and bearing.load_ratio is not None:
+        remark = f"; {joint.maker.note}" if joint.maker.note else ""
+        named = (*joint.maker.classes[1:], *joint.maker.special)
+        others = f", also {', '.join(named)}" if named else ""
+        notes.append(
+            f"{SOURCE}: {joint.maker.classes[0]}{others} for a {bearing.kind} bearing, P/C = {bearing.load_ratio:.2g}, "
+            f"load {joint.ring.load}, seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
+        )
+        if best not in (None, *joint.maker.classes, *joint.maker.special):
+            notes.append(f"{best} is written in place of {joint.maker.classes[0]}, whose grip or stress does not do.")
+    elif (usual := makers_classes(bearing, joint.seat)) is not None and best in usual.classes:
+        kind = bearing.kind or "ball"
+        what = "the load" if joint.radial_load is None else "C"
+        if not joint.must_grip or joint.required is None:
+            notes.append(
+                f"{what.capitalize()} is not known: {best} is {SOURCE}'s for a {kind} bearing under normal load."
+            )
+    if joint.fit_name == MEASURED:
+        notes.append(f"The limits of the {joint.seat} are as measured, the ring's are those of a new bearing.")
+    return tuple(notes)
+
+
+def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None") -> tuple[str, ...]:
+    if asked is None:
+        return ()
+    band = f"{from_si(asked.smallest, 'um'):g} … {from_si(asked.largest, 'um'):g} µm"
+    if selection is None:
+        male, female = joint.male_and_female
+        ends = sorted((male.lower - female.lower, male.upper - female.upper))
+        reach = " … ".join(f"{from_si(end, 'um'):g}" for end in ends)
+        return (
+            f"Sorting cannot keep {joint.fit_name} within {band}: however fine the groups, they spread over "
+            f"{reach} µm, the band must reach beyond both.",
+        )
+    if selection.groups == 1:
+        return (f"{joint.fit_name} keeps within {band} without sorting.",)
+    reached = (
+        f"{from_si(selection.interference.smallest, 'um'):.3g} … {from_si(selection.interference.largest, 'um'):.3g}"
+    )
+    return (
+        f"Selective assembly: sorted into {selection.groups} equal groups and matched by number, "
+        f"{joint.fit_name} keeps within {reached} µm (asked {band}){_after(joint, selection)}.",
+    )
+
+
+def _after(joint: Joint, selection: "Selection") -> str:
+    """The verdict on the pairs after sorting."""
+    if not joint.must_grip or joint.required is None:
+        return ""
+    least, needed = selection.interference.smallest, joint.required.value
+    if least >= needed:
+        return f": every pair holds, {from_si(needed, 'um'):.3g} µm are needed"
+    lack, all_of_it = from_si(needed - least, "um"), from_si(needed, "um")
+    return f": the loosest pairs still lack {lack:.2g} µm of the {all_of_it:.3g} needed"

@@ -1,0 +1,337 @@
+"""Bearing seats as results hold them: SI in, user units out; a seat is one ring on its shaft or in its housing.
+
+The parts of a bearing seat's result: losses, fields, groups, repair, creep, drawing, clearance; in user units.
+"""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
+
+from abu_calc.foundation.checks import Grade, worst
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si
+from abu_calc.standards.tolerance_classes import RingLoad, Seat
+
+if TYPE_CHECKING:
+    from abu_calc.features.seats.advice import Rejected
+    from abu_calc.features.seats.clearance import ClearanceLeft
+    from abu_calc.features.seats.drawing_requirements import SeatRepair, SeatRequirements
+    from abu_calc.features.seats.notes import Group, Item
+    from abu_calc.features.seats.seats import Admissible, BearingSeats, SeatFit
+
+Pair: TypeAlias = tuple[float, float]
+"""Lower and upper, or least and most."""
+
+
+def um(length: float) -> float:
+    """Micrometres, freed of the rounding of the conversion."""
+    return round(from_si(length, "um"), 6)
+
+
+def um_pair(pair: Pair) -> Pair:
+    """Limits or an interval in micrometres."""
+    return um(pair[0]), um(pair[1])
+
+
+def um_or_none(length: float | None) -> float | None:
+    """Micrometres of what may not be known."""
+    return None if length is None else um(length)
+
+
+@record
+class Loss(Record):
+    """Loss of interference: the load by both rules, of which the larger counts, then the losses given."""
+
+    name: Annotated[str, Quantity("by")]
+    amount_um: Annotated[float, Quantity("taken from the interference")]
+    formula: Annotated[str, Quantity("formula")]
+    counted: Annotated[bool, Quantity("counted in the required interference")]
+
+    @classmethod
+    def of(cls, item: "Item") -> Self:
+        """Record of an entry in the list of losses."""
+        loss = item.loss
+        return cls(name=loss.name, amount_um=um(loss.value), formula=loss.formula, counted=item.counted)
+
+
+@record
+class AdmissibleFit(Record):
+    """A tolerance class that neither creeps nor overstresses."""
+
+    fit: Annotated[str, Quantity("field")]
+    interference_um: Annotated[Pair, Quantity("interference", "", 4, "least and most, positive when tight")]
+    clearance_probability: Annotated[float, Quantity("probability of clearance", "", 3)]
+
+    @classmethod
+    def of(cls, fit: "Admissible") -> Self:
+        """Record of a tolerance class that passes."""
+        return cls(
+            fit=fit.fit, interference_um=um_pair(fit.interference), clearance_probability=fit.clearance_probability
+        )
+
+
+@record
+class RejectedFit(Record):
+    """A neighbour of the recommended field that will not do."""
+
+    fit: Annotated[str, Quantity("field")]
+    why: Annotated[str, Quantity("why not")]
+
+    @classmethod
+    def of(cls, fit: "Rejected") -> Self:
+        """Record of a tolerance class that fails."""
+        return cls(fit=fit.fit, why=fit.why)
+
+
+@record
+class SortingGroup(Record):
+    """A group of selective assembly: parts of one number are matched."""
+
+    number: Annotated[int, Quantity("group")]
+    part_limits_um: Annotated[Pair, Quantity("limits of the part")]
+    ring_limits_um: Annotated[Pair, Quantity("limits of the ring")]
+    interference_um: Annotated[Pair, Quantity("interference")]
+    pairs_of_100: Annotated[float, Quantity("pairs of a hundred", "", 3)]
+
+    @classmethod
+    def of(cls, group: "Group", seat: Seat) -> Self:
+        """Record of a group of a seat."""
+        part, ring = (group.male, group.female) if seat == "shaft" else (group.female, group.male)
+        return cls(
+            number=group.number,
+            part_limits_um=um_pair(part),
+            ring_limits_um=um_pair(ring),
+            interference_um=um_pair(group.interference),
+            pairs_of_100=100 * group.share,
+        )
+
+
+@record
+class Repair(Record):
+    """Interference left in a seat whose limits are measured, and the limits that a repair must restore."""
+
+    grip_left_um: Annotated[Pair, Quantity("grip left", "", 4, "losses taken off")]
+    restore_fit: Annotated[str, Quantity("field to restore")]
+    restore_limits_um: Annotated[Pair, Quantity("limits to restore")]
+    bonding_gap_um: Annotated[float, Quantity("gap that a bond must fill", "", 4, "of the loosest pair")]
+    next_seat_mm: Annotated[float | None, Quantity("seat of the next size")]
+    next_bearing: Annotated[str | None, Quantity("bearing of the next size")]
+
+    @classmethod
+    def of(cls, repair: "SeatRepair") -> Self:
+        """Record in user units."""
+        return cls(
+            grip_left_um=um_pair(repair.grip_left),
+            restore_fit=repair.restore,
+            restore_limits_um=um_pair(repair.limits),
+            bonding_gap_um=um(repair.gap),
+            next_seat_mm=None if repair.next_seat is None else round(from_si(repair.next_seat, "mm"), 6),
+            next_bearing=repair.next_bearing,
+        )
+
+
+@record
+class Creep(Record):
+    """Creep of the ring on its seat under its load, and its hold when the machine starts."""
+
+    ring_load: Annotated[RingLoad, Quantity("how the load meets the ring")]
+    verdict: Annotated[str, Quantity("verdict", "", 4, "holds (smallest), may creep (mean), creeps, …")]
+    why: Annotated[str, Quantity("why")]
+    probability: Annotated[float | None, Quantity("share of pairs with less interference than the ring needs", "", 3)]
+    friction_moment_N_m: Annotated[
+        Pair | None, Quantity("friction moment", "", 3, "of the least and of the least probable interference")
+    ]
+    holds_at_start: Annotated[bool | None, Quantity("holds the starting torque")]
+
+    @classmethod
+    def of(cls, seat: "SeatFit") -> Self:
+        """Record of a seat."""
+        creep = seat.creep
+        least, probable = creep.least_torque, creep.probable_torque
+        return cls(
+            ring_load=seat.joint.ring.load,
+            verdict=creep.verdict,
+            why=creep.why,
+            probability=creep.probability,
+            friction_moment_N_m=None if least is None or probable is None else (least, probable),
+            holds_at_start=creep.holds_at_start,
+        )
+
+
+@record
+class Requirements(Record):
+    """Requirements that the drawing of the seat must state."""
+
+    field: Annotated[str, Quantity("field")]
+    limits_um: Annotated[Pair, Quantity("limits of the field")]
+    roundness_um: Annotated[float, Quantity("roundness", "", 2)]
+    profile_um: Annotated[float, Quantity("longitudinal profile", "", 2)]
+    roughness_Ra_um: Annotated[float, Quantity("roughness", "Ra")]
+    shoulder_runout_grade: Annotated[str, Quantity("grade of the shoulder's runout")]
+    shoulder_runout_um: Annotated[float | None, Quantity("shoulder runout", "", 4, "None where it is not tabulated")]
+    hardness: Annotated[str, Quantity("hardness at least")]
+    source: Annotated[str, Quantity("source")]
+
+    @classmethod
+    def of(cls, asked: "SeatRequirements") -> Self:
+        """Record in user units."""
+        return cls(
+            field=asked.field,
+            limits_um=um_pair(asked.limits),
+            roundness_um=um(asked.form),
+            profile_um=um(asked.form),
+            roughness_Ra_um=um(asked.roughness),
+            shoulder_runout_grade=asked.shoulder_grade,
+            shoulder_runout_um=um_or_none(asked.shoulder_runout),
+            hardness=asked.hardness,
+            source=asked.source,
+        )
+
+
+@record
+class Clearance(Record):
+    """Radial clearance in the bearing; it belongs to both seats."""
+
+    group: Annotated[str, Quantity("group")]
+    initial_um: Annotated[Pair, Quantity("before mounting")]
+    mounted_um: Annotated[Pair, Quantity("after mounting, extreme")]
+    probable_um: Annotated[Pair, Quantity("after mounting, probable")]
+    mean_um: Annotated[float, Quantity("mean after mounting", "", 3)]
+    below_zero_probability: Annotated[float, Quantity("share of bearings without clearance", "", 3)]
+    by_temperature_um: Annotated[float, Quantity("taken by temperature", "", 3)]
+    group_to_choose: Annotated[str | None, Quantity("tightest group that will do")]
+
+    @classmethod
+    def of(cls, left: "ClearanceLeft") -> Self:
+        """Record in user units."""
+        return cls(
+            group=left.group,
+            initial_um=um_pair(left.initial),
+            mounted_um=um_pair(left.mounted),
+            probable_um=um_pair(left.probable),
+            mean_um=um(left.mean),
+            below_zero_probability=left.below_zero,
+            by_temperature_um=um(left.warmth),
+            group_to_choose=left.group_to_choose,
+        )
+
+
+@record
+class SeatResult(Record):
+    """One seat, judged; interference is positive when tight, limits count from the nominal size."""
+
+    name: Annotated[str, Quantity("bearing")]
+    seat: Annotated[Seat, Quantity("seat")]
+    fit: Annotated[str, Quantity("field", "", 4, "measured where limits are given in its place")]
+    fit_given: Annotated[bool, Quantity("whether a field is given, else the recommended one is judged")]
+    part_limits_um: Annotated[Pair, Quantity("limits of the part")]
+    ring_limits_um: Annotated[Pair, Quantity("limits of the ring")]
+    interference_um: Annotated[Pair, Quantity("interference", "", 4, "ei − ES … es − EI")]
+    probable_interference_um: Annotated[
+        Pair, Quantity("probable interference", "", 4, "mean ∓ √((T₁/2)² + (T₂/2)²), outward to whole µm")
+    ]
+    clearance_probability: Annotated[float, Quantity("probability of clearance", "Φ(−mean/σ)")]
+    clearance_probability_truncated: Annotated[
+        float, Quantity("probability of clearance, parts outside their fields sorted out")
+    ]
+    required_interference_um: Annotated[
+        float | None, Quantity("required interference", "", 4, "of a ring under a rotating load, losses included")
+    ]
+    required_by: Annotated[str | None, Quantity("criterion of the required interference")]
+    losses_um: Annotated[Mapping[str, float], Quantity("losses counted beside the load")]
+    losses: tuple[Loss, ...]
+    permitted_interference_um: Annotated[float, Quantity("permitted interference")]
+    permitted_by: Annotated[str, Quantity("criterion of the permitted interference")]
+    hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "", 4, "of the ring at the largest interference")]
+    part_stress_MPa: Annotated[float, Quantity("hoop stress of the part", "", 4, "at the largest interference")]
+    load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "the radial load for P")]
+    maker_fits: Annotated[tuple[str, ...], Quantity("the makers' fields", "", 4, "the first is the usual one")]
+    recommended_fit: Annotated[str | None, Quantity("recommended field")]
+    recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
+    rejected_fits: tuple[RejectedFit, ...]
+    admissible_fits: tuple[AdmissibleFit, ...]
+    load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
+    creep: Creep
+    requirements: Requirements
+    asked_interference_um: Annotated[Pair | None, Quantity("interference asked of every pair")]
+    selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n_g")]
+    selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
+    sorting_groups: tuple[SortingGroup, ...]
+    repair: Repair | None
+    notes: Annotated[tuple[str, ...], Quantity("notes")]
+    internal_clearance: Clearance | None
+    bearing_verdict: Annotated[Grade, Quantity("verdict", "", 4, "the worst check of the bearing")]
+    diameter_mm: Annotated[float, Quantity("diameter of the seat", "d")]
+    ring_width_mm: Annotated[float, Quantity("width of the ring", "B")]
+    chamfer_mm: Annotated[float | None, Quantity("chamfer of the ring", "r_s")]
+
+    @property
+    def tightest_um(self) -> float:
+        """The largest interference; 0 where even that is clearance."""
+        return max(self.interference_um[1], 0.0)
+
+    @property
+    def needs_no_grip(self) -> bool:
+        """True if the load of the ring is fixed in direction."""
+        return self.creep.ring_load == "stationary"
+
+    @property
+    def needed_um(self) -> float | None:
+        """The required interference of a ring that must grip; none of another."""
+        return None if self.needs_no_grip else self.required_interference_um
+
+    @property
+    def needed_by(self) -> str | None:
+        """The criterion of the interference that is needed."""
+        return None if self.needs_no_grip else self.required_by
+
+    @classmethod
+    def of(cls, seat: "SeatFit", bearing: "BearingSeats", clearance: Clearance | None) -> Self:
+        """Record of a seat of a bearing, in user units; `clearance`: the clearance left in the bearing."""
+        intensity, sorted_out, maker = seat.load_intensity, seat.selection, seat.joint.maker
+        ring = seat.joint.ring
+        return cls(
+            name=seat.name,
+            seat=seat.seat,
+            fit=seat.fit,
+            fit_given=seat.given,
+            part_limits_um=um_pair(seat.part_limits),
+            ring_limits_um=um_pair(seat.ring_limits),
+            interference_um=um_pair(seat.interference),
+            probable_interference_um=um_pair(seat.probable_interference),
+            clearance_probability=seat.clearance_probability,
+            clearance_probability_truncated=seat.truncated_probability,
+            required_interference_um=um_or_none(seat.required_interference),
+            required_by=seat.required_by,
+            losses_um={loss.name: um(loss.value) for loss in seat.losses},
+            losses=tuple(map(Loss.of, seat.ledger)),
+            permitted_interference_um=um(seat.permitted_interference),
+            permitted_by=seat.permitted_by,
+            hoop_stress_MPa=from_si(seat.hoop_stress, "MPa"),
+            part_stress_MPa=from_si(seat.joint.part_stress, "MPa"),
+            load_ratio=bearing.bearing.load_ratio,
+            maker_fits=(*maker.classes, *maker.special) if maker else (),
+            recommended_fit=seat.recommended_fit,
+            recommended_clearance=bearing.group_to_order,
+            rejected_fits=tuple(map(RejectedFit.of, seat.rejected)),
+            admissible_fits=tuple(map(AdmissibleFit.of, seat.admissible)),
+            load_intensity_kN_per_m=None if intensity is None else from_si(intensity, "kN_per_m"),
+            creep=Creep.of(seat),
+            requirements=Requirements.of(seat.requirements),
+            asked_interference_um=None if seat.asked is None else um_pair(seat.asked),
+            selective_groups=sorted_out.groups if sorted_out else None,
+            selective_interference_um=um_pair(sorted_out.interference) if sorted_out else None,
+            sorting_groups=tuple(SortingGroup.of(group, seat.seat) for group in seat.groups),
+            repair=Repair.of(seat.repair) if seat.repair else None,
+            notes=seat.notes,
+            internal_clearance=clearance,
+            bearing_verdict=worst(bearing.checks),
+            diameter_mm=from_si(ring.diameter, "mm"),
+            ring_width_mm=from_si(ring.width, "mm"),
+            chamfer_mm=None if ring.chamfer is None else from_si(ring.chamfer, "mm"),
+        )
+
+
+def seat_results(bearing: "BearingSeats") -> tuple[SeatResult, SeatResult]:
+    """Both seats of a bearing, shaft first; the clearance left in the bearing stands in both."""
+    left = None if bearing.clearance is None else Clearance.of(bearing.clearance)
+    return SeatResult.of(bearing.shaft, bearing, left), SeatResult.of(bearing.housing, bearing, left)

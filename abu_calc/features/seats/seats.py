@@ -1,0 +1,277 @@
+"""The bearings of a file judged one after another; what is refused of one names its table, and its key if known.
+
+Both seats of a bearing, judged: what `abu check-fit` prints.
+
+What few bearings ask for is imported when one does.
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from abu_calc.features.seats.advice import Rejected, SeatAdvice, Start, admissible, advice
+from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.checks import clearance_checks, seat_checks, start_checks
+from abu_calc.features.seats.clearance import housing_joint, shaft_joint
+from abu_calc.features.seats.creep import CreepJudgement, creep
+from abu_calc.features.seats.drawing_requirements import SeatRequirements, seat_requirements
+from abu_calc.features.seats.interference import Interval, probable_interference, truncated_clearance_probability
+from abu_calc.features.seats.joint import InterferenceLoss, Joint
+from abu_calc.features.seats.lookup import from_table
+from abu_calc.features.seats.notes import Item, ledger, load_intensity, seat_notes
+from abu_calc.foundation.checks import Check
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.units import SI_PER_UNIT
+from abu_calc.standards.tolerance_classes import DeviationLimits, Seat
+
+if TYPE_CHECKING:
+    from abu_calc.features.seats.clearance import ClearanceLeft
+    from abu_calc.features.seats.drawing_requirements import SeatRepair
+    from abu_calc.features.seats.notes import Group, Selection
+    from abu_calc.inputs.rolling_bearing import Bearing as BearingTable
+
+
+class Admissible(NamedTuple):
+    """A tolerance class that neither creeps nor overstresses, its interference [m] and probability of clearance."""
+
+    fit: str
+    interference: Interval
+    clearance_probability: float
+
+
+class SeatFit(NamedTuple):
+    """One seat: lengths and interferences [m], stress [Pa], load intensity [N/m]; null where a check or note says why.
+
+    `required_interference` is that of a ring under a rotating load; a ring under a load fixed in direction is not held
+    to it. `losses` are those included in it beside the load, `ledger` all that are known, counted or not; `groups`
+    those of the `selection`; `repair` of a seat whose limits are measured.
+    """
+
+    name: str
+    joint: Joint
+    given: bool
+    probable_interference: Interval
+    truncated_probability: float
+    ledger: tuple[Item, ...]
+    advice: SeatAdvice
+    admissible: tuple[Admissible, ...]
+    load_intensity: float | None
+    creep: CreepJudgement
+    requirements: SeatRequirements
+    asked: Interval | None
+    selection: "Selection | None"
+    groups: "tuple[Group, ...]"
+    repair: "SeatRepair | None"
+    notes: tuple[str, ...]
+    checks: tuple[Check, ...]
+
+    @property
+    def seat(self) -> Seat:
+        """Shaft or housing."""
+        return self.joint.seat
+
+    @property
+    def fit(self) -> str:
+        """Tolerance class of the part, or that its limits are measured."""
+        return self.joint.fit_name
+
+    @property
+    def part_limits(self) -> DeviationLimits:
+        """Limits of the shaft or housing."""
+        return self.joint.part
+
+    @property
+    def ring_limits(self) -> DeviationLimits:
+        """Limits of the ring."""
+        return self.joint.ring_limits
+
+    @property
+    def interference(self) -> Interval:
+        """Theoretical interference."""
+        return self.joint.interference
+
+    @property
+    def clearance_probability(self) -> float:
+        """Probability that a pair is loose."""
+        return self.joint.clearance_probability
+
+    @property
+    def required_interference(self) -> float | None:
+        """Interference that a ring needs under a rotating load, losses included."""
+        return self.joint.required.value if self.joint.required else None
+
+    @property
+    def required_by(self) -> str | None:
+        """The criterion that sets it."""
+        return self.joint.required.by if self.joint.required else None
+
+    @property
+    def losses(self) -> tuple[InterferenceLoss, ...]:
+        """Losses the input asks for, the load aside."""
+        return self.joint.losses
+
+    @property
+    def permitted_interference(self) -> float:
+        """Largest interference that ring and bearing bear."""
+        return self.joint.permitted.value
+
+    @property
+    def permitted_by(self) -> str:
+        """The criterion that sets it."""
+        return self.joint.permitted.by
+
+    @property
+    def hoop_stress(self) -> float:
+        """Hoop stress of the ring at the largest interference, cold or warm."""
+        return self.joint.hoop_stress
+
+    @property
+    def recommended_fit(self) -> str | None:
+        """The class to write."""
+        return self.advice.best.tolerance_class if self.advice.best else None
+
+    @property
+    def rejected(self) -> "tuple[Rejected, ...]":
+        """The next looser and the next tighter class that will not do, and why."""
+        return self.advice.rejected
+
+
+class BearingSeats(NamedTuple):
+    """A bearing's seats, shaft first, the clearance left in it, the group of clearance to order with the advice."""
+
+    bearing: SeatedBearing
+    shaft: SeatFit
+    housing: SeatFit
+    clearance: "ClearanceLeft | None" = None
+    group_to_order: str | None = None
+
+    @property
+    def seats(self) -> tuple[SeatFit, SeatFit]:
+        """Shaft, housing."""
+        return self.shaft, self.housing
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The checks of both seats and of the clearance."""
+        return self.shaft.checks + self.housing.checks + clearance_checks(self.bearing.name, self.clearance)
+
+
+def seat_bearing(table: "BearingTable") -> BearingSeats:
+    """Judge the seats of the bearing that a `[[bearing]]` table describes.
+
+    InputError or RangeError: unknown designation, tolerance class or accuracy class, a size outside their tables.
+    """
+    return judge(from_table(table))
+
+
+def judge(bearing: SeatedBearing) -> BearingSeats:
+    """Judge both seats of a bearing; one without a fit is judged with the field advised.
+
+    A band asked for is meant for the rings that must grip, else for both.
+    """
+    given = shaft_joint(bearing), housing_joint(bearing)
+    recommendation = advice(bearing, *given)
+    open_seats = [part.fit is None and part.measured is None for part in (bearing.shaft, bearing.housing)]
+    joints = [
+        own.best if unsaid and own.best else joint
+        for joint, own, unsaid in zip(given, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
+    ]
+    asked_of = [joint for joint in joints if joint.must_grip] or joints
+    asked = None if bearing.asked_interference is None else Interval(*bearing.asked_interference)
+    shaft, housing = (
+        _seat_fit(bearing, joint, own, not unsaid, asked if joint in asked_of else None)
+        for joint, own, unsaid in zip(joints, (recommendation.shaft, recommendation.housing), open_seats, strict=True)
+    )
+    return BearingSeats(bearing, shaft, housing, _clearance(bearing, *joints), recommendation.group)
+
+
+def _clearance(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> "ClearanceLeft | None":
+    if bearing.internal_clearance is None:
+        return None
+    from abu_calc.features.seats.clearance import clearance_left
+
+    return clearance_left(bearing.internal_clearance, bearing, shaft, housing)
+
+
+def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool, asked: Interval | None) -> SeatFit:
+    start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
+    creep_result = creep(joint, *start)
+    recommended = own.best.tolerance_class if own.best else None
+    intensity = None
+    if joint.radial_load is not None and joint.length is not None:
+        intensity = load_intensity(joint.radial_load, joint.length)
+    selection, groups = _sorting(joint, asked)
+    wanted = recommended or joint.tolerance_class
+    return SeatFit(
+        name=bearing.name,
+        joint=joint,
+        given=given,
+        probable_interference=probable_interference(*joint.male_and_female),
+        truncated_probability=truncated_clearance_probability(*joint.male_and_female),
+        ledger=ledger(joint),
+        advice=own,
+        admissible=tuple(
+            Admissible(candidate.tolerance_class, candidate.interference, candidate.clearance_probability)
+            for candidate in admissible(joint, start, own.best)
+        ),
+        load_intensity=intensity,
+        creep=creep_result,
+        requirements=seat_requirements(joint, wanted, bearing.bearing_class),
+        asked=asked,
+        selection=selection,
+        groups=groups,
+        repair=_repair(bearing, joint, wanted),
+        notes=seat_notes(bearing, joint, own, given, intensity, asked, selection),
+        checks=seat_checks(bearing, joint, recommended)
+        + start_checks(bearing.name, joint, creep_result, bearing.service.starting_torque, recommended),
+    )
+
+
+def _sorting(joint: Joint, asked: Interval | None) -> "tuple[Selection | None, tuple[Group, ...]]":
+    if asked is None:
+        return None, ()
+    from abu_calc.features.seats.notes import selective_groups, sorting_groups
+
+    selection = selective_groups(*joint.male_and_female, asked)
+    return selection, sorting_groups(*joint.male_and_female, selection.groups) if selection else ()
+
+
+def _repair(bearing: SeatedBearing, joint: Joint, advised: str) -> "SeatRepair | None":
+    """Repair to the drawing's tolerance class; to the advised one if the drawing gives none.
+
+    None if no limits are measured.
+    """
+    if joint.measured is None:
+        return None
+    from abu_calc.features.seats.drawing_requirements import seat_repair
+
+    part = bearing.shaft if joint.seat == "shaft" else bearing.housing
+    return seat_repair(joint, part.fit or advised, bearing.designation)
+
+
+def seat_bearings(tables: "Sequence[BearingTable]") -> tuple[BearingSeats, ...]:
+    """Judge the seats of the tables `[[bearing]]`, in their order. Raises InputError, `bearing[0].shaft_fit`."""
+    return tuple(_seated(index, table) for index, table in enumerate(tables))
+
+
+def _seated(index: int, table: "BearingTable") -> BearingSeats:
+    try:
+        return seat_bearing(table)
+    except InputError as error:
+        key = error.place.key or _key_of(table, error.found or "")
+        raise error.at(Place(key=f"bearing[{index}].{key}" if key else f"bearing[{index}]")) from None
+
+
+def _key_of(table: "BearingTable", shown_value: str) -> str | None:
+    """The key whose value a message shows, in the unit of the key or in SI: formulas know quantities, not keys."""
+    fields = type(table).model_fields
+    given = {key: getattr(table, key) for key in fields if key != "name"}
+    shown = {key: _as_shown(key, value) for key, value in given.items() if value is not None}
+    number = shown_value.split(" ")[0]
+    return next((key for key, texts in shown.items() if shown_value in texts or number in texts), None)
+
+
+def _as_shown(key: str, value: object) -> tuple[str, ...]:
+    if not isinstance(value, (int, float)):
+        return (str(value),)
+    sizes = (SI_PER_UNIT[unit] for unit in SI_PER_UNIT if key.endswith(f"_{unit}"))
+    return (f"{value:g}", *(f"{value * size:g}" for size in sizes))

@@ -1,0 +1,400 @@
+"""The whole report of `abu check-fit` on one bearing after another.
+
+Bearing seats as blocks: both seats of a bearing side by side.
+
+Advice on bearing seats in words: drawing entries, orders, repair and sorting.
+
+The zones of both seats as the textbook draws them, in plain characters that every console has.
+
+The report of `abu check-fit` on one screen: what to write first, then each seat in a line.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Final, TypeAlias
+
+from abu_calc.features.seats.interference import of_all
+from abu_calc.features.seats.records import Clearance, Pair, Repair, Requirements, SeatResult
+from abu_calc.features.seats.study import CheckFitResult
+from abu_calc.foundation.errors import shortened
+from abu_calc.foundation.quantity import quantities
+from abu_calc.foundation.units import unit_of
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
+from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
+from abu_calc.reporting.screen import BLANK, cut, one_screen, verdict_line
+
+Seats: TypeAlias = tuple[SeatResult, SeatResult]
+"""Seats of one bearing: shaft, housing."""
+
+ROWS: Final = (
+    "part_limits_um",
+    "ring_limits_um",
+    "interference_um",
+    "probable_interference_um",
+    "clearance_probability",
+    "clearance_probability_truncated",
+    "required_interference_um",
+    "required_by",
+    "permitted_interference_um",
+    "permitted_by",
+    "hoop_stress_MPa",
+    "part_stress_MPa",
+    "load_ratio",
+    "recommended_fit",
+    "recommended_clearance",
+)
+BELOW: Final = {
+    "clearance_probability_truncated": "  fields kept by sorting out",
+    "required_by": "  by",
+    "permitted_by": "  by",
+    "part_stress_MPa": "  of the part, MPa",
+}
+"""Rows that belong to the one above them."""
+SHOWN: Final = {"required_interference_um": "needed_um", "required_by": "needed_by"}
+"""A ring that needs no interference shows none."""
+CONVENTION = (
+    "Interference is positive when tight, negative when loose; limits from the nominal size, lower … upper. Probable "
+    "interference: mean ∓ root of the sum of squared half tolerances, outward to whole µm. Parts: ISO 286-2:2010, "
+    "rings: ISO 492 / GOST 520."
+)
+
+
+def by_bearing(seats: Sequence[SeatResult]) -> Iterator[Seats]:
+    """Shaft and housing of one bearing after another."""
+    return zip(seats[::2], seats[1::2], strict=True)
+
+
+def fit_blocks(seats: Sequence[SeatResult]) -> tuple[Block, ...]:
+    """A table a bearing: shaft and housing side by side, notes below."""
+    blocks: list[Block] = []
+    for pair in by_bearing(seats):
+        blocks += [Heading(f"Bearing seats: {pair[0].name}"), fit_grid(pair), *note_blocks(pair)]
+    return (*blocks, Paragraph(CONVENTION))
+
+
+def fit_grid(pair: Seats) -> Grid:
+    """The numbers of both seats side by side."""
+    shaft, housing = pair
+    rows = tuple((_label(name), *(_cell(getattr(seat, SHOWN.get(name, name)), name) for seat in pair)) for name in ROWS)
+    return Grid(("", f"shaft {shaft.fit}", f"housing {housing.fit}"), rows)
+
+
+def note_blocks(pair: Seats) -> list[Block]:
+    """The notes of both seats, each once, with its seat where they differ."""
+    blocks: list[Block] = []
+    for note in dict.fromkeys(note for seat in pair for note in seat.notes):
+        homes = [seat.seat for seat in pair if note in seat.notes]
+        blocks.append(Paragraph(note if len(homes) == 2 else f"{homes[0].capitalize()}: {note}"))
+    return blocks
+
+
+def _label(name: str) -> str:
+    if name in BELOW:
+        return BELOW[name]
+    label, unit = quantities(SeatResult)[name].label, unit_of(name)
+    return f"{label}, {unit}" if unit else label
+
+
+def _cell(value: tuple[float, float] | float | str | None, name: str) -> str:
+    if isinstance(value, float) and "probability" in name:
+        return of_all(value).removesuffix(" pairs")
+    if isinstance(value, tuple):
+        return " … ".join(f"{each:g}" for each in value)
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    # The source of a criterion stands in the notes and in JSON.
+    return "–" if value is None else value.partition(" (")[0]
+
+
+NAME = 22
+"""Signs of a bearing's name in a table: more would be wrapped, and a wrapped name may look like a verdict."""
+VERDICTS = {"pass": "PASS", "warn": "PASS, warning", "fail": "FAIL", "not-done": "NOT DONE"}
+
+
+def advice_lines(pair: Seats) -> list[Paragraph]:
+    """The fields to write with the clearance to order, then the nearest ones that will not do."""
+    shaft, housing = pair
+    if shaft.recommended_fit is None and housing.recommended_fit is None:
+        return [Paragraph("No tabulated field both grips and is borne.")]
+    fits = [f"{seat.seat} {seat.recommended_fit}" for seat in pair if seat.recommended_fit]
+    none = [f" No tabulated field of the {seat.seat} will do." for seat in pair if not seat.recommended_fit]
+    lines = [Paragraph(f"Write {', '.join([*fits, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
+    wrong = [f"{rejected.fit}: {rejected.why}" for seat in pair for rejected in seat.rejected_fits]
+    return [*lines, Paragraph(f"Not {'; not '.join(wrong)}.")] if wrong else lines
+
+
+def bearing_table(pairs: Sequence[Seats]) -> Grid:
+    """A line a bearing: its fits, the verdict, the advice."""
+    rows = tuple(
+        (shortened(shaft.name, NAME), shaft.fit, housing.fit, VERDICTS[shaft.bearing_verdict], _short(shaft, housing))
+        for shaft, housing in pairs
+    )
+    return Grid(("bearing", "shaft", "housing", "verdict", "write"), rows)
+
+
+def repair_lines(pair: Seats) -> list[Block]:
+    """Lines on the interference left in measured seats, and on the limits that a repair must restore."""
+    return [
+        Paragraph(f"{seat.seat.capitalize()} as measured: {_repair(seat, seat.repair)}") for seat in pair if seat.repair
+    ]
+
+
+def sorting_blocks(pair: Seats) -> list[Block]:
+    """The groups of selective assembly for the bench."""
+    blocks: list[Block] = []
+    for seat in pair:
+        if not seat.sorting_groups:
+            continue
+        ring = "bore" if seat.seat == "shaft" else "outer ring"
+        rows = tuple(
+            (str(group.number), _span(group.part_limits_um), _span(group.ring_limits_um), _span(group.interference_um),
+             f"{group.pairs_of_100:.3g}")
+            for group in seat.sorting_groups
+        )  # fmt: skip
+        header = ("group", f"{seat.seat}, µm", f"{ring}, µm", "tight by, µm", "pairs of 100")
+        blocks += [
+            Heading(f"Sorting of {seat.name}: parts of one group go together"),
+            Grid(header, rows, frozenset({4})),
+        ]
+    return blocks
+
+
+def _repair(seat: SeatResult, fix: Repair) -> str:
+    (low, high), (least, most) = fix.grip_left_um, fix.restore_limits_um
+    needed = "" if seat.needed_um is None else f", {seat.needed_um:.3g} needed"
+    if least <= seat.part_limits_um[0] and seat.part_limits_um[1] <= most:
+        return f"grip left {low:.3g} … {high:.3g} µm{needed}; within {fix.restore_fit}, no repair is needed."
+    bond = f" a bond must fill {fix.bonding_gap_um:.3g} µm;" if fix.bonding_gap_um > 0 else ""
+    next_size = ""
+    if fix.next_bearing is not None:
+        how, other = ("turn down", "housing") if seat.seat == "shaft" else ("bore out", "shaft")
+        next_size = f" or {how} to {fix.next_seat_mm:g} mm for {fix.next_bearing}, with its own size in the {other}"
+    return (
+        f"grip left {low:.3g} … {high:.3g} µm{needed}. To bring it back to {fix.restore_fit}, finish a sleeve or "
+        f"sprayed metal to {least:+g} … {most:+g} µm;{bond}{next_size or ' the next size is not tabulated'}."
+    )
+
+
+def _short(shaft: SeatResult, housing: SeatResult) -> str:
+    fits = f"{shaft.recommended_fit or '–'}/{housing.recommended_fit or '–'}"
+    return ", ".join([fits, *([shaft.recommended_clearance] if shaft.recommended_clearance else [])])
+
+
+def _order(shaft: SeatResult) -> list[str]:
+    left, group = shaft.internal_clearance, shaft.recommended_clearance
+    if group is None:
+        return ["no tabulated clearance keeps it"] if left else []
+    return [f"clearance {group}{f' in place of {left.group}' if left and left.group != group else ''}"]
+
+
+def _ratio(shaft: SeatResult) -> str:
+    return "" if shaft.load_ratio is None else f" (P/C = {shaft.load_ratio:.2g})"
+
+
+def _span(interval: tuple[float, float]) -> str:
+    return " … ".join(f"{round(each, 2):g}" for each in interval)
+
+
+ROWS_WANTED: Final = 14
+STEPS: Final = (1, 2, 5, 10, 20, 50, 100, 200, 500)
+RING, PART = "/", "#"
+WIDTH: Final = 26
+"""Columns of one seat: with the scale both take 60."""
+
+
+def zone_lines(shaft: SeatResult, housing: SeatResult) -> list[str]:
+    """Zero line, ring zone and part zone of both seats over one scale in µm; a row is a step of the scale."""
+    seats = [(each.ring_limits_um, each.part_limits_um, each.fit) for each in (shaft, housing)]
+    deviations = [0.0, *(limit for ring, part, _ in seats for limit in (*ring, *part))]
+    low, high = min(deviations), max(deviations)
+    step = next((division for division in STEPS if (high - low) / division <= ROWS_WANTED), STEPS[-1])
+    top, bottom = math.ceil(high / step), math.floor(low / step)
+    lines = [f"{'um':>5} |{'shaft':^{WIDTH}}{'housing':^{WIDTH}}".rstrip()]
+    for row in range(top - 1, bottom - 1, -1):
+        cells = "".join(_zone_cell(row, step, *seat) for seat in seats)
+        label = row + 1 if row >= 0 else row
+        lines.append(f"{label * step:+5} |{cells}".rstrip())
+        if row == 0 or (row == top - 1 and top == 0):
+            lines.append(f"{0:5} +{'-' * (2 * WIDTH - 2)}")
+    if top == 0:
+        lines.insert(1, lines.pop(2))
+    return lines
+
+
+def legend() -> str:
+    """Legend of the characters."""
+    return (
+        f"{RING * 3} zone of the ring, {PART * 3} zone of the shaft or housing, --- zero line (nominal size); "
+        "deviations in µm, upper limit above, lower below. A shaft is tight where it stands above its ring, a housing "
+        "where it stands below."
+    )
+
+
+def _zone_cell(row: int, step: int, ring: Pair, part: Pair, fit: str) -> str:
+    """One row of one seat: both zones side by side, each with its limits and its name."""
+    return f"  {_zone(row, step, ring, RING, 'ring')}{_zone(row, step, part, PART, fit)}".ljust(WIDTH)
+
+
+def _zone(row: int, step: int, limits: Pair, mark: str, name: str) -> str:
+    lower, upper = limits
+    rows = [
+        tick for tick in range(math.floor(lower / step), math.ceil(upper / step)) if lower < (tick + 0.5) * step < upper
+    ]
+    rows = rows or [math.floor((lower + upper) / 2 / step)]
+    bar = mark * 5
+    if len(rows) > 2 and row == rows[len(rows) // 2]:
+        bar = name[:5].center(5, mark)
+    limit = f"{upper:+g}" if row == rows[-1] else f"{lower:+g}" if row == rows[0] else ""
+    if len(rows) == 1:
+        limit = f"{lower:+g}{upper:+g}"
+    return f"{bar if row in rows else '':5} {limit if row in rows else '':6}"
+
+
+SIGN = (
+    "Tight by: interference from the loosest to the tightest pair, negative when loose; at least what the ring needs, "
+    "at most what is permitted."
+)
+MOST_LINES: Final = 24
+"""Most lines of the table of several bearings; the whole report has the rest."""
+
+
+def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
+    """The one screen: of one bearing the advice and its seats, of several a table of them all."""
+    pairs = list(by_bearing(result.seats))
+    about: list[Block] = [Heading(f"Bearing seats: {result.title}"), verdict_line(result)]
+    if len(pairs) > 1:
+        about += [BLANK, *cut([bearing_table(pairs)], MOST_LINES)]
+    else:
+        about += [line for pair in pairs for line in advice_lines(pair)]
+    header = ("bearing", "seat", "field", "tight by, µm", "at least", "at most", "write")
+    body: list[Block] = [Grid(header, tuple(map(_row, result.seats)), frozenset({4, 5})), Paragraph(SIGN)]
+    for pair in pairs:
+        body += [*repair_lines(pair), *sorting_blocks(pair)]
+    return one_screen(result, about, body, ("--explain, every formula with its numbers",))
+
+
+def _row(seat: SeatResult) -> tuple[str, ...]:
+    low, high = seat.interference_um
+    needed = "no grip" if seat.needs_no_grip else _um(seat.required_interference_um)
+    return (
+        shortened(seat.name, NAME) if seat.seat == "shaft" else "", seat.seat, seat.fit, f"{low:.4g} … {high:.4g}",
+        needed, _um(seat.permitted_interference_um), seat.recommended_fit or "–",
+    )  # fmt: skip
+
+
+def _um(value: float | None) -> str:
+    return "–" if value is None else number(value, 3)
+
+
+MOST_FITS: Final = 5
+"""Admissible fields shown a seat; JSON has all."""
+MARKS: Final = {"holds": "pass", "creeps": "fail", "may creep": "warn", "not known": "not-done"}
+AT_START: Final = {True: ", above the starting torque", False: ", below the starting torque", None: ""}
+
+
+def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
+    """Every bearing, then checks, warnings, defaults and where it all comes from."""
+    pairs = list(by_bearing(result.seats))
+    table: list[Block] = [Paragraph(""), bearing_table(pairs)] if len(pairs) > 1 else []
+    return (
+        Heading(result.title),
+        verdict_line(result),
+        *table,
+        *(block for pair in pairs for block in _bearing(pair)),
+        Paragraph(CONVENTION),
+        *check_blocks(result.checks),
+        *notices(result),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def _bearing(pair: Seats) -> list[Block]:
+    """Verdict, zones, numbers, losses, fields to choose from, drawing, notes of one bearing."""
+    return [
+        Heading(f"Bearing seats: {pair[0].name}"),
+        *map(_verdict, pair),
+        *advice_lines(pair),
+        *repair_lines(pair),
+        Paragraph(""),
+        Picture(tuple(zone_lines(*pair)), legend(), indent=2),
+        Paragraph(""),
+        fit_grid(pair),
+        *_clearance(pair[0].internal_clearance),
+        *_losses(pair),
+        *_fits(pair),
+        *sorting_blocks(pair),
+        *_drawing(pair),
+        Heading("Notes"),
+        *note_blocks(pair),
+    ]
+
+
+def _verdict(seat: SeatResult) -> Paragraph:
+    ring, creep = ("Inner ring" if seat.seat == "shaft" else "Outer ring"), seat.creep
+    write = f"Write {seat.recommended_fit}." if seat.recommended_fit else "No tabulated field grips and is borne."
+    start = ""
+    if creep.friction_moment_N_m:
+        least, probable = creep.friction_moment_N_m
+        start = f" Friction torque {least:.3g} N·m, probably {probable:.3g}{AT_START[creep.holds_at_start]}."
+    text = f"{ring} on {seat.fit}: {creep.verdict} ({creep.why}). {write}{start}"
+    return Paragraph(text, MARKS.get(creep.verdict))
+
+
+def _clearance(left: Clearance | None) -> list[Block]:
+    if left is None:
+        return []
+    rows = (
+        (f"of group {left.group}, before", _span_text(left.initial_um)),
+        ("after mounting, extreme", _span_text(left.mounted_um)),
+        ("after mounting, probable", _span_text(left.probable_um)),
+        ("  mean", f"{left.mean_um:.3g}"),
+        ("  none left in", of_all(left.below_zero_probability, "bearings")),
+        ("  taken by temperature", f"{left.by_temperature_um:.3g}"),
+        ("tightest group that will do", left.group_to_choose or "–"),
+    )
+    return [Heading("Radial clearance in the bearing, µm"), Grid(("", ""), rows)]
+
+
+def _losses(pair: Seats) -> list[Block]:
+    rows = tuple(
+        (seat.seat, loss.name, f"{loss.amount_um:.4g}", "counted" if loss.counted else "", loss.formula)
+        for seat in pair
+        if not seat.needs_no_grip
+        for loss in seat.losses
+    )
+    heading = Heading("What the interference must cover, µm")
+    return [heading, Grid(("seat", "by", "µm", "", "formula"), rows, frozenset({2}))] if rows else []
+
+
+def _fits(pair: Seats) -> list[Block]:
+    rows = tuple(
+        (seat.seat, fit.fit, _span_text(fit.interference_um), of_all(fit.clearance_probability).removesuffix(" pairs"))
+        for seat in pair
+        for fit in seat.admissible_fits[:MOST_FITS]
+    )
+    grid = Grid(("seat", "field", "interference, µm", "loose"), rows)
+    return [Heading("Fields that pass, the best first"), grid] if rows else []
+
+
+def _drawing(pair: Seats) -> list[Block]:
+    columns = [_requirements(seat.requirements) for seat in pair]
+    labels = ("field", "roundness, profile, µm", "roughness Ra, µm", "shoulder runout, µm", "hardness at least")
+    grid = Grid(("", "shaft", "housing"), tuple(zip(labels, *columns, strict=True)))
+    source = pair[0].requirements.source
+    return [Heading("For the drawing"), grid, Paragraph(f"Form, roughness and shoulder: {source}; hardness: usual.")]
+
+
+def _requirements(asked: Requirements) -> tuple[str, ...]:
+    lower, upper = asked.limits_um
+    runout = "" if asked.shoulder_runout_um is None else f" ({asked.shoulder_runout_um:g})"
+    return (
+        f"{asked.field} ({upper:+g}/{lower:+g})",
+        f"{asked.roundness_um:.2g}",
+        f"{asked.roughness_Ra_um:g}",
+        f"{asked.shoulder_runout_grade}{runout}",
+        asked.hardness,
+    )
+
+
+def _span_text(interval: tuple[float, float]) -> str:
+    return " … ".join(f"{each:.4g}" for each in interval)

@@ -1,0 +1,108 @@
+"""`abu simulate MACHINE|SCENE`: integrate one scene to the accuracy asked for."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
+
+import typer
+
+from abu_calc.cli.command import Accuracy, Duration, File, Overrides, WhichScene, WhichStart, With, Without, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.foundation.errors import InputError
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.simulate.study import SimulateResult
+    from abu_calc.reporting.charts.figure import Extras
+
+SAMPLES: Final = 1001
+
+
+def simulate(
+    how: Delivery,
+    file: File,
+    set_: Overrides = None,
+    scene: WhichScene = None,
+    start: WhichStart = None,
+    race_centre_deg: Annotated[
+        float | None,
+        typer.Option(
+            "--race-centre", metavar="DEG", help="Of a machine: centre of the race from the imbalance; default 180."
+        ),
+    ] = None,
+    accuracy: Accuracy = 0.01,
+    integrator: Annotated[str, typer.Option("--integrator", help="auto, scipy, plain or compiled.")] = "auto",
+    duration_s: Duration = None,
+    trajectory: Annotated[
+        Path | None, typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.")
+    ] = None,
+    samples: Annotated[
+        int | None, typer.Option("--samples", metavar="N", help=f"Times in the trajectory; default {SAMPLES}.")
+    ] = None,
+    with_effects: With = None,
+    without_effects: Without = None,
+    most_evaluations: Annotated[
+        int | None,
+        typer.Option(
+            "--most-evaluations", metavar="N", help="Work that is allowed; default ten million, a minute or two."
+        ),
+    ] = None,
+    audit: Annotated[
+        bool, typer.Option("--audit", help="Run again with every effect in; tell the true difference.")
+    ] = False,
+) -> Outcome:
+    """Integrate one scene: amplitude, level, settling time, where the balls end."""
+    from abu_calc.features.simulate.study import simulate as study
+    from abu_calc.features.simulate.view import TrajectoryCsv, simulate_blocks, simulate_screen
+    from abu_calc.inputs.scene import read_any
+    from abu_calc.reporting.write import Target
+
+    _check_files(how, trajectory, samples)
+    with progress(how) as tell:
+        result = study(
+            read_any(file, set_ or ()),
+            scene,
+            start,
+            race_centre_deg=race_centre_deg,
+            accuracy=accuracy,
+            duration_s=duration_s,
+            with_effects=with_effects or (),
+            without_effects=without_effects or (),
+            integrator=integrator,
+            audit=audit,
+            most_evaluations=most_evaluations,
+            samples=(SAMPLES if samples is None else samples) if trajectory else None,
+            progress=tell,
+        )
+    outcome = Outcome.of(
+        result, lambda: simulate_blocks(result), lambda: simulate_screen(result), extras=lambda: _extras(result)
+    )
+    moved = (Target(trajectory, TrajectoryCsv(result.motion)),) if trajectory and result.motion else ()
+    return replace(outcome, further=moved)
+
+
+def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) -> None:
+    """Refuse what cannot be written before anything is computed."""
+    from abu_calc.reporting.write import check_target
+
+    if trajectory is None:
+        if samples is not None:
+            raise InputError("--samples goes with --trajectory", remedy="Add --trajectory FILE.csv.")
+        return
+    check_target(trajectory, force=how.force, suffixes=(".csv",), option="--trajectory")
+    if how.output is not None and how.output.resolve() == trajectory.resolve():
+        raise InputError("--output and --trajectory name the same file", found=str(trajectory))
+    if trajectory.resolve() in {path.resolve() for _, path in how.figures}:
+        raise InputError("--figure and --trajectory name the same file", found=str(trajectory))
+
+
+def _extras(result: "SimulateResult") -> "Extras":
+    from abu_calc.features.simulate.view import simulate_extras
+
+    return simulate_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "simulate", simulate, simulates=True)

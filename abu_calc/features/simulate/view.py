@@ -1,0 +1,277 @@
+"""Figures of `abu simulate`: path of the balls; imbalance, level and speed against time; the formulas.
+
+The report of `abu simulate`: what came out, where the balls ended, what was left out, what it cost.
+
+A motion as CSV: the axis in mm, ball angles in degrees, unwrapped, and what else of the scene moves.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+import numpy as np
+
+from abu_calc.features.effects.view import effects_grid
+from abu_calc.features.explain.steps import STEPS, step_blocks
+from abu_calc.features.simulate.study import SampledMotion, SimulateResult
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number
+from abu_calc.reporting.charts.figure import Extras, Figure, RotorMotionFigure, level, run_up, settling
+from abu_calc.reporting.parts import (
+    check_blocks,
+    default_blocks,
+    facts,
+    limit_in_file,
+    measured_after_blocks,
+    of_scene,
+    provenance_blocks,
+    value_of,
+    warning_blocks,
+)
+from abu_calc.reporting.screen import one_screen, verdict_line
+from abu_calc.simulation.records import Audit, Cost, EffectEntry, End
+from abu_calc.simulation.rotor_view import RotorView
+
+CONVENTIONS = (
+    "Amplitudes are 0–peak over the last twentieth of the run, about the mean place; velocities rms, in the larger of "
+    "x and y; levels 20 lg(v / 5e-8 m/s). Ball angles are measured in the rotor from its zero mark (of a machine: the "
+    "imbalance) in the sense of rotation, ball speeds relative to the race. Settled: the imbalance left stays near its "
+    "final value. The settling time counts from full speed."
+)
+UNJUDGED: Final = "The accuracy is reached; there are no limits for this scene"
+UNDER_LOAD: Final = "Under load the level is information, not a check: the limit of the file is for idling."
+
+MOTION = (
+    *(
+        "duration_s",
+        "full_speed_s",
+        "settling_time_s",
+        "residual_imbalance_g_mm",
+        "axis_amplitude_mm",
+        "unbalanced_amplitude_mm",
+    ),
+    *("largest_amplitude_mm", "bearing_amplitudes_mm", "velocity_rms_mm_per_s", "error_estimate"),
+)
+FINAL = (
+    *("x_mm", "y_mm", "vx_mm_per_s", "vy_mm_per_s", "tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad"),
+    "rotor_speed_rpm",
+)
+
+
+MOST_BALLS: Final = 12
+"""Largest number of balls whose places a screen shows."""
+MORE: Final = ("--trajectory FILE.csv, the motion",)
+
+
+def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
+    """The whole report."""
+    return (
+        *_about(result),
+        Heading("Motion"),
+        Facts((*facts(result, *MOTION).rows, *_levels(result))),
+        *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
+        *measured_after_blocks(result.measured_after),
+        *_final(result.final),
+        *check_blocks(result.checks),
+        *warning_blocks(result.warnings),
+        *_effects(result.effects),
+        *_audit(result.audit),
+        Heading("Model"),
+        Paragraph(f"{result.description} Start: {result.start}."),
+        Paragraph(f"{_rung(result)} {_cost(result.cost)}"),
+        Heading("Conventions"),
+        Paragraph(CONVENTIONS),
+        *default_blocks(result.provenance.defaults),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def simulate_screen(result: SimulateResult) -> tuple[Block, ...]:
+    """The one screen."""
+    angles = result.final.ball_angles_deg
+    ends = ", ".join(f"{angle:.1f}°" for angle in angles[:MOST_BALLS]) + (", …" if len(angles) > MOST_BALLS else "")
+    left_out = [each.name for each in result.effects if not each.included]
+    body: list[Block] = [
+        _numbers(result),
+        *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
+        *measured_after_blocks(result.measured_after),
+        *([Paragraph(f"The balls end at {ends} from the zero mark.")] if angles else []),
+        *([Paragraph(f"Effects left out: {', '.join(left_out)}.")] if left_out else []),
+    ]
+    return one_screen(result, [*_about(result), Paragraph(f"Start: {result.start}.")], body, MORE)
+
+
+def _numbers(result: SimulateResult) -> Grid:
+    """Amplitude, levels, settling, error, each with its limit."""
+    limits = {check.code: limit_in_file(check) for check in result.checks}
+    bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {hand.name}" for hand in result.handles or ()]
+    before = value_of(result, "unbalanced_amplitude_mm")
+    rows = (
+        ("axis amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
+        *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
+        *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
+        (*_settling(result), limits.get("ABU702", "")),
+        ("error estimate", "", value_of(result, "error_estimate"), limits.get("ABU801", "")),
+    )  # fmt: skip
+    if _pressed(result):
+        return Grid(("", "with balls", "limit"), tuple((name, *others) for name, _, *others in rows), frozenset({1}))
+    return Grid(("", "without balls", "with", "limit"), rows, frozenset({1, 2}))
+
+
+def _settling(result: SimulateResult) -> tuple[str, str, str]:
+    """The settling time, from full speed if that is reached later than at the start."""
+    label = "settling time" if result.full_speed_s is None else "settling, from full speed"
+    return (label, "", "none" if result.settling_time_s is None else value_of(result, "settling_time_s"))
+
+
+def _about(result: SimulateResult) -> list[Block]:
+    """Title, verdict, the scene in a sentence."""
+    title = f"{result.title}: simulation{of_scene(result.scene)}"
+    verdict = verdict_line(result, None if _judged(result) else UNJUDGED)
+    return [Heading(title), verdict, Paragraph(_sentence(result)), Paragraph(result.description)]
+
+
+def _sentence(result: SimulateResult) -> str:
+    settled = result.settling_time_s is not None
+    when = "not settled by the end"
+    if settled and result.full_speed_s is not None:
+        reached = f"full speed, which is reached at {value_of(result, 'full_speed_s')}"
+        when = f"settled {value_of(result, 'settling_time_s')} after {reached}"
+    elif settled:
+        when = f"settled in {value_of(result, 'settling_time_s')}"
+    before, after = (value_of(result, name) for name in ("unbalanced_amplitude_mm", "axis_amplitude_mm"))
+    bare = "without balls and off the work" if _pressed(result) else "without balls"
+    return f"The axis moves {after} in the end, {before} {bare}; {when}."
+
+
+def _pressed(result: SimulateResult) -> bool:
+    """True if a wheel is pressed to its workpiece.
+
+    The amplitude without balls is then of the imbalance alone, off the workpiece.
+    """
+    return any(each.name == "grinding_contact" and each.included for each in result.effects)
+
+
+def _levels(result: SimulateResult) -> list[tuple[str, str, str]]:
+    """Each with its place; on the axis and where the machine is held, unless these are the same."""
+    bare = [] if result.level_db is None else [(f"level, {result.level_at}", "L", value_of(result, "level_db"))]
+    places = [(f"level, {handle.name}", "L", value_of(handle, "level_db")) for handle in result.handles or ()]
+    return [*(row for row in bare if row not in places), *places]
+
+
+def _judged(result: SimulateResult) -> bool:
+    """True if the limits of a file are for this scene."""
+    return any(check.code == "ABU401" for check in result.checks)
+
+
+def _informs(result: SimulateResult) -> bool:
+    """True if levels are given for which there is no limit."""
+    return result.handles is not None and not _judged(result)
+
+
+def _final(final: End) -> list[Block]:
+    rows = tuple(
+        (str(k), f"{angle:.3f}°", f"{number(speed, 3)} rpm")
+        for k, (angle, speed) in enumerate(zip(final.ball_angles_deg, final.ball_speeds_rpm, strict=True), 1)
+    )
+    blocks: list[Block] = [Heading(f"At the end, {value_of(final, 't_s')}"), facts(final, *FINAL)]
+    return [*blocks, Grid(("ball", "angle", "speed"), rows, frozenset({1, 2}))] if rows else blocks
+
+
+def _effects(entries: Sequence[EffectEntry]) -> list[Block]:
+    return [Heading("Effects"), effects_grid(entries)] if entries else []
+
+
+def _audit(audit: Audit | None) -> list[Block]:
+    if audit is None:
+        return []
+    if not audit.effects:
+        return [Heading("Audit"), Paragraph("Every effect was in already.")]
+    text = (
+        f"With {', '.join(audit.effects)} in as well, the results differ by {number(audit.difference, 2)}; "
+        f"{number(audit.promise, 2)} were estimated. It took {audit.evaluations} evaluations, {audit.wall_s:.2f} s."
+    )
+    return [Heading("Audit"), Paragraph(text)]
+
+
+def _rung(result: SimulateResult) -> str:
+    """Model level that was used, and the reason for not using the one below."""
+    if result.rung == "envelope":
+        return "Averaged slow motion, for its error is small enough."
+    return f"Equations of motion; the averaged ones will not do: {result.envelope.why}."
+
+
+def _cost(cost: Cost) -> str:
+    events = f", {cost.events} events" if cost.events else ""
+    work = f"{cost.integrator}, tolerance {cost.tolerance:g}, {cost.evaluations} evaluations"
+    return f"Cost: {work} in {cost.steps} steps{events}, {cost.wall_s:.2f} s. Integrator: {cost.why}."
+
+
+DIGITS = 12
+
+BLOCK = 10_000
+"""Rows that are text at once: a million of them would take a gigabyte."""
+
+
+@dataclass(frozen=True)
+class TrajectoryCsv:
+    """Columns t_s, x_mm, y_mm, ball1_deg, … and those of `further`; a row for each time; in pieces of some rows."""
+
+    motion: SampledMotion
+
+    def __len__(self) -> int:
+        """Number of pieces."""
+        return 1 + -(-len(self.motion.t_s) // BLOCK)
+
+    def __iter__(self) -> Iterator[str]:
+        columns = self.motion.columns
+        yield ",".join(columns) + "\n"
+        for first in range(0, len(self.motion.t_s), BLOCK):
+            part = slice(first, first + BLOCK)
+            rows = np.vstack([column[part] for column in columns.values()]).T
+            yield "".join(",".join([f"{value:.{DIGITS}g}" for value in row]) + "\n" for row in rows.tolist())
+
+
+SECTION: Final = "Motion"
+
+
+def simulate_extras(result: SimulateResult) -> Extras:
+    """Figures where the run is held from its beginning, and the calculation note."""
+    figures = () if result.view is None else tuple(_figures(result, result.view))
+    return Extras(figures, tuple(step_blocks(STEPS["simulation"], _final_numbers(result))))
+
+
+def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
+    limits = {check.code: check.limit for check in result.checks}
+    if view.pitch_radii_mm:
+        whole = view.t_s[-1] > 0.9 * result.duration_s
+        seen = "The run" if whole else "The beginning of the run"
+        caption = (
+            f"{seen}, seen in the rotor, which turns anticlockwise: balls and imbalance (red); beside them how the "
+            "axis goes round, drift taken off. Space plays, arrows move in time."
+        )
+        yield Figure("motion", SECTION, RotorMotionFigure(view), caption)
+        limit = limits.get("ABU701")
+        below = ": it should fall below the dashed line, and stay there" if limit is not None else ""
+        yield Figure("settling", SECTION, settling(view, limit), f"Imbalance of rotor and balls together{below}.")
+    limit = limits.get("ABU401")
+    below = ", at the loudest place: it should end below the dashed line" if limit is not None else ""
+    place = result.level_at if result.handles is None else "where the machine is held"
+    caption = f"Velocity level over each revolution, {place}, 0 dB = 5e-8 m/s rms{below}."
+    measured = None if result.measured_after is None else result.measured_after.measured_level_db
+    caption += "" if measured is None else " Lozenge: as measured with the autobalancer."
+    yield Figure("level", SECTION, level(view, limit, measured), caption)
+    if view.speed_rpm is not None:
+        caption = "Speed of the rotor: the balls settle when it is up."
+        yield Figure("run-up", SECTION, run_up(view, view.speed_rpm), caption)
+
+
+def _final_numbers(result: SimulateResult) -> tuple[str, ...]:
+    """Values of settling and accuracy for this result."""
+    settled = result.settling_time_s
+    since = "" if result.full_speed_s is None else f", from full speed at {number(result.full_speed_s)} s"
+    return (
+        f"settling time{since}: {'none' if settled is None else f'{number(settled)} s'}, imbalance left "
+        f"{number(result.residual_imbalance_g_mm)} g·mm",
+        f"error estimate {number(result.error_estimate, 2)}, by {result.cost.integrator} at tolerance "
+        f"{result.cost.tolerance:g}",
+    )

@@ -1,0 +1,77 @@
+"""`abu stability MACHINE|SCENE`: is the balanced state stable, and at which speeds does that change?"""
+
+from typing import TYPE_CHECKING, Annotated, Final
+
+import typer
+
+from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.reporting.outcome import Outcome
+
+if TYPE_CHECKING:
+    from abu_calc.features.stability.study import StabilityResult
+    from abu_calc.reporting.charts.figure import Extras
+
+SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
+
+
+def stability(
+    how: Delivery,
+    file: File,
+    set_: Overrides = None,
+    scene: Annotated[
+        str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}; default {SCENES[0]}.")
+    ] = None,
+    speeds_rpm: Annotated[
+        str | None,
+        typer.Option("--speeds", metavar="LOW:HIGH", help="rpm; also find every speed where stability changes."),
+    ] = None,
+    arrangement: Annotated[
+        str, typer.Option("--arrangement", help="Of more than two balls: worst that balances, fan (even), or start.")
+    ] = "worst",
+    crossings: Annotated[
+        bool,
+        typer.Option("--crossings", help="Also every crossing of an eigenvalue."),
+    ] = False,
+) -> Outcome:
+    """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""
+    from abu_calc.features.stability.study import stability as study
+    from abu_calc.features.stability.view import stability_blocks, stability_screen
+    from abu_calc.inputs.scene import read_any
+
+    speeds = None if speeds_rpm is None else _two(speeds_rpm)
+    with progress(how) as tell:
+        result = study(
+            read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings,
+            progress=tell,
+        )  # fmt: skip
+    return Outcome.of(
+        result, lambda: stability_blocks(result), lambda: stability_screen(result), extras=lambda: _extras(result)
+    )
+
+
+def _two(text: str) -> tuple[float, float]:
+    """LOW:HIGH as numbers."""
+    from abu_calc.features.stability.study import SPEEDS
+
+    try:
+        low, high = map(float, text.split(":"))
+    except ValueError:
+        raise InputError(
+            "not a range of speeds", place=Place(key="--speeds"), found=text, allowed=SPEEDS,
+            remedy="Write --speeds 1000:6000.",
+        ) from None  # fmt: skip
+    return low, high
+
+
+def _extras(result: "StabilityResult") -> "Extras":
+    from abu_calc.features.stability.view import stability_extras
+
+    return stability_extras(result)
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "stability", stability, simulates=True)

@@ -1,0 +1,421 @@
+"""Stability of the balanced state of a scene, and the speeds at which it changes.
+
+Warnings about how the stability of a balanced state was found.
+
+Stalling of balls beside the balanced state, as results hold it: bounds with the drag rate's margin.
+
+Outcome of balls in a growing arrangement, as results hold it.
+"""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Final, NamedTuple, Self
+
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.stability.arrangements import ARRANGEMENTS, Arrangement
+from abu_calc.dynamics.stability.boundaries import Boundary, boundaries, crossings_of, growth_over
+from abu_calc.dynamics.stability.stall import HangingBounds, hanging_bounds
+from abu_calc.dynamics.stability.verdict import Stability, critical_damping
+from abu_calc.dynamics.stability.verdict import stability as judged
+from abu_calc.features.design.records import StabilityBoundary, stability_boundaries
+from abu_calc.features.stability.disturbed import DISTURBANCE, Consequence
+from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
+from abu_calc.foundation.checks import Check, verdict
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si, to_si, wrapped_deg
+from abu_calc.simulation.arguments import checked, one_of
+from abu_calc.simulation.records import SceneModel, finite
+from abu_calc.simulation.result import Result
+from abu_calc.simulation.subject import Source, Subject, subject_of
+
+BALANCED_TO_FIRST_ORDER: Final = frozenset({"gravity"})
+"""Effects that leave the balanced state as it is, to the first order."""
+
+
+def stability_warnings(judgement: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
+    """Each a sentence or two."""
+    yield from _state_judged(judgement, scene)
+    if judgement.multipliers is not None:
+        yield (
+            "What is felt of the support changes as the rotor turns: Floquet multipliers of one revolution stand in "
+            "place of eigenvalues."
+        )
+    if judgement.angles is not None:
+        yield from _arrangements(judgement, scene, way)
+    others = [name for name in judgement.left_out if name not in BALANCED_TO_FIRST_ORDER]
+    if others:
+        yield f"Left out of the linear motion, at steady speed: {', '.join(others)}."
+
+
+def _state_judged(judgement: Stability, scene: Scene) -> Iterator[str]:
+    """Warnings about a judged state other than balls opposite the imbalance with a still axis."""
+    if judgement.reason:
+        yield f"No eigenvalues: {judgement.reason}."
+    elif judgement.state is None:
+        yield "No eigenvalues: there is no balanced state at this speed."
+    if judgement.state == "race still":
+        yield (
+            "The race is not in the plane of the imbalance: its balls hold the race itself still, the axis keeps "
+            "moving elsewhere. That state is judged."
+        )
+    if judgement.state == "arm alone":
+        why = "the balls cannot carry the imbalance" if scene.ball_masses else "there are no balls"
+        yield f"Judged is the forced motion of the arm alone with its imbalance: {why}."
+
+
+def _arrangements(judgement: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
+    """Warning about the arrangement that was judged, of many that balance."""
+    counts = [len(race.ball_masses) for race in scene.races]
+    most = max(counts, default=0)
+    if most <= 2:
+        return
+    phrase = {
+        "fan": "the one spread about the light side with even gaps between equal balls: others may be less stable",
+        "start": "the one to which balls go from their start angles, heavily damped and without size",
+        "worst": f"the least stable of {judgement.arrangements} that stand for all, the even fan among them",
+    }[way]
+    if way == "worst" and judgement.multipliers is not None and judgement.state == "balanced":
+        phrase = f"the least stable that a search found, {judgement.arrangements} of them compared"
+    if way == "worst" and judgement.state == "race still":
+        phrase = "the one with even gaps: others are not known where the axis moves"
+    yield (
+        f"{most} balls of a race can balance in many arrangements; judged is {phrase}. The neutral motions from one to "
+        "another do not count."
+    )
+    if way == "worst" and (
+        sum(count > 2 for count in counts) > 1 or any(len(set(r.ball_masses)) > 1 for r in scene.races)
+    ):
+        yield (
+            "Not all arrangements were looked at: several races change together, from even to less even, and unequal "
+            "balls keep the order of the file."
+        )
+
+
+STATES = ("at a resonance", "above a heavily damped resonance", "at rest under gravity")
+"""Stalled states of balls, in the order of the bounds."""
+
+
+@record
+class HangingBound(Record):
+    """A drag above which balls do not hang in one of three ways; null where no drag is enough."""
+
+    state: Annotated[str, Quantity("balls hang")]
+    drag_per_s: Annotated[float | None, Quantity("not above a drag of")]
+    margin: Annotated[float | None, Quantity("the drag over it")]
+
+
+@record
+class Hanging(Record):
+    """Closed bounds at the scene's speed: they suffice and are not necessary."""
+
+    drag_per_s: Annotated[float, Quantity("drag of the race", "h₀")]
+    hanging_drag_per_s: Annotated[float | None, Quantity("drag above which no balls hang")]
+    doubt: Annotated[bool, Quantity("balls may hang")]
+    bounds: tuple[HangingBound, ...]
+
+    @classmethod
+    def of(cls, scene: Scene, half_angle: float) -> Self | None:
+        """Record of a scene with balls; `half_angle` [rad] of touching ones, 0 without size."""
+        if not scene.ball_masses:
+            return None
+        bounds = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
+        drags = zip(STATES, (bounds.resonance, bounds.damped, bounds.gravity), strict=True)
+        return cls(
+            drag_per_s=bounds.drag,
+            hanging_drag_per_s=finite(bounds.largest),
+            doubt=bounds.doubt(),
+            bounds=tuple(_bound(bounds, state, drag) for state, drag in drags if drag > 0),
+        )
+
+
+def _bound(bounds: HangingBounds, state: str, drag: float) -> HangingBound:
+    return HangingBound(state=state, drag_per_s=finite(drag), margin=bounds.margin(drag))
+
+
+RUN: Final = f"Simulated without friction from the worst arrangement, disturbed by {DISTURBANCE:g} rad at most"
+ENDS: Final = {
+    "drift": "the balls drift to a stable arrangement nearby and balance there",
+    "growth": "the balls leave the balanced state",
+    "undecided": "the run does not decide whether the balls drift to a stable arrangement or leave the balanced state",
+}
+
+
+@record
+class ArrangementEnd(Record):
+    """The end of a run that starts in the worst arrangement, a little disturbed."""
+
+    kind: Annotated[str, Quantity("what the balls do", "", 4, "drift, growth or undecided")]
+    simulated_time_s: Annotated[float, Quantity("simulated time")]
+    residual_ratio: Annotated[float | None, Quantity("residual imbalance at the end over that at the start")]
+    resting_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
+    growth_rate_per_s: Annotated[float | None, Quantity("growth rate there", "max Re λ")]
+    text: Annotated[str, Quantity("in words")]
+
+    @classmethod
+    def of(cls, end: Consequence) -> Self:
+        """Record of the simulated outcome."""
+        text = f"{RUN}, for {end.duration:.3g} s: {ENDS[end.kind]}"
+        if end.growth_rate is not None:
+            text += f" (growth rate {end.growth_rate:.3g} 1/s)"
+        if end.duration == 0:
+            text = "No simulation tells what becomes of the balls in the worst arrangement: the work allowed did not do"
+        return cls(
+            kind=end.kind,
+            simulated_time_s=end.duration,
+            residual_ratio=end.residual,
+            resting_angles_deg=None if end.angles is None else tuple(map(wrapped_deg, end.angles)),
+            growth_rate_per_s=end.growth_rate,
+            text=f"{text}.",
+        )
+
+
+SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
+"""Scenes of a machine with a balanced state.
+
+A run-up passes through all speeds, and a wheel at the workpiece is held.
+"""
+
+FASTEST_RPM: Final = 1e6
+SPEEDS: Final = f"LOW:HIGH in rpm, above 0, ascending, up to {FASTEST_RPM:g}"
+"""The range of speeds that can be asked for, in words."""
+
+SLOWEST, FASTEST = 0.1, 2.0
+"""Range in which crossings are looked for unless one is given, in multiples of the scene's own speed."""
+
+SPEEDS_SHOWN: Final = 81
+"""Number of speeds over a range at which the growth rate is given."""
+
+Pairs = tuple[tuple[float, float], ...]
+
+
+@record
+class Crossing(Record):
+    """A speed at which eigenvalues or multipliers cross the edge of stability."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    growing_below: Annotated[int, Quantity("growing below it")]
+    growing_above: Annotated[int, Quantity("growing above it")]
+
+
+@record
+class GrowthAt(Record):
+    """Growth rate of the slowest-dying disturbance at a speed; below zero it dies out."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    growth_rate_per_s: Annotated[float, Quantity("growth rate of a disturbance", "max Re λ")]
+
+
+@record
+class StabilityResult(Result):
+    """The balanced state of a scene at its speed; complex numbers as real and imaginary part."""
+
+    command: ClassVar[str] = "stability"
+    left_out: ClassVar[frozenset[str]] = Result.left_out | {"searched_rpm"}
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"arm_advice", "swing_arm", "arm_motion", "growth_by_speed", "consequence"}
+    )
+
+    model: SceneModel
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    state: Annotated[str | None, Quantity("state judged", "", 4, "balanced, race still or arm alone")]
+    stable: Annotated[bool | None, Quantity("stable")]
+    growth_rate_per_s: Annotated[float | None, Quantity("growth rate of a disturbance", "max Re λ")]
+    eigenvalues: Annotated[Pairs | None, Quantity("eigenvalues", "λ", 5, "1/s")]
+    floquet_multipliers: Annotated[Pairs | None, Quantity("Floquet multipliers of one revolution", "μ", 5)]
+    critical_damping_N_s_per_m: Annotated[float | None, Quantity("damping against parametric resonance", "h_sh")]
+    resting_angles_deg: Annotated[tuple[float, ...] | None, Quantity("balls rest at", "θ", 5)]
+    arrangement: Annotated[str, Quantity("arrangement", "", 4, "asked for: worst, fan or start")]
+    arrangements_judged: Annotated[int, Quantity("arrangements judged")]
+    hanging: Hanging | None
+    effects_left_out: Annotated[tuple[str, ...], Quantity("effects left out of the linear motion")]
+    boundaries_rpm: tuple[StabilityBoundary, ...] | None
+    crossings_rpm: tuple[Crossing, ...] | None
+    arm_advice: Annotated[str | None, Quantity("what to change on the arm")] = None
+    swing_arm: SwingArmRecord | None = None
+    arm_motion: ArmMotion | None = None
+    growth_by_speed: tuple[GrowthAt, ...] | None = None
+    """Growth rates over the speeds asked for, of the arrangement that is worst at each."""
+    consequence: ArrangementEnd | None = None
+    """Outcome of balls in the worst arrangement, if it grows and others do not."""
+    searched_rpm: tuple[float, float] | None
+    """The range of speeds that boundaries were looked for in."""
+
+
+@checked
+def stability(
+    source: Source, scene: str | None = None, *, speeds_rpm: tuple[float, float] | None = None,
+    arrangement: str = "worst", crossings: bool = False, progress: Progress = silent,
+) -> StabilityResult:  # fmt: skip
+    """Judge the balanced state of a scene by eigenvalues or Floquet multipliers, and say whether balls may hang.
+
+    `scene`: of a machine, see `SCENES`. With `speeds_rpm`, low and high, also every speed between them where stability
+    changes; with `crossings` too, every speed where an eigenvalue crosses, though others grow already, without a range
+    from a tenth to twice the scene's speed. `arrangement` of more than two balls in a race: the "worst" of all that
+    balance, the even "fan", or that to which they go from the "start" angles. Raises InputError, and
+    NotTrustworthyError where multipliers do not settle.
+    """
+    one_of("scene", scene, SCENES)
+    one_of("arrangement", arrangement, ARRANGEMENTS)
+    _check_speeds(speeds_rpm)
+    subject, way = (
+        subject_of(source, scene, command="stability"),
+        next(name for name in ARRANGEMENTS if name == arrangement),
+    )
+    if crossings and speeds_rpm is None:
+        rated = from_si(subject.scene.speed, "rpm")
+        speeds_rpm = SLOWEST * rated, min(FASTEST * rated, FASTEST_RPM)
+    pressed = grinds(subject.scene)
+    progress("balanced state")
+    judgement = not_judged(subject.scene) if pressed else judged(subject.scene, subject.half_angle, way)
+    # What cannot be judged at one speed cannot at others.
+    if speeds_rpm:
+        progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
+    limits = _limits(subject, speeds_rpm, way) if speeds_rpm and judgement.reason is None else None
+    arm = _on_arm(subject, progress)
+    return StabilityResult(
+        title=subject.title,
+        checks=(_check(judgement, way, pressed=pressed),),
+        warnings=(*subject.warnings, *stability_warnings(judgement, subject.scene, way), *arm.warnings),
+        model=SceneModel.of(subject.scene),
+        provenance=subject.provenance,
+        speed_rpm=from_si(judgement.speed, "rpm"),
+        state=judgement.state,
+        stable=judgement.stable,
+        growth_rate_per_s=finite(judgement.growth_rate),
+        eigenvalues=_pairs(judgement.eigenvalues),
+        floquet_multipliers=_pairs(judgement.multipliers),
+        critical_damping_N_s_per_m=critical_damping(subject.scene),
+        resting_angles_deg=None if judgement.angles is None else tuple(map(wrapped_deg, judgement.angles)),
+        arrangement=arrangement,
+        arrangements_judged=judgement.arrangements,
+        hanging=Hanging.of(subject.scene, subject.half_angle),
+        effects_left_out=judgement.left_out,
+        boundaries_rpm=None if limits is None else stability_boundaries(limits),
+        crossings_rpm=_crossings(subject, speeds_rpm, way) if crossings and speeds_rpm and limits is not None else None,
+        arm_advice=arm.advice,
+        swing_arm=arm.bounds,
+        arm_motion=arm.motion,
+        growth_by_speed=None if limits is None or speeds_rpm is None else _growth(subject, speeds_rpm, limits, way),
+        consequence=_consequence(subject, judgement, way, progress),
+        searched_rpm=speeds_rpm,
+    )
+
+
+def _consequence(subject: Subject, judgement: Stability, way: Arrangement, progress: Progress) -> ArrangementEnd | None:
+    """Outcome of the worst arrangement if it grows and others do not, on an anisotropic support."""
+    if way != "worst" or judgement.stable is not False or judgement.multipliers is None:
+        return None
+    from abu_calc.features.stability.disturbed import consequence
+
+    progress("the worst arrangement, disturbed")
+    end = consequence(subject.scene, judgement, subject.half_angle)
+    return None if end is None else ArrangementEnd.of(end)
+
+
+class ArmAnswer(NamedTuple):
+    """Statements on a swing arm; empty for other supports."""
+
+    advice: str | None = None
+    bounds: SwingArmRecord | None = None
+    motion: ArmMotion | None = None
+    warnings: tuple[str, ...] = ()
+
+
+def _on_arm(subject: Subject, progress: Progress) -> ArmAnswer:
+    """Motion of an arm with its imbalance; for a machine also the bounds and what to change."""
+    if subject.scene.support.standing_arm(subject.scene.balls) is None:
+        return ArmAnswer()
+    from abu_calc.features.swing_arm.motion import arm_motion
+    from abu_calc.features.swing_arm.scenes import advise_scene
+    from abu_calc.features.swing_arm.verdict import judge_arm
+
+    judged = None if subject.design is None else judge_arm(subject.design, progress)
+    advice = advise_scene(subject.scene) if judged is None else judged.advice
+    bounds = None if judged is None else SwingArmRecord.of(judged)
+    moved = arm_motion(subject.scene)
+    if isinstance(moved, str):
+        return ArmAnswer(advice, bounds, None, (f"No forced motion and no tongue: {moved}.",))
+    return ArmAnswer(advice, bounds, None if moved is None else ArmMotion.of(moved))
+
+
+def _check_speeds(speeds_rpm: tuple[float, float] | None) -> None:
+    if speeds_rpm is None or 0 < speeds_rpm[0] < speeds_rpm[1] <= FASTEST_RPM:
+        return
+    speed_range = ":".join(f"{speed:g}" for speed in speeds_rpm)
+    raise InputError("not a range of speeds", place=Place(key="speeds_rpm"), found=speed_range, allowed=SPEEDS)
+
+
+def _limits(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Boundary, ...]:
+    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    return boundaries(subject.scene, low, high, subject.half_angle, way)
+
+
+def _growth(
+    subject: Subject, speeds_rpm: tuple[float, float], limits: tuple[Boundary, ...], way: Arrangement
+) -> tuple[GrowthAt, ...]:
+    """Evenly over the range, and where stability changes."""
+    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    even = (low + (high - low) * step / (SPEEDS_SHOWN - 1) for step in range(SPEEDS_SHOWN))
+    speeds = sorted({*even, *(boundary.speed for boundary in limits)})
+    return tuple(
+        GrowthAt(speed_rpm=from_si(speed, "rpm"), growth_rate_per_s=rate)
+        for speed, rate in growth_over(subject.scene, speeds, subject.half_angle, way)
+    )
+
+
+def _crossings(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Crossing, ...]:
+    low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
+    return tuple(
+        Crossing(
+            speed_rpm=from_si(crossing.speed, "rpm"),
+            growing_below=crossing.growing_below,
+            growing_above=crossing.growing_above,
+        )
+        for crossing in crossings_of(subject.scene, low, high, subject.half_angle, way)
+    )
+
+
+def grinds(scene: Scene) -> bool:
+    """True if the scene presses a wheel to the workpiece in the plane.
+
+    Its balanced state is not that of an idle machine.
+    """
+    return any(isinstance(effect, GrindingContactEffect) and effect.contact != "face" for effect in scene.effects)
+
+
+def not_judged(scene: Scene) -> Stability:
+    """The answer for a scene that grinds."""
+    reason = (
+        "the scene presses the wheel to its work, and the idle balanced state is another one: no verdict is given on it"
+    )
+    left_out = tuple(effect.name for effect in scene.effects)
+    return Stability(scene.speed, None, None, None, None, None, None, reason, left_out)
+
+
+def _pairs(values: tuple[complex, ...] | None) -> Pairs | None:
+    return None if values is None else tuple((value.real, value.imag) for value in values)
+
+
+def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
+    name = ("ABU802", "stability of the balanced state")
+    if judgement.reason is not None:
+        remedy = "A second race in another plane, or bearings alike along x and y." if way != "start" else None
+        if pressed:
+            remedy = "`abu simulate` shows it at work; without grinding_contact in its file the idle state is judged."
+        return Check(*name, "not-done", judgement.reason, unit="1/s", remedy=remedy)
+    if judgement.angles is None:
+        return Check(
+            *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
+            remedy="Heavier or more balls, a larger race, or a better balanced rotor.",
+        )  # fmt: skip
+    message = "every small disturbance of the balanced state dies out"
+    if not judgement.stable:
+        message = "not every small disturbance dies out, although the balls could balance here"
+    remedy = (
+        None
+        if judgement.stable
+        else "Leave the forbidden speeds (--speeds finds them, Python: speeds_rpm=), or change drag and damping."
+    )
+    return Check(*name, verdict(bool(judgement.stable)), message, finite(judgement.growth_rate), 0.0, "1/s", remedy)

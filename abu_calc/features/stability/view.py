@@ -1,0 +1,251 @@
+"""Figures of `abu stability`: decay rate of disturbances over the speeds, eigenvalues, the formulas.
+
+The report of `abu stability`: the verdict, what it rests on, and where it changes.
+
+The report of `abu stability` on one screen.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from abu_calc.features.design.records import StabilityBoundary
+from abu_calc.features.explain.steps import STEPS, Step, step_blocks
+from abu_calc.features.stability.study import Crossing, GrowthAt, Hanging, StabilityResult
+from abu_calc.features.swing_arm.view import BOUNDS, arm_bounds, arm_line, motion_blocks, printed_otherwise
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot, alike
+from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_blocks, value_of
+from abu_calc.reporting.screen import shortened
+
+CHANGES = "Speeds where stability changes"
+FORBIDDEN = (
+    "A speed above the natural frequencies is necessary, not sufficient: balls of finite mass lose the balanced state "
+    "well above them, and light damping opens further gaps."
+)
+ONE_STATE = (
+    "This speaks of one state, the balanced one, and of small disturbances. A start far away, or a run-up, may end "
+    "elsewhere."
+)
+WHAT_TELLS = (
+    "What tells: `abu size`, or `abu simulate --scene run-up`; of a scene file, `abu simulate` with "
+    "[scene.effects.run_up]."
+)
+ON_A_GRID = (
+    "They were looked for on a grid of speeds, refined where the growth rate bends or comes near zero, at up to some "
+    "five hundred speeds: a gap far narrower than a hundredth of its speed may be missed."
+)
+
+
+def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
+    """The whole report."""
+    word, check = {True: "STABLE", False: "NOT STABLE", None: "NOT JUDGED"}[result.stable], result.checks[0]
+    rest = ("resting_angles_deg",) if result.resting_angles_deg else ()
+    return (
+        Heading(f"{result.title}: stability of the balanced state"),
+        Paragraph(f"{word} at {value_of(result, 'speed_rpm')}: {check.message}.", check.status),
+        *([Paragraph(result.consequence.text)] if result.consequence else []),
+        *arm_line(result.arm_advice),
+        facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
+        *((Heading(BOUNDS), arm_bounds(result.swing_arm)) if result.swing_arm else ()),
+        *(motion_blocks(result.arm_motion) if result.arm_motion else []),
+        *_hanging(result.hanging),
+        *_values("Eigenvalues, 1/s", result.eigenvalues),
+        *_values("Floquet multipliers of one revolution", result.floquet_multipliers),
+        Heading(CHANGES),
+        *_boundaries(result),
+        *_crossings(result.crossings_rpm),
+        *check_blocks(result.checks),
+        *notices(result),
+        Heading("Model"),
+        Paragraph(FORBIDDEN),
+        *(printed_otherwise() if result.arm_motion else []),
+        *provenance_blocks(result.provenance),
+    )
+
+
+def hanging_word(stall: Hanging) -> str:
+    """Verdict on stalling: balls may stall, or none does."""
+    drag = f"the drag, {number(stall.drag_per_s, 3)} 1/s, is"
+    return (
+        f"Balls may hang: {drag} not above every bound." if stall.doubt else f"No balls hang: {drag} above every bound."
+    )
+
+
+def _hanging(stall: Hanging | None) -> list[Block]:
+    """States beside the balanced one: bounds on the viscous drag rate above which no ball stalls."""
+    if stall is None:
+        return [Paragraph(ONE_STATE)]
+    rows = tuple(
+        (bound.state, "any" if bound.drag_per_s is None else number(bound.drag_per_s, 3),
+         "none" if bound.margin is None else number(bound.margin, 3))
+        for bound in stall.bounds
+    )  # fmt: skip
+    word = hanging_word(stall) + (f" {WHAT_TELLS}" if stall.doubt else "")
+    header = ("balls hang", "below, 1/s", "the drag over it")
+    table: list[Block] = [Grid(header, rows, frozenset({1, 2}))] if rows else []
+    return [Heading("Beside the balanced state"), Paragraph(ONE_STATE), Paragraph(word), *table]
+
+
+def _crossings(crossings: Sequence[Crossing] | None) -> list[Block]:
+    """A row for each."""
+    if crossings is None:
+        return []
+    rows = tuple((number(row.speed_rpm, 6), f"{row.growing_below}", f"{row.growing_above}") for row in crossings)
+    header = ("rpm", "growing below", "growing above")
+    title = Heading("Crossings of eigenvalues, of the arrangement judged")
+    return [title, Grid(header, rows, frozenset({0, 1, 2})) if rows else Paragraph("None.")]
+
+
+def _values(title: str, values: Sequence[tuple[float, float]] | None) -> list[Block]:
+    """One row for a number and its conjugate."""
+    if values is None:
+        return []
+    rows = tuple((number(re, 5), f"± {number(im, 5)}" if im else "") for re, im in values if im >= 0)
+    return [Heading(title), Grid(("real part", "imaginary part"), rows, frozenset({0, 1}))]
+
+
+def _boundaries(result: StabilityResult) -> list[Block]:
+    if result.boundaries_rpm is None:
+        return [Paragraph("Not asked for: --speeds LOW:HIGH finds them.")]
+    searched = "{:g} to {:g}".format(*result.searched_rpm or ())
+    block = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched} rpm.")
+    solved_for = result.state == "balanced" and result.eigenvalues
+    return [block] if solved_for else [block, Paragraph(ON_A_GRID)]
+
+
+def _grid(boundaries: Sequence[StabilityBoundary]) -> Grid:
+    """A row for each boundary."""
+    rows = tuple((number(limit.speed_rpm, 6), "stable" if limit.stable_above else "not stable") for limit in boundaries)
+    return Grid(("rpm", "above it"), rows, frozenset({0}))
+
+
+LEFT_OUT = ("Eigenvalues, 1/s", "Floquet multipliers of one revolution")
+FOR_THE_ARM = (BOUNDS, "Beside the balanced state", "Model")
+"""Sections that make room for those of a swing arm."""
+
+
+def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
+    """One screen: the whole report without the eigenvalues; their largest real part is the growth rate."""
+    asked = result.boundaries_rpm is not None
+    more: tuple[str, ...] = () if asked else ("--speeds LOW:HIGH, where stability changes",)
+    blocks = stability_blocks(result)
+    if result.arm_motion is None:
+        return shortened(result, blocks, *LEFT_OUT, head=3 if result.arm_advice or result.consequence else 2, more=more)
+    if result.swing_arm:
+        more = (*more, "`abu size`, the bounds of the arm")
+    if result.hanging:
+        first = next(k for k, block in enumerate(blocks) if k and isinstance(block, Heading))
+        blocks = (*blocks[:first], Paragraph(hanging_word(result.hanging)), *blocks[first:])
+    left_out = FOR_THE_ARM if asked else (*FOR_THE_ARM, CHANGES)
+    return shortened(result, blocks, *LEFT_OUT, *left_out, head=3, more=more)
+
+
+FORMULAS: Final = (
+    "formulas.motion:equations", "formulas.slow_motion:resonance_drag", "formulas.slow_motion:side_by_side",
+    "formulas.slow_motion:damped_drag", "formulas.slow_motion:gravity_drag",
+)  # fmt: skip
+RIM: Final = tuple((math.cos(math.tau * k / 90), math.sin(math.tau * k / 90)) for k in range(91))
+"""Points of the circle within which multipliers die out."""
+
+
+def stability_extras(result: StabilityResult) -> Extras:
+    """Figures, and the calculation note."""
+    figures = (*_over_speeds(result), *_eigenvalues(result), *_multipliers(result))
+    keys = (*FORMULAS, *(STEPS["swing-arm"].keys if result.swing_arm else ()))
+    step = Step("Stability of the balanced state", keys)
+    return Extras(figures, tuple(step_blocks(step, _numbers(result))))
+
+
+def _over_speeds(result: StabilityResult) -> Iterator[Figure]:
+    """The growth rate, with the speeds shaded at which something grows."""
+    course = result.growth_by_speed or ()
+    if len(course) < 2:
+        return
+    points = [(growth.speed_rpm, growth.growth_rate_per_s) for growth in course]
+    across = Axis("speed [rpm]", points[0][0], points[-1][0])
+    marks = [MarkedPoint(boundary.speed_rpm, 0.0, "", 2) for boundary in result.boundaries_rpm or ()]
+    here = result.growth_rate_per_s
+    if here is not None and across.low <= result.speed_rpm <= across.high:
+        marks.append(MarkedPoint(result.speed_rpm, here, "this speed"))
+    up = Axis.around("growth rate [1/s]", [0.0, *(rate for _, rate in points), *(point.y for point in marks)])
+    bands = _forbidden(course, result)
+    changes = ", ".join(f"{boundary.speed_rpm:.0f} rpm" for boundary in result.boundaries_rpm or ()) or "no speed"
+    summary = f"From {points[0][1]:.3g} 1/s at {points[0][0]:.0f} rpm to {points[-1][1]:.3g} 1/s at "
+    summary += f"{points[-1][0]:.0f} rpm; stability changes at {changes}"
+    caption = (
+        "Growth rate of the slowest-dying disturbance of the balanced state: below zero the balls come back to it, the "
+        "deeper the faster; squares: where stability changes. Stay clear of shaded speeds."
+    )
+    chart = Plot(
+        "Growth rate against speed", summary, across, up, (Curve(points),), marks, (0.0, "edge of stability"), bands
+    )
+    yield Figure("growth", CHANGES, chart, caption)
+
+
+def _forbidden(course: Sequence[GrowthAt], result: StabilityResult) -> list[tuple[float, float]]:
+    """Ranges of speed [rpm] between boundaries that are not stable."""
+    low, high = course[0].speed_rpm, course[-1].speed_rpm
+    inner = sorted(result.boundaries_rpm or (), key=lambda boundary: boundary.speed_rpm)
+    if not inner:
+        return [(low, high)] if course[0].growth_rate_per_s >= 0 else []
+    ends = [low, *(boundary.speed_rpm for boundary in inner), high]
+    stable = [not inner[0].stable_above, *(boundary.stable_above for boundary in inner)]
+    return [(a, b) for a, b, safe in zip(ends, ends[1:], stable, strict=False) if not safe]
+
+
+def _eigenvalues(result: StabilityResult) -> Iterator[Figure]:
+    values = result.eigenvalues
+    if not values:
+        return
+    across = Axis.around("real part [1/s]", [0.0, *(re for re, _ in values)])
+    up = Axis.around("imaginary part [1/s]", [0.0, *(im for _, im in values)])
+    edge = Curve(((0.0, up.low), (0.0, up.high)), "edge of stability", 2)
+    summary = _in_words(values)
+    chart = Plot("Eigenvalues", summary, across, up, (edge,), [MarkedPoint(*eigenvalue) for eigenvalue in values])
+    caption = (
+        "Eigenvalues of small motions about the balanced state at the speed judged: left of the dashed line they die "
+        "out, the farther left the faster; up and down: how fast they swing."
+    )
+    yield Figure("eigenvalues", "Eigenvalues", chart, caption)
+
+
+def _multipliers(result: StabilityResult) -> Iterator[Figure]:
+    values = result.floquet_multipliers
+    if not values:
+        return
+    across, up = alike("real part", "imaginary part", [*RIM, *values])
+    summary = _in_words(values)
+    rim = Curve(RIM, "edge of stability", 2)
+    chart = Plot(
+        "Floquet multipliers", summary, across, up, (rim,), [MarkedPoint(*multiplier) for multiplier in values]
+    )
+    caption = (
+        "Floquet multipliers of one revolution: inside the dashed circle a disturbance dies out, the nearer to the "
+        "middle the faster."
+    )
+    yield Figure("multipliers", "Floquet multipliers", chart, caption)
+
+
+def _in_words(values: Sequence[tuple[float, float]]) -> str:
+    """One of a number and its conjugate."""
+    return "; ".join(
+        f"{number(re, 5)}, imaginary part ± {number(im, 5)}" if im else number(re, 5) for re, im in values if im >= 0
+    )
+
+
+def _numbers(result: StabilityResult) -> tuple[str, ...]:
+    """The verdict's number, and the bounds of drag."""
+    growth = "none" if result.growth_rate_per_s is None else f"{number(result.growth_rate_per_s)} 1/s"
+    lines = [f"max Re λ = {growth} at {result.speed_rpm:.6g} rpm; stable below −1e-9·Ω"]
+    if result.hanging is not None:
+        lines += [
+            f"{bound.state}: no balls hang above h₀ = {number(bound.drag_per_s, 3)} 1/s; given "
+            f"{number(result.hanging.drag_per_s, 3)} 1/s"
+            for bound in result.hanging.bounds
+            if bound.drag_per_s is not None
+        ]
+    if result.critical_damping_N_s_per_m is not None:
+        lines.append(f"h_sh > {number(result.critical_damping_N_s_per_m)} N·s/m against parametric resonance")
+    return tuple(lines)

@@ -1,0 +1,164 @@
+"""`abu sweep MACHINE|SCENE`: many machines like this one: how many meet the limits, which value decides."""
+
+import os
+import shlex
+import sys
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from abu_calc.cli.command import File, Overrides, add_command
+from abu_calc.cli.output import Delivery
+from abu_calc.cli.progress import progress
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place, StoppedError
+from abu_calc.foundation.interruption import EndedBySignal, status_of
+from abu_calc.reporting.outcome import Outcome
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="KEY=HOW",
+        help="LOW:HIGH:N, A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), "
+        "triangular(LOW,MODE,HIGH) or choice(A,B,…); repeatable. KEY: of the file, or start.kind, start.angle_deg, "
+        "start.eccentricity_deg, start.temperature_C.",
+    ),
+]
+
+
+def sweep(
+    how: Delivery,
+    machine: File,
+    set_: Overrides = None,
+    vary: Vary = None,
+    runs: Annotated[int | None, typer.Option("--runs", metavar="N", help="How many members; default 100.")] = None,
+    what: Annotated[
+        str | None,
+        typer.Option("--what", help="build: one design, each member built and switched on once; design: sized anew."),
+    ] = None,
+    tolerances: Annotated[
+        bool, typer.Option("--tolerances", help="The drawing's own tolerances and the usual scatter of use.")
+    ] = False,
+    grid: Annotated[
+        tuple[str, str] | None,
+        typer.Option("--grid", metavar="KEY KEY", help="Chart over two keys with listed values."),
+    ] = None,
+    sensitivity: Annotated[
+        bool, typer.Option("--sensitivity", help="Spend the runs of a Saltelli design: N times (values + 2).")
+    ] = False,
+    sampling: Annotated[str | None, typer.Option("--sampling", help="latin-hypercube (default) or sobol.")] = None,
+    seed: Annotated[int | None, typer.Option("--seed", help="Of all that is drawn; default 0.")] = None,
+    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of each run.")] = 0.01,
+    time_limit_s: Annotated[
+        float | None, typer.Option("--time-limit", metavar="S", help="Longest time for one member; default 60.")
+    ] = None,
+    store: Annotated[
+        Path | None, typer.Option("--store", metavar="FILE.sqlite", help="Keep every member, as they come.")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with the store.")] = False,
+    workers: Annotated[
+        int | None, typer.Option("--workers", metavar="N", help="Processes; default one for each processor.")
+    ] = None,
+    cluster: Annotated[
+        str | None, typer.Option("--cluster", metavar="ADDRESS", help="Of a Dask scheduler that computes instead.")
+    ] = None,
+    cluster_wait_s: Annotated[
+        float,
+        typer.Option("--cluster-wait", metavar="S", help="Longest wait for a cluster without scheduler or workers."),
+    ] = 60.0,
+) -> Outcome:
+    """Many machines like this one: share that meets the limits, percentiles, which value decides."""
+    from abu_calc.features.sweep.figures import sweep_extras
+    from abu_calc.features.sweep.store_faults import checked_path
+    from abu_calc.features.sweep.study import WAIT
+    from abu_calc.features.sweep.study import sweep as study
+    from abu_calc.features.sweep.view import sweep_blocks, sweep_screen
+    from abu_calc.inputs.scene import read_any
+
+    WAIT.check(cluster_wait_s)
+    if resume and store is None:
+        raise InputError("--resume goes with --store", remedy="Add --store FILE.sqlite.")
+    if store is not None:
+        files = (*([how.output] if how.output else []), *(path for _, path in how.figures))
+        checked_path(store, taken=files)
+    with _wording(store), _executor(cluster, cluster_wait_s) as executor, progress(how) as tell:
+        result = study(
+            read_any(machine, set_ or ()),
+            vary,
+            runs,
+            what=what,
+            tolerances=tolerances or None,
+            grid=grid,
+            sensitivity=sensitivity or None,
+            sampling=sampling,
+            seed=seed,
+            accuracy=accuracy,
+            time_limit_s=time_limit_s,
+            store=store,
+            resume=resume,
+            force=how.force,
+            executor=executor,
+            workers=None if executor else (workers or os.cpu_count() or 1),
+            cluster_wait_s=cluster_wait_s,
+            command=_command(),
+            progress=tell,
+        )
+    return Outcome.of(
+        result, lambda: sweep_blocks(result), lambda: sweep_screen(result), extras=lambda: sweep_extras(result)
+    )
+
+
+def _command() -> str:
+    """Command line as it was typed."""
+    return shlex.join(["abu", *sys.argv[1:]])
+
+
+@contextmanager
+def _wording(store: Path | None) -> Iterator[None]:
+    """Errors name the option; who interrupts is told how to go on."""
+    try:
+        yield
+    except InputError as error:
+        key = error.place.key or ""
+        if error.place.file is not None or not key.startswith("vary "):
+            raise
+        raise error.at(Place(key=f"--{key}")) from None
+    except NotTrustworthyError as error:
+        kept = getattr(error, "__notes__", ())
+        if store is None or not kept:
+            raise
+        raise NotTrustworthyError(f"{error}\n{_going_on(store, kept[0])}") from None
+    except (KeyboardInterrupt, EndedBySignal) as stopped:
+        kept = getattr(stopped, "__notes__", ())
+        if store is None or not kept:
+            text = "interrupted; no member is kept. A sweep with --store FILE.sqlite can be gone on with."
+        else:
+            text = f"interrupted; {_going_on(store, kept[0])}"
+        raise StoppedError(text, status_of(stopped)) from None
+
+
+def _going_on(store: Path, kept: str) -> str:
+    """Text that names the place of the members, and the command that computes the others."""
+    resume = "" if "--resume" in sys.argv else " --resume"
+    return f"{kept} are in {store}. Go on with:\n  {_command()}{resume}"
+
+
+@contextmanager
+def _executor(cluster: str | None, patience: float) -> Iterator[Executor | None]:
+    """Executor of a Dask cluster, if one is requested."""
+    if cluster is None:
+        yield None
+        return
+    from abu_calc.features.sweep.cluster import executor
+
+    with executor(cluster, patience) as chosen:
+        yield chosen
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    add_command(app, "sweep", sweep, simulates=True)

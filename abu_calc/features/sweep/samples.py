@@ -1,0 +1,198 @@
+"""The members of a sweep, each from its number: what varies is put in, the machine is built or designed, and run."""
+
+import math
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Any, ClassVar, Final
+
+import numpy as np
+
+from abu_calc.features.design.study import size
+from abu_calc.features.sweep.batches import Row
+from abu_calc.features.sweep.columns import FLAGS, IMPATIENT, OUTSIDE, OVERTIME, QUANTITIES, What, drag_ratio
+from abu_calc.features.sweep.sample_run import Overtime, limited, machine_started, scene_once
+from abu_calc.features.sweep.sampling import Sample
+from abu_calc.foundation import patience
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.interruption import raise_pending
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.scene import SceneFile
+from abu_calc.inputs.variation import Variants
+from abu_calc.simulation.scene_of_design import AHEAD
+from abu_calc.simulation.scene_of_file import scene_from
+from abu_calc.simulation.start_cases import OPPOSITE, SwitchedOn, turned
+from abu_calc.sizing.design import Design, built
+
+LOT: Final = 0.5e-6
+"""Diameters of balls of one lot differ by this much [m] (grade 20 of ISO 3290, by practice)."""
+
+TOLERANCE: Final = 0.02
+"""Tolerance of the one run of a sample, per accuracy asked for."""
+
+Values = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class SweepStudy(ABC):
+    """Variation of the samples, and the numbers computed of each.
+
+    A study is sent to workers: it is small, and made of plain data.
+    """
+
+    what: ClassVar[What]
+
+    sample: Sample
+    accuracy: float
+    time_limit: float
+    until: float = field(default=math.inf, kw_only=True)
+    """Time [s since 1970] at which the patience with the whole sweep is over, also on other computers."""
+
+    @abstractmethod
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """The quantities of a member, then what it meets. Raises AbuError where there are none."""
+
+    def rows(self, members: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
+        """Rows of the samples' results, and the time for all [s]."""
+        begun = time.perf_counter()
+        rows = [self._row(member, may_end_process) for member in members]
+        return rows, time.perf_counter() - begun
+
+    def lost(self, member: int, reason: str) -> Row:
+        """The row of one that gave no numbers."""
+        given = self.sample.values(member)
+        width = len(QUANTITIES[self.what]) + len(FLAGS[self.what])
+        return (member, self.sample.member_seed(member), *map(_plain, given), *(None,) * width, reason)
+
+    def _row(self, member: int, may_end_process: bool) -> Row:
+        values, seed = self.sample.values(member), self.sample.member_seed(member)
+        named = {factor.key: value for factor, value in zip(self.sample.factors, values, strict=True)}
+        left = self.until - time.time()
+        if left <= 0:
+            return self.lost(member, IMPATIENT)
+        try:
+            # The wall of seconds would take the place of counts of work, and a member must not depend on it.
+            with patience.aside(), limited(min(self.time_limit, left), may_end_process=may_end_process):
+                numbers = self.numbers(named, seed)
+        except Overtime:
+            if left < self.time_limit:
+                return self.lost(member, IMPATIENT)
+            return self.lost(member, f"{OVERTIME}{self.time_limit:g} s")
+        except ImportError:  # of all members, and of this computer: no result of any
+            raise_pending()
+            raise
+        except Exception as error:  # one member must not end the others
+            raise_pending()
+            if isinstance(error, AbuError):
+                return self.lost(member, _line(str(error)))
+            outside = OUTSIDE if isinstance(error, (OSError, MemoryError)) else ""
+            return self.lost(member, _line(f"{outside}{type(error).__name__}: {error}"))
+        return (member, seed, *map(_plain, values), *map(_finite, numbers), None)
+
+    def _in_file(self, values: Values) -> dict[Any, object]:
+        """Values that are entries of the file, by path."""
+        return {factor.path: values[factor.key] for factor in self.sample.factors if factor.path}
+
+
+@dataclass(frozen=True)
+class Builds(SweepStudy):
+    """The design is fixed: each member is one machine built and switched on once."""
+
+    what: ClassVar[What] = "build"
+
+    variants: Variants[MachineFile]
+    design: Design
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """One start of one machine."""
+        table = self.variants.table(self._in_file(values))
+        if (warm := values.get("start.temperature_C")) is not None and table.autobalancer is not None:
+            drag = table.autobalancer.rolling_drag_per_s * drag_ratio(warm)
+            own = table.autobalancer.model_copy(update={"rolling_drag_per_s": drag})
+            table = table.model_copy(update={"autobalancer": own})
+        made, start = built(self.design, table), start_of(values)
+        lot = np.random.default_rng(seed).uniform(-LOT, LOT, made.autobalancer.ball_count)
+        lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
+        outcome = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
+        limits = table.limits
+        soon, quiet = outcome.time <= limits.settling_time_s, outcome.level <= limits.vibration_level_db
+        flags = outcome.balanced, not outcome.hanging, quiet, soon
+        return (
+            outcome.level, outcome.settling, from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
+            made.autobalancer.capacity_ratio, *flags, all(flags),
+        )  # fmt: skip
+
+
+def start_of(values: Values) -> SwitchedOn:
+    """Start-up of a sample; values that do not vary are usual."""
+    angle, off = values.get("start.angle_deg"), values.get("start.eccentricity_deg")
+    return SwitchedOn(
+        values.get("start.kind", "bunched"),
+        AHEAD if angle is None else to_si(angle, "deg"),
+        OPPOSITE if off is None else to_si(off, "deg"),
+    )
+
+
+@dataclass(frozen=True)
+class Designs(SweepStudy):
+    """Each member is a machine for which an autobalancer is designed anew."""
+
+    what: ClassVar[What] = "design"
+
+    machine: Machine
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """Numbers that `abu size` gives."""
+        sizing = size(self.machine.changed({item.key: values[item.key] for item in self.sample.factors}), self.accuracy)
+        design, many = sizing.autobalancer, sizing.ensemble
+        loudest, latest = (many.level_db.worst, many.settling_time_s.worst) if many else (None, None)
+        return (
+            sizing.vibration.level_after_db, loudest, latest,
+            design.ball_count, design.ball_diameter_mm, design.race_radius_mm, design.mass_g, design.capacity_ratio,
+            sizing.status == "pass",
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Scenes(SweepStudy):
+    """Each member is a scene given outright."""
+
+    what: ClassVar[What] = "scene"
+
+    variants: Variants[SceneFile]
+
+    def numbers(self, values: Values, seed: int) -> tuple[float | None, ...]:
+        """One run."""
+        scene = scene_from(self.variants.table(self._in_file(values)).scene)
+        warm = values.get("start.temperature_C")
+        scene = turned(
+            scene, to_si(values.get("start.angle_deg", 0.0), "deg"), 1.0 if warm is None else drag_ratio(warm)
+        )
+        run = scene_once(scene, TOLERANCE * self.accuracy)
+        response = run.response
+        return (
+            response.level, response.settling_time, from_si(response.axis_amplitude, "mm"),
+            from_si(response.residual_imbalance, "g_mm"), run.balanced, run.balanced,
+        )  # fmt: skip
+
+
+def _line(text: str) -> str:
+    return text.splitlines()[0] if text else text
+
+
+def _finite(value: float | None) -> float | None:
+    """A number for a store, which knows no infinities; True and False as 1 and 0."""
+    if value is None or not math.isfinite(value):
+        return None
+    return int(value) if isinstance(value, (bool, int)) else float(value)
+
+
+def _plain(value: object) -> object:
+    """A value for a store: numbers and text as they are, all else as text."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        return str(list(value) if isinstance(value, tuple) else value)
+    return value

@@ -1,0 +1,309 @@
+"""Many machines like one: how many meet the limits, and which value decides."""
+
+import json
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Final
+
+from abu_calc.features.design.study import WORKERS
+from abu_calc.features.sweep import answers
+from abu_calc.features.sweep import tolerance_costs as worth
+from abu_calc.features.sweep.cluster import software, versions
+from abu_calc.features.sweep.columns import FLAGS, MEMBER, QUANTITIES, REASON, SEED, SampleColumn
+from abu_calc.features.sweep.execution import Take, Workers, compute, described, once_more
+from abu_calc.features.sweep.plan import Plan, SweepRequest, asked, planned
+from abu_calc.features.sweep.result import Failed, Kept, MeetsLimits, Members, Percentiles, SweepResult, Varied
+from abu_calc.features.sweep.samples import SweepStudy
+from abu_calc.features.sweep.store import Store, study_of
+from abu_calc.features.sweep.store_faults import checked_path, damaged, fault
+from abu_calc.features.sweep.tolerance_costs import Compute, Trials, loosened
+from abu_calc.foundation import patience
+from abu_calc.foundation.checks import Check, coded
+from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.foundation.validity import Range
+from abu_calc.inputs.read_machine import Machine
+from abu_calc.inputs.scene import SceneDescription
+from abu_calc.simulation.arguments import checked
+from abu_calc.simulation.result import Provenance
+from abu_calc.simulation.simulate import ACCURACY
+
+WAIT: Final = Range("wait for a cluster", 0, 1e6, unit="s", open_low=True, key="cluster_wait_s")
+ROUGH: Final = 256
+"""Rows of Saltelli's design below which indices may be off by a tenth and more."""
+FEW: Final = 0.05
+"""Share of members without numbers beyond which the others speak for too few."""
+
+MORE: Final = "Allow more seconds; a store computes those members when it is gone on with: --resume."
+
+
+@checked
+def sweep(
+    machine: Machine | SceneDescription,
+    vary: Mapping[str, Any] | Sequence[str] | None = None,
+    runs: int | None = None,
+    *,
+    what: str | None = None,
+    tolerances: bool | None = None,
+    grid: tuple[str, str] | None = None,
+    sensitivity: bool | None = None,
+    sampling: str | None = None,
+    seed: int | None = None,
+    accuracy: float = 0.01,
+    time_limit_s: float | None = None,
+    store: str | Path | None = None,
+    resume: bool = False,
+    force: bool = False,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    cluster_wait_s: float = 60.0,
+    command: str | None = None,
+    progress: Progress = silent,
+) -> SweepResult:
+    """Many machines like this one, or many runs of a scene.
+
+    `vary`: how each value varies, by key: "normal(265, 40)", "100:300:5", a list of values; as on the command line.
+    What is None is that of [sweep] in the file. `what`: build (the design is fixed; each member is one machine built
+    and switched on once) or design (sized anew). `executor`: any of concurrent.futures, or `workers` processes; the
+    members do not depend on it; `cluster_wait_s`: how long a Dask cluster may be without scheduler or workers before
+    the sweep ends. Within `patience.limited` members that are not computed in time are told so, and no verdict rests
+    on them. `store`: where they go as they come; `resume` goes on with one that is there. `result.members` has
+    them as arrays. Raises InputError for what is wrong in file or arguments, NotTrustworthyError where no member gave a
+    number.
+    """
+    ACCURACY.check(accuracy)
+    WORKERS.check(1 if workers is None else workers)
+    hands = Workers(workers, executor, WAIT.check(cluster_wait_s))
+    path = None if store is None else _path(store, resume, force)
+    hands.refuse_other_software()
+    ask = asked(
+        machine, vary, runs=runs, what=what, tolerances=tolerances, grid=grid, sensitivity=sensitivity,
+        sampling=sampling, seed=seed, time_limit_s=time_limit_s,
+    )  # fmt: skip
+    if resume and path is not None and ask.nothing and (known := study_of(path)):
+        ask = _as_stored(path, machine, known, grid, time_limit_s)
+    plan = planned(machine, ask, accuracy)
+    plan = replace(plan, study=replace(plan.study, until=time.time() + patience.left()))
+    kept = None if path else Kept()
+    file = kept.folder / "members.sqlite" if kept else path or Path()
+    columns, texts = _columns(plan.study)
+    database = Store.open(
+        file, _identity(plan, accuracy), columns, texts, plan.study.sample.runs,
+        force=force and not resume, time_limit=ask.time_limit,
+    )  # fmt: skip
+    database.drawn = plan.study.sample.drawn
+    try:
+        _computed(plan, database, machine, hands, command, progress)
+        members = Members(file, columns, database.runs, kept)
+        progress("sweep: reading the answers")
+
+        def again(study: Trials, numbers: Iterator[int], take: Take) -> None:
+            count = len(study.studies) * len(study.members)
+            once_more(study, numbers, take, count, hands, progress)
+
+        return _answered(plan, ask, database, machine, members, path, again)
+    except BaseException as ended:
+        with suppress(AbuError):  # of a store that cannot even be asked
+            ended.add_note(f"{database.done} of {database.runs} members")
+        raise
+    finally:
+        database.close()
+
+
+def _path(given: str | Path, resume: bool, force: bool) -> Path:
+    """The path of the store; refused if a study is there that nobody asks to go on with, or a file of another kind."""
+    path = checked_path(given)
+    if not (resume or force) and study_of(path) is not None:
+        raise fault(path, "exists already", "Go on with it by --resume, name another, or overwrite it with --force.")
+    return path
+
+
+def _as_stored(
+    path: Path, machine: Machine | SceneDescription, known: Mapping[str, Any], grid: Any, time_limit_s: float | None
+) -> SweepRequest:
+    """The study that a store was begun with."""
+    try:
+        return _ask_of(machine, known, grid, time_limit_s)
+    except (InputError, LookupError, TypeError, AttributeError) as error:
+        raise damaged(path, f"its study cannot be read: {error}") from None
+
+
+def _ask_of(
+    machine: Machine | SceneDescription, known: Mapping[str, Any], grid: Any, time_limit_s: float | None
+) -> SweepRequest:
+    return asked(
+        machine, [f"{key}={known['vary'][key]}" for key in known["order"]], runs=known["base"] or known["runs"],
+        what=None if known["what"] == "scene" else known["what"], sensitivity=known["scheme"] == "saltelli",
+        sampling="sobol" if known["scheme"] == "sobol" else "latin-hypercube", seed=known["seed"],
+        tolerances=False, grid=grid, time_limit_s=time_limit_s,
+    )  # fmt: skip
+
+
+def _columns(study: SweepStudy) -> tuple[tuple[SampleColumn, ...], frozenset[str]]:
+    """Columns of the store, and the names of those that hold text."""
+    varied = tuple(SampleColumn(factor.key, "varies: " + factor.variation.text) for factor in study.sample.factors)
+    texts = {factor.key for factor in study.sample.factors if any(isinstance(v, str) for v in factor.variation.values)}
+    return (MEMBER, SEED, *varied, *QUANTITIES[study.what], *FLAGS[study.what], REASON), frozenset(texts)
+
+
+def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
+    """Identity of the samples, and nothing else: the machine, the variations, seeds, versions."""
+    study, sample = plan.study, plan.study.sample
+    return {
+        "what": study.what,
+        "runs": sample.runs,
+        "base": sample.base,
+        "seed": sample.seed,
+        "scheme": sample.scheme,
+        "accuracy": accuracy,
+        "vary": {factor.key: factor.variation.text for factor in sample.factors},
+        "order": [factor.key for factor in sample.factors],
+        "file": plan.content,
+        "versions": software(),
+    }
+
+
+def _computed(
+    plan: Plan, store: Store, source: Machine | SceneDescription, hands: Workers, command: str | None, progress: Progress,
+) -> None:  # fmt: skip
+    facts = {
+        "file": source.file,
+        "sha256": source.sha256,
+        "versions": json.dumps({**software(), **versions("distributed")}),
+        "seed": plan.study.sample.seed,
+        "command": command,
+        "workers": described(hands.workers, hands.executor),
+    }
+    store.begun(facts)
+    try:
+        compute(plan.study, store, hands, progress)
+    except BaseException:
+        with suppress(AbuError):  # the first fault is the one to tell
+            store.ended()
+        raise
+    store.ended()
+
+
+def _answered(
+    plan: Plan, ask: SweepRequest, store: Store, source: Machine | SceneDescription, members: Members, path: Path | None,
+    again: Compute,
+) -> SweepResult:  # fmt: skip
+    study, sample = plan.study, plan.study.sample
+    failed, late = answers.failed(store), answers.left_out(store)
+    if (
+        failed.members >= store.runs
+        or not store.ask(f"SELECT COUNT(*) FROM members WHERE {answers.there(store)}")[0][0]
+    ):
+        reason = failed.reasons[0].reason
+        raise NotTrustworthyError(f"none of {store.runs} members gave a number that can be trusted: {reason}")
+    met = answers.meets(store, study.what)
+    by_name, unexplained = answers.sensitivities(store, sample, study.what)
+    first = next(iter(by_name), None)
+    ranked = by_name[first] if first else ()
+    drawn = sample.scheme if any(not factor.variation.listed for factor in sample.factors) else "listed values"
+    halves = worth.halves(store, sample, study.what, ranked)
+    idle = [split.row.key for split in reversed(halves) if split.idle]
+    tried = loosened(study, store, idle, again)
+    quantities = answers.spreads(store, study.what)
+    tables = source.scene if isinstance(source, SceneDescription) else source.whole("sweep").machine
+    return SweepResult(
+        title=getattr(tables, "name", Path(source.file).name),
+        checks=(_numbers(failed, late, store.runs), _unless(late, _share(met, ask.least_share))),
+        warnings=(*source.warnings, *plan.warnings, *_warnings(plan, store, quantities)),
+        provenance=Provenance.of(source),
+        what=study.what,
+        runs=store.runs,
+        seed=sample.seed,
+        sampling=drawn,
+        varied=tuple(Varied(key=factor.key, how=factor.variation.text) for factor in sample.factors),
+        failed=failed,
+        quantities=quantities,
+        distributions=answers.distributions(store, study.what, _limits(plan)),
+        meets_limits=met,
+        basins=answers.basins(store),
+        sensitivity_of=first,
+        sensitivity=ranked,
+        sensitivity_by_quantity=by_name,
+        unexplained=unexplained,
+        prices=worth.prices(halves, tried),
+        chart=None if plan.grid is None else answers.chart(store, sample, study.what, plan.grid),
+        store=None if path is None else str(path),
+        members=members,
+    )
+
+
+def _unless(late: int, check: Check) -> Check:
+    """The check of a share; not done where members were left out for patience."""
+    if not late:
+        return check
+    message = f"{late} members were not computed within --patience; of the others: {check.message}"
+    return replace(check, status="not-done", message=message, remedy=MORE)
+
+
+def _numbers(failed: Failed, late: int, runs: int) -> Check:
+    share = failed.members / runs
+    if late:
+        message = f"{late} of {runs} members were not computed within --patience"
+        return coded("ABU821", "not-done", message, 100 * share, 100 * FEW, "%", MORE)
+    message = "every member gave numbers"
+    if failed.members:
+        failure = failed.reasons[0]
+        message = f"{failed.members} of {runs} members gave none, {failure.members} of them: {failure.reason}"
+    status = "pass" if not failed.members else "warn" if share <= FEW else "not-done"
+    remedy = "Look at the reasons; narrow distributions that reach values no machine has." if failed.members else None
+    return coded("ABU821", status, message, 100 * share, 100 * FEW, "%", remedy)  # type: ignore[arg-type]
+
+
+def _share(met: MeetsLimits, least: float | None) -> Check:
+    low, high = met.confidence_interval
+    message = f"{met.met} of {met.of} members meet all limits, by 95 % confidence {100 * low:.1f} to {100 * high:.1f} %"
+    if least is None:
+        message = (
+            "every member meets all limits"
+            if met.met == met.of
+            else (f"{met.of - met.met} of {met.of} members do not; [sweep] least_share says how many must")
+        )
+        return coded("ABU822", "pass" if met.met == met.of else "warn", message, 100 * met.share, None, "%")
+    status = "pass" if low >= least else "warn" if met.share >= least else "fail"
+    remedy = (
+        None
+        if status == "pass"
+        else "More members narrow the interval."
+        if status == "warn"
+        else ("Tighten what the report names, or change the design: `abu size` judges it.")
+    )
+    return coded("ABU822", status, message, 100 * met.share, 100 * least, "%", remedy, "least")  # type: ignore[arg-type]
+
+
+def _limits(plan: Plan) -> dict[str, float]:
+    """Limits on the numbers that the file limits."""
+    if plan.design is None:
+        return {}
+    limits = plan.design.case.table.limits
+    level = limits.vibration_level_db
+    return {"level_db": level, "level_after_db": level, "settling_time_s": limits.settling_time_s}
+
+
+def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:
+    """Warnings about answers that rest on little."""
+    notes = []
+    failing = [check.code for check in plan.design.checks if check.status == "fail"] if plan.design else []
+    if failing:
+        notes.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
+    rows = plan.study.sample.base
+    if 0 < rows < ROUGH:
+        notes.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")
+    if plan.study.what != "design":
+        never = store.ask(
+            "SELECT COUNT(*) FROM members WHERE reason IS NULL AND settling_time_s IS NULL AND member < ?",
+            (store.drawn,),
+        )[0][0]
+        if never and quantities["settling_time_s"].mean is None:
+            notes.append(
+                f"{never} members never settle: they count as later than all others, and settling has no mean."
+            )
+    return notes

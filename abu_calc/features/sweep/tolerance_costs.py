@@ -1,0 +1,217 @@
+"""Values to tighten or to loosen, each with its effect on the level that 95 % of samples keep.
+
+Values that decide nothing, each tried with twice its scatter: the same members, computed once more.
+"""
+
+import math
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from abu_calc.features.sweep.answers import percentiles, there
+from abu_calc.features.sweep.batches import Row
+from abu_calc.features.sweep.columns import DECIDING, IMPATIENT, MEETS, What
+from abu_calc.features.sweep.result import Price, Sensitivity
+from abu_calc.features.sweep.samples import SweepStudy
+from abu_calc.features.sweep.sampling import Sample
+from abu_calc.features.sweep.store import Store, quoted
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.variation import Variation
+
+LEAST: Final = 64
+MOST: Final = 128
+"""Members of a trial."""
+PART: Final = 0.5
+"""All trials together have no more members than this part of the sweep."""
+KEPT: Final = 0.95
+
+Numbers = tuple[float | None, ...]
+Compute = Callable[["Trials", Iterator[int], Callable[[list[Row]], None]], None]
+
+
+class Loosened(NamedTuple):
+    """By how much the level rises that 95 % of these members keep [dB], and how many more of them miss a limit."""
+
+    way: str
+    rise: float | None
+    fail: int
+    members: int
+
+
+@dataclass(frozen=True)
+class Trials:
+    """A study of studies: number k is member `members[k % n]` of the trial k // n."""
+
+    studies: tuple[SweepStudy, ...]
+    members: tuple[int, ...]
+
+    def rows(self, numbers: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
+        """What each came to, its number in place of the member's, and how long all took [s]."""
+        begun, rows = time.perf_counter(), []
+        for number in numbers:
+            study, member = self._of(number)
+            ((_, *row),), _ = study.rows((member,), may_end_process)
+            rows.append((number, *row))
+        return rows, time.perf_counter() - begun
+
+    def lost(self, number: int, reason: str) -> Row:
+        """The row of one that gave no numbers."""
+        study, member = self._of(number)
+        return (number, *study.lost(member, reason)[1:])
+
+    def _of(self, number: int) -> tuple[SweepStudy, int]:
+        trial, member = divmod(number, len(self.members))
+        return self.studies[trial], self.members[member]
+
+
+def loosened(study: SweepStudy, store: Store, keys: Sequence[str], compute: Compute) -> dict[str, Loosened]:
+    """Each of these values with twice its scatter, as many as are cheap beside the sweep; of the others nothing.
+
+    Nor of trials that patience left out.
+    """
+    many = int(min(MOST, max(LEAST, PART * store.drawn // max(len(keys), 1))))
+    keys = keys[: int(PART * store.drawn) // many]
+    if not keys:
+        return {}
+    # At random: listed values come round and round.
+    drawn = np.random.default_rng(study.sample.seed).choice(store.drawn, many, replace=False)
+    members = tuple(sorted(drawn.tolist()))
+    trials = Trials(tuple(replace(study, sample=_doubled(study.sample, key)) for key in keys), members)
+    computed: dict[int, Row] = {}
+    compute(trials, iter(range(len(keys) * many)), lambda rows: computed.update({row[0]: row for row in rows}))
+    names = [DECIDING[study.what], MEETS.name]
+    places = [store.names.index(name) for name in names]
+    before = _before(store, names, members)
+    kept = [key for k, key in enumerate(keys) if all(computed[k * many + j][-1] != IMPATIENT for j in range(many))]
+    after = {k: tuple(row[place] for place in places) for k, row in computed.items()}
+    return {
+        key: _compared(_way(trials.studies[k].sample, key).text, before, [after[k * many + j] for j in range(many)])
+        for k, key in enumerate(keys)
+        if key in kept
+    }
+
+
+def _way(sample: Sample, key: str) -> Variation:
+    return next(factor.variation for factor in sample.factors if factor.key == key)
+
+
+def _before(store: Store, names: Sequence[str], members: Sequence[int]) -> list[Numbers]:
+    columns = ", ".join(map(quoted, names))
+    query = f"SELECT {columns} FROM members WHERE member IN ({', '.join(map(str, members))}) ORDER BY member"
+    return store.ask(query)
+
+
+def _compared(way: str, before: Sequence[Numbers], after: Sequence[Numbers]) -> Loosened:
+    was, now = _kept([level for level, _ in before]), _kept([level for level, _ in after])
+    fail = sum(bool(met) for _, met in before) - sum(bool(met) for _, met in after)
+    return Loosened(way, None if was is None or now is None else now - was, fail, len(before))
+
+
+def _kept(levels: Sequence[float | None]) -> float | None:
+    """The level that 95 % keep; none where a member without one is among those about it."""
+    ordered = np.sort([math.inf if level is None else level for level in levels])
+    with np.errstate(invalid="ignore"):
+        quantile = float(np.quantile(ordered, KEPT))
+    return quantile if math.isfinite(quantile) else None
+
+
+def _doubled(sample: Sample, key: str) -> Sample:
+    factors = (replace(item, variation=doubled(item.variation)) if item.key == key else item for item in sample.factors)
+    return replace(sample, factors=tuple(factors))
+
+
+def doubled(way: Variation) -> Variation:
+    """Twice the scatter about the same middle; what begins at zero, as eccentricities do, goes twice as far.
+
+    >>> from abu_calc.foundation.errors import Place
+    >>> from abu_calc.inputs.variation import variation
+    >>> [doubled(variation(text, Place())).numbers for text in ("uniform(4, 8)", "normal(5, 1)", "triangular(0, 1, 3)")]
+    [(2.0, 10.0), (5.0, 2.0), (0.0, 2.0, 6.0)]
+    """
+    first, *rest = way.numbers
+    if way.kind in ("normal", "lognormal"):
+        return _written(way.kind, (first, 2 * rest[0]))
+    middle = 0.0 if first == 0 else (first + rest[-1]) / 2 if way.kind == "uniform" else rest[0]
+    numbers = [middle + 2 * (number - middle) for number in way.numbers]
+    if first > 0:  # nothing that is there becomes negative
+        numbers[0] = max(numbers[0], 0.0)
+    return _written(way.kind, numbers)
+
+
+def _written(kind: str, numbers: Sequence[float]) -> Variation:
+    return Variation(kind, tuple(map(float, numbers)), (), f"{kind}({', '.join(f'{value:.6g}' for value in numbers)})")
+
+
+FIRST: Final = 0.02
+"""A value whose total index is below decides nothing."""
+LEAST_PRICE: Final = 40
+"""Members in each half for a price to be told."""
+LITTLE: Final = 0.5
+"""Largest rise of the level with which a value may still be loosened [dB]."""
+
+
+class Halves(NamedTuple):
+    """The members by one value: what the level is in its better and its other half."""
+
+    row: Sensitivity
+    better: str
+    median: float
+    gain: float
+    cost: float | None
+    within_chance: bool
+
+    @property
+    def idle(self) -> bool:
+        """True if the value decides nothing as it is, so that more scatter is worth a trial."""
+        return self.within_chance and self.row.total < FIRST
+
+
+def halves(store: Store, sample: Sample, what: What, ranked: Sequence[Sensitivity]) -> tuple[Halves, ...]:
+    """Halves for each value of the file that is drawn as a number."""
+    (whole,) = percentiles(store, DECIDING[what], (KEPT,), there(store))
+    if whole is None:
+        return ()
+    drawn = {factor.key for factor in sample.factors if factor.path and factor.variation.numbers}
+    splits = (_halves(store, DECIDING[what], row, whole) for row in ranked if row.key in drawn)
+    return tuple(split for split in splits if split is not None)
+
+
+def _halves(store: Store, name: str, row: Sensitivity, whole: float) -> Halves | None:
+    key = quoted(row.key)
+    (middle,) = percentiles(store, row.key, (0.5,), there(store))
+    if middle is None:
+        return None
+    sides = []
+    for side, sign in (("lower", "<="), ("upper", ">")):
+        where = f"{there(store)} AND {key} {sign} {middle!r}"
+        many = store.ask(f"SELECT COUNT(*) FROM members WHERE {where}")[0][0]
+        # By the binomial law of how many of a half lie below its own 95 % level.
+        off = 1.96 * math.sqrt(KEPT * (1 - KEPT) / max(many, 1))
+        level, highest = percentiles(store, name, (KEPT, min(KEPT + off, 1.0)), where)
+        if level is not None and many >= LEAST_PRICE:
+            sides.append((level, side, highest))
+    if not sides:
+        return None
+    (level, better, highest), worse = min(sides), max(sides)[0] if len(sides) > 1 else None
+    cost = None if worse is None else worse - whole
+    return Halves(row, better, middle, whole - level, cost, highest is None or whole <= highest)
+
+
+def prices(splits: Sequence[Halves], tried: Mapping[str, Loosened]) -> tuple[Price, ...]:
+    """Prices with the advice that follows; loosening is advised only after it was tried."""
+    return tuple(_price(split, tried.get(split.row.key)) for split in splits)
+
+
+def _price(split: Halves, tried: Loosened | None) -> Price:
+    loosen = tried is not None and tried.rise is not None and tried.rise <= LITTLE and tried.fail <= 0
+    loosened: dict[str, Any] = {} if tried is None else {
+        "loosened_to": tried.way, "loosened_db": tried.rise, "loosened_fail": tried.fail, "loosened_of": tried.members,
+    }  # fmt: skip
+    return Price(
+        key=split.row.key, better=split.better, median=split.median, gain_db=split.gain, cost_db=split.cost,
+        within_chance=split.within_chance, **loosened,
+        advice="may be loosened" if loosen else "" if split.within_chance else "tighten",
+    )  # fmt: skip

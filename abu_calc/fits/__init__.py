@@ -1,1 +1,0 @@
-"""Bearing seats: limits, probability, losses, stress, recommendation; `seats.seat_bearing` does them all."""

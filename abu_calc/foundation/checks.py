@@ -1,0 +1,146 @@
+"""A check of a design and the status of several: what every step of the way may hand on beside its numbers.
+
+Meaning of each check code: its question, its criterion, its action; `abu explain ABU203` shows it.
+
+The texts are in check_data/, one file for each hundred, read when one of its codes is first requested.
+"""
+
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Final, Literal
+
+from abu_calc.foundation.frozen import dataclass
+
+_DATA: Final = Path(__file__).parent / "check_data"
+
+HUNDREDS: Final = {
+    "ABU1": "speeds",
+    "ABU2": "autobalancer",
+    "ABU3": "strength",
+    "ABU4": "vibration",
+    "ABU5": "swing_arm",
+    "ABU6": "seats",
+    "ABU7": "simulation",
+    "ABU8": "trust",
+    "ABU9": "files",
+    "ABU10": "balancing",
+}
+"""The file of each hundred, by what stands before the last two digits of its codes."""
+
+
+@dataclass(frozen=True)
+class CheckCode:
+    """One kind of check: its code, its name, and what a reader of a report wants to know of it."""
+
+    code: str
+    name: str
+    asks: str
+    fails: str
+    remedy: str
+    step: str = ""
+    """The step of `abu explain` that it belongs to, if any."""
+    formulas: tuple[str, ...] = ()
+    """Keys of the formulas that decide it."""
+
+
+@cache
+def _hundred(file: str) -> dict[str, CheckCode]:
+    """The codes of one file; one that is asked `as` another has all but its name from that."""
+    codes: dict[str, CheckCode] = {}
+    for code, table in tomllib.loads((_DATA / f"{file}.toml").read_text(encoding="utf-8")).items():
+        if "as" in table:
+            codes[code] = replace(codes[table["as"]], code=code, name=table["name"])
+        else:
+            codes[code] = CheckCode(code, **table | {"formulas": tuple(table.get("formulas", ()))})
+    return codes
+
+
+class _Codes(Mapping[str, CheckCode]):
+    """All codes; looking one up reads the file of its hundred alone."""
+
+    def __getitem__(self, code: str) -> CheckCode:
+        return _hundred(HUNDREDS[code[:-2]])[code]
+
+    def __iter__(self) -> Iterator[str]:
+        return (code for file in HUNDREDS.values() for code in _hundred(file))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+CHECK_CODES: Final[Mapping[str, CheckCode]] = _Codes()
+"""Check codes by their names."""
+
+
+Status = Literal["pass", "fail", "not-done"]
+"""Status of a whole result."""
+Grade = Literal["pass", "warn", "fail", "not-done"]
+"""Grade of one check; warn: the usual rule holds, a stricter one or the worst case does not."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One requirement held against one value, both in `unit` as printed (user units); null where it has none.
+
+    `bound`: whether the limit is the most or the least that the value may be.
+    """
+
+    code: str
+    name: str
+    status: Grade
+    message: str
+    value: float | None = None
+    limit: float | None = None
+    unit: str | None = None
+    remedy: str | None = None
+    bound: Literal["most", "least"] = "most"
+
+
+def coded(
+    code: str, status: Grade, message: str, value: float | None = None, limit: float | None = None,
+    unit: str | None = None, remedy: str | None = None, bound: Literal["most", "least"] = "most", *, of: str = "",
+) -> Check:  # fmt: skip
+    """A check by its code, whose name stands in the table of codes; `of` names the one of several that it is of.
+
+    >>> coded("ABU621", "pass", "…", of="6203").name
+    'clearance left in the bearing, 6203'
+    """
+    name = CHECK_CODES[code].name
+    return Check(code, f"{name}, {of}" if of else name, status, message, value, limit, unit, remedy, bound)
+
+
+def overall(checks: Iterable[Check]) -> Status:
+    """The worst of several: fail before not-done before pass; a warning passes; no checks at all are not-done.
+
+    >>> overall([])
+    'not-done'
+    """
+    statuses = {check.status for check in checks}
+    if "fail" in statuses:
+        return "fail"
+    return "pass" if statuses and statuses <= {"pass", "warn"} else "not-done"
+
+
+def worst(checks: Iterable[Check]) -> Grade:
+    """The worst grade of several checks, a warning above a pass; pass where there are none.
+
+    >>> worst([])
+    'pass'
+    """
+    statuses = {check.status for check in checks}
+    order: tuple[Grade, ...] = ("fail", "not-done", "warn", "pass")
+    return next((grade for grade in order if grade in statuses), "pass")
+
+
+def verdict(passed: bool, safe: bool = True) -> Grade:
+    """The status of a check that was done; `safe`: whether the stricter rule or the worst case passes, too.
+
+    >>> verdict(True), verdict(True, False), verdict(False)
+    ('pass', 'warn', 'fail')
+    """
+    if not passed:
+        return "fail"
+    return "pass" if safe else "warn"

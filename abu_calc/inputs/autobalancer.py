@@ -1,0 +1,156 @@
+"""The autobalancer: the room there is for it, how it is made, and what may be pinned."""
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from abu_calc.inputs.reading.table import Table, problem, usual
+
+
+class Autobalancer(Table):
+    """The autobalancer: the room there is for it and how it is made."""
+
+    max_outer_diameter_mm: float = Field(
+        description="Largest permitted outer diameter [mm]; {range}, hand grinders 40 … 120.",
+        examples=[68.0],
+        ge=1,
+        le=5000,
+        json_schema_extra=usual(20, 600),
+    )
+    max_width_mm: float = Field(
+        description="Largest permitted width along the spindle [mm]; {range}, hand grinders 10 … 40.",
+        examples=[32.0],
+        ge=1,
+        le=1000,
+        json_schema_extra=usual(4, 200),
+    )
+    max_mass_fraction: float = Field(
+        default=0.05,
+        description="Largest permitted mass with balls, as a fraction of machine.mass_kg; {range}. Default: "
+        "{default} (the autobalancers of Kladiev 1996 weigh 4 … 7.5 % of the machine).",
+        gt=0,
+        le=1,
+        json_schema_extra=usual(0.01, 0.25),
+    )
+    bore_diameter_mm: float = Field(
+        default=20.0,
+        description="Bore that sits on the spindle [mm]; {range}, smaller than max_outer_diameter_mm. Default: "
+        "{default}, assumed.",
+        gt=0,
+        le=2000,
+        json_schema_extra=usual(3, 200),
+    )
+    design: Literal["one-piece", "bearing-ring", "light"] = Field(
+        default="one-piece",
+        description="How it is made: one-piece (steel body with the race ground in), bearing-ring (the outer ring of "
+        "a spherical bearing is the race) or light (hard ring in an aluminium body). Default: {default}.",
+    )
+    ball_sizes: Literal["metric", "all"] = Field(
+        default="all",
+        description="Stock balls to choose from: metric (whole and half millimetres) or all (inch sizes, too, "
+        "which are stocked as widely). Default: {default}.",
+    )
+    ball_material: Literal["steel"] = Field(
+        default="steel", description="Material of the balls: steel, 7.8e-3 g/mm³. Default: {default}."
+    )
+    corrector: Literal["ball", "roller"] = Field(
+        default="ball",
+        description="What rolls in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: "
+        "{default}.",
+    )
+    capacity_margin: float = Field(
+        default=1.2,
+        description="Required ratio of capacity to need; {range}, by practice 1.1 … 1.5. Default: {default}, assumed.",
+        ge=1,
+        le=100,
+        json_schema_extra=usual(1, 3),
+    )
+    rolling_drag_per_s: float = Field(
+        default=15.0,
+        description="Viscous drag of a ball in the race, divided by its inertia m·R_p² [1/s]; {range}, thin oil 3 … "
+        "50, grease 10 … 100. Default: {default}, assumed; it settles hand grinders within a second.",
+        ge=0,
+        le=1e5,
+        json_schema_extra=usual(0.5, 300),
+    )
+    rolling_friction_mm: float = Field(
+        default=0.002,
+        description="Lever arm of dry rolling friction [mm]; {range}, hard ground clean race 0.0005 … 0.005, soft "
+        "race 0.01 … 0.05. Default: {default}, assumed for a hard race.",
+        ge=0,
+        le=1,
+        json_schema_extra=usual(0.0001, 0.1),
+    )
+    race_eccentricity_mm: float = Field(
+        default=0.010,
+        description="Everything between the race and the axis of rotation: race to bore, half the clearance in the "
+        "bore, half the spindle's indicated runout [mm]; {range}, by careful work 0.005 … 0.020. Default: "
+        "{default}, assumed.",
+        ge=0,
+        le=10,
+        json_schema_extra=usual(0.0005, 0.2),
+    )
+    race_hardness_HRC: float = Field(
+        default=60.0,
+        description="Hardness of the race [HRC]; {range}, at least 58 for balls not to dent it. Default: {default}, "
+        "assumed.",
+        ge=20,
+        le=68,
+        json_schema_extra=usual(55, 66),
+    )
+    min_wall_mm: float = Field(
+        default=2.5,
+        description="Thinnest permitted wall outside the race [mm]; {range}. Default: {default}, assumed (a thinner "
+        "ring goes oval under the balls).",
+        gt=0,
+        le=100,
+        json_schema_extra=usual(1, 20),
+    )
+    plane_offset_mm: float = Field(
+        default=0.0,
+        description="Race plane from wheel plane along the spindle, positive away from the machine [mm]; {range}. "
+        "Default: {default}, in the wheel plane.",
+        ge=-1000,
+        le=1000,
+        json_schema_extra=usual(1, 200),
+    )
+    ball_count: int | None = Field(
+        default=None,
+        description="Pins the number of balls; {range}. Without it the number is chosen.",
+        examples=[4],
+        ge=2,
+        le=100,
+        json_schema_extra=usual(2, 24),
+    )
+    ball_diameter_mm: float | None = Field(
+        default=None,
+        description="Pins the diameter of the balls [mm]; {range}. Without it the diameter is chosen.",
+        examples=[16.0],
+        gt=0,
+        le=200,
+        json_schema_extra=usual(2, 40),
+    )
+    race_radius_mm: float | None = Field(
+        default=None,
+        description="Pins the radius of the race the balls roll on [mm]; {range}. Without it the radius is chosen.",
+        examples=[30.0],
+        gt=0,
+        le=2500,
+        json_schema_extra=usual(8, 300),
+    )
+
+    def unused(self) -> frozenset[str]:
+        """The stock to choose from, where the diameter is pinned."""
+        return frozenset() if self.ball_diameter_mm is None else frozenset({"ball_sizes"})
+
+    @model_validator(mode="after")
+    def _bore_fits_inside(self) -> Self:
+        if self.bore_diameter_mm >= self.max_outer_diameter_mm:
+            raise problem(
+                "the bore leaves no room for an autobalancer",
+                "bore_diameter_mm" if "bore_diameter_mm" in self.model_fields_set else "max_outer_diameter_mm",
+                found=f"bore_diameter_mm = {self.bore_diameter_mm:g}, "
+                f"max_outer_diameter_mm = {self.max_outer_diameter_mm:g}",
+                allowed="bore_diameter_mm below max_outer_diameter_mm",
+            )
+        return self

@@ -1,0 +1,236 @@
+"""The machine itself, what it hangs on, and what is asked of it."""
+
+from typing import Annotated, ClassVar, Final, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from abu_calc.inputs.bearing_file import NAME
+from abu_calc.inputs.reading.table import Name, Table, boxed, problem, usual
+
+MOST_HANDLES: Final = 100
+Speed = Annotated[float, Field(ge=1, le=300_000)]
+Frequency = Annotated[float, Field(gt=0, le=10_000)]
+DampingRatio = Annotated[float, Field(ge=0, le=10)]
+
+
+class Handle(Table):
+    """A place where vibration levels are wanted; without any, levels are those in the wheel plane."""
+
+    name: Name = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
+    from_center_of_mass_mm: float = Field(
+        description="Where it stands along the spindle axis, from the centre of mass, positive toward the wheel "
+        "[mm]; {range}, at a grinder -300 … 200.",
+        examples=[100.0],
+        ge=-2000,
+        le=2000,
+        json_schema_extra=usual(5, 1000),
+    )
+
+
+class MachineTable(Table):
+    """The machine: its mass, its speed, its shape."""
+
+    name: Name = Field(description=NAME, examples=["straight grinder"], min_length=1)
+    layout: Literal["straight", "face", "angle"] = Field(
+        description="Kind of machine: straight (the wheel's rim works, spindle along the body), face (the wheel's "
+        "face works) or angle (spindle across the body).",
+        examples=["straight"],
+    )
+    mass_kg: float = Field(
+        description="Mass with guard and handles, without wheel, autobalancer, cable or hose [kg]; {range}, hand "
+        "grinders 1 … 8.",
+        examples=[5.6],
+        ge=0.001,
+        le=20_000,
+        json_schema_extra=usual(0.3, 150),
+    )
+    speed_rpm: Speed = Field(
+        description="Rated speed of the spindle [rpm]; {range}, hand grinders 1500 … 12000.",
+        examples=[5800.0],
+        json_schema_extra=usual(700, 60_000),
+    )
+    speed_range_rpm: Annotated[tuple[Speed, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
+        default=None,
+        description="Lowest and highest working speed, ascending, with the rated speed between them [rpm]; "
+        "{range}. Frequency "
+        "regions are checked over all of it, stresses at the top. Without it: the rated speed alone.",
+        examples=[[5800.0, 5800.0]],
+        json_schema_extra=usual(200, 60_000),
+    )
+    spindle_axis: Literal["horizontal", "vertical"] = Field(
+        description="How the spindle lies: horizontal (gravity acts in the plane of the balls) or vertical.",
+        examples=["horizontal"],
+    )
+    transverse_inertia_kg_m2: float | None = Field(
+        default=None,
+        description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "
+        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm it makes the machine a rigid body; without both it is "
+        "a point mass, and an imbalance found from a level is uncertain by a factor of two to three.",
+        examples=[0.10],
+        gt=0,
+        le=1e6,
+        json_schema_extra=usual(0.0005, 20),
+    )
+    center_of_mass_to_wheel_mm: float | None = Field(
+        default=None,
+        description="Distance from the centre of mass to the wheel plane along the spindle [mm]; {range}, grinders "
+        "100 … 300. Goes with transverse_inertia_kg_m2.",
+        examples=[200.0],
+        ge=0,
+        le=10_000,
+        json_schema_extra=usual(25, 1000),
+    )
+    power_W: float | None = Field(
+        default=None,
+        description="Power of the motor [W]; {range}. When given, the cutting power f·N·v is checked against it.",
+        examples=[1000.0],
+        gt=0,
+        le=1e7,
+        json_schema_extra=usual(30, 30_000),
+    )
+    background_level_db: float | None = Field(
+        default=None,
+        description="Velocity level with a balanced wheel [dB re 5e-8 m/s]; {range}. When given, it is added as "
+        "energy to every level.",
+        examples=[98.0],
+        ge=0,
+        le=200,
+        json_schema_extra=usual(60, 130),
+    )
+    handle: Annotated[tuple[Handle, ...], Field(strict=False, max_length=MOST_HANDLES)] = Field(
+        default=(), description="Places where levels are wanted: [[machine.handle]], up to 100."
+    )
+
+    @property
+    def speed_range(self) -> tuple[float, float]:
+        """Lowest and highest working speed [rpm]."""
+        low, high = self.speed_range_rpm or (self.speed_rpm, self.speed_rpm)
+        return low, high
+
+    def own_defaults(self) -> dict[str, object]:
+        """The range of speeds is the one default that another key makes."""
+        derived = {} if self.speed_range_rpm else {"speed_range_rpm": self.speed_range}
+        return {**super().own_defaults(), **derived}
+
+    @model_validator(mode="after")
+    def _range_holds_rated_speed(self) -> Self:
+        low, high = self.speed_range
+        if low > high:
+            raise problem(
+                "the speeds must ascend",
+                "speed_range_rpm",
+                found=f"[{low:g}, {high:g}]",
+                remedy=f"write speed_range_rpm = [{high:g}, {low:g}]",
+            )
+        if not low <= self.speed_rpm <= high:
+            raise problem(
+                "the range must contain speed_rpm",
+                "speed_range_rpm",
+                found=f"[{low:g}, {high:g}] with speed_rpm = {self.speed_rpm:g}",
+                remedy="widen speed_range_rpm or correct speed_rpm",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _rigid_body_is_whole(self) -> Self:
+        pair = ("transverse_inertia_kg_m2", "center_of_mass_to_wheel_mm")
+        absent = [key for key in pair if getattr(self, key) is None]
+        if len(absent) == 1:
+            present = pair[1 - pair.index(absent[0])]
+            raise problem(
+                f"{pair[0]} and {pair[1]} make a rigid body only together",
+                present,
+                remedy=f"add {absent[0]}, or leave {present} out (a point mass)",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _handles_differ(self) -> Self:
+        names = [handle.name for handle in self.handle]
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                raise problem(f'two handles have the name "{name}"', "handle", index, "name", remedy="name them apart")
+        return self
+
+
+class Suspension(Table):
+    """What the machine hangs on: springs, or two hands."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"natural_frequencies_hz", "damping_ratios"})
+
+    model: Literal["springs", "hands"] = Field(
+        description="springs (natural frequencies and damping ratios) or hands (two hands by ISO 10068; no numbers). "
+        "At 5800 rpm springs "
+        "of 2.5 Hz with damping ratio 0.5 stand for hands; at 1750 rpm the hands themselves matter.",
+        examples=["springs"],
+    )
+    natural_frequencies_hz: (
+        Annotated[
+            tuple[Frequency, ...],
+            Field(strict=False, min_length=1, max_length=2),
+            BeforeValidator(
+                boxed,
+                json_schema_input_type=Frequency | Annotated[tuple[Frequency, ...], Field(min_length=1, max_length=2)],
+            ),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="For springs: natural frequency, one number, or two along x (along the work) and y (normal to "
+        "it) [Hz], {range}; of the machine as used, wheel on, idle, without autobalancer.",
+        examples=[[2.5, 2.5]],
+        json_schema_extra=usual(0.2, 300),
+    )
+    damping_ratios: (
+        Annotated[
+            tuple[DampingRatio, ...],
+            Field(strict=False, min_length=1, max_length=2),
+            BeforeValidator(
+                boxed,
+                json_schema_input_type=DampingRatio
+                | Annotated[tuple[DampingRatio, ...], Field(min_length=1, max_length=2)],
+            ),
+        ]
+        | None
+    ) = Field(
+        default=None,
+        description="For springs: damping ratio, one number, or two along x and y; {range}, hands 0.25 … 0.9.",
+        examples=[[0.5, 0.5]],
+        json_schema_extra=usual(0.001, 2),
+    )
+
+    @property
+    def frequencies(self) -> tuple[float, float] | None:
+        """Natural frequencies along x and y [Hz]; None for hands."""
+        return _pair(self.natural_frequencies_hz)
+
+    @property
+    def dampings(self) -> tuple[float, float] | None:
+        """Damping ratios along x and y; None for hands."""
+        return _pair(self.damping_ratios)
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """Hands bring their own numbers."""
+        return ("natural_frequencies_hz", "damping_ratios") if (key, value) == ("model", "hands") else ()
+
+    @model_validator(mode="after")
+    def _numbers_go_with_springs(self) -> Self:
+        for key in ("natural_frequencies_hz", "damping_ratios"):
+            given = getattr(self, key) is not None
+            if self.model == "springs" and not given:
+                raise problem(f'model = "springs" needs {key}', key, remedy=f"add {key} = {_EXAMPLE[key]}")
+            if self.model == "hands" and given:
+                raise problem(
+                    f'model = "hands" takes no {key}: its numbers are those of ISO 10068',
+                    key,
+                    remedy=f'leave {key} out, or write model = "springs"',
+                )
+        return self
+
+
+_EXAMPLE = {"natural_frequencies_hz": "[2.5, 2.5]", "damping_ratios": "[0.5, 0.5]"}
+
+
+def _pair(values: tuple[float, ...] | None) -> tuple[float, float] | None:
+    return (values[0], values[-1]) if values else None

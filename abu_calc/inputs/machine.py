@@ -1,0 +1,165 @@
+"""A machine file as a whole, and the rules between its tables.
+
+Numbers of a machine that do not go together, though each may stand alone.
+"""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Final, Self
+
+from pydantic import Field, model_validator
+
+from abu_calc.foundation.units import to_si
+from abu_calc.foundation.validity import bounded
+from abu_calc.inputs.autobalancer import Autobalancer
+from abu_calc.inputs.bearing_file import (
+    EXPECTED,
+    BearingFile,
+    Expected,
+    Limits,
+    MachineName,
+    expected_tolerances,
+    expected_values,
+)
+from abu_calc.inputs.body import MachineTable, Suspension
+from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
+from abu_calc.inputs.reading.table import Table, Usual, problem
+from abu_calc.inputs.reading.text import shown_short
+from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
+from abu_calc.inputs.variation import Sweep
+from abu_calc.inputs.wheel import MeasuredAfter, Wheel
+
+FASTEST_RIM: Final = 160.0
+"""Few wheels may run faster [m/s]; hand grinders stay below 80, machines below 125 (EN 12413)."""
+LARGEST_HAND_HELD: Final = 300.0
+"""Diameter [mm] of the largest wheels on hand grinders."""
+
+
+def larger_than_its_wheel(abu: "Autobalancer", wheel: "Wheel") -> Iterator[tuple[tuple[str, ...], str]]:
+    """An autobalancer that may be larger than the wheel beside which it must vanish."""
+    envelope, diameter = abu.max_outer_diameter_mm, wheel.diameter_mm
+    if envelope <= diameter:
+        return
+    meant = ""
+    if envelope <= LARGEST_HAND_HELD:
+        from abu_calc.inputs.reading.suggestions import guesses, meant_in
+
+        meant = meant_in(guesses("diameter_mm", [diameter], Usual(envelope, LARGEST_HAND_HELD)), " mm")
+    yield (
+        ("autobalancer", "max_outer_diameter_mm"),
+        f"is unusual, larger than the wheel: wheel.diameter_mm = {bounded(diameter)}."
+        + (f" The wheel's {meant}?" if meant else ""),
+    )
+
+
+def rim_too_fast(
+    machine: "MachineTable", wheel: "Wheel", motor: "Motor | None"
+) -> Iterator[tuple[tuple[str, ...], str]]:
+    """A rim that runs faster than wheels bear, at the highest working speed or at the motor's no-load speed."""
+    key = "speed_rpm" if machine.speed_range_rpm is None else "speed_range_rpm"
+    path, speed = ("machine", key), machine.speed_range[1]
+    if motor is not None and motor.no_load_speed_rpm > speed:
+        path, speed = ("motor", "no_load_speed_rpm"), motor.no_load_speed_rpm
+    rim = to_si(speed, "rpm") * to_si(wheel.diameter_mm, "mm") / 2
+    if rim <= FASTEST_RIM:
+        return
+    yield (
+        path,
+        f"is unusual with wheel.diameter_mm = {bounded(wheel.diameter_mm)}: the rim would run at {rim:.0f} m/s, up to "
+        f"{FASTEST_RIM:g} m/s is usual.",
+    )
+
+
+__all__ = [
+    "Autobalancer",
+    "Bearing",
+    "BearingFile",
+    "Grinding",
+    "Limits",
+    "MachineFile",
+    "MachineName",
+    "MachineTable",
+    "MeasuredAfter",
+    "Motor",
+    "RunUp",
+    "Suspension",
+    "SwingArm",
+    "Wheel",
+    "expected_tolerances",
+    "expected_values",
+]
+
+
+class MachineFile(Table):
+    """A machine and the autobalancer wanted for it."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"autobalancer"})
+
+    machine: MachineTable
+    suspension: Suspension
+    wheel: Wheel
+    measured_after: MeasuredAfter | None = None
+    autobalancer: Autobalancer | None = None
+    grinding: Grinding | None = None
+    run_up: RunUp | None = None
+    start: Start | None = None
+    motor: Motor | None = None
+    swing_arm: SwingArm | None = None
+    bearing: Annotated[tuple[Bearing, ...], Field(strict=False, max_length=MOST_BEARINGS)] = Field(
+        default=(), description="Bearings and their seats: [[bearing]], up to 100."
+    )
+    limits: Limits = Field(default_factory=Limits)
+    sweep: Sweep | None = None
+    expected: Expected = Field(default_factory=dict, description=EXPECTED)
+
+    def contradictions(self) -> Iterator[tuple[tuple[str, ...], str]]:
+        """An autobalancer larger than the wheel, a rim faster than wheels bear."""
+        if self.autobalancer is not None:
+            yield from larger_than_its_wheel(self.autobalancer, self.wheel)
+        yield from rim_too_fast(self.machine, self.wheel, self.motor)
+
+    @model_validator(mode="after")
+    def _measured_at_a_handle(self) -> Self:
+        names = [handle.name for handle in self.machine.handle]
+        places = {"wheel": self.wheel.measured_at}
+        if self.measured_after is not None:
+            places["measured_after"] = self.measured_after.measured_at
+        for table, place in places.items():
+            if place is not None and place not in names:
+                raise problem(
+                    "no handle has this name",
+                    table,
+                    "measured_at",
+                    found=shown_short(place),
+                    allowed=", ".join(map(shown_short, names)) or "none, the file has no [[machine.handle]]",
+                    remedy="name a handle, or leave measured_at out (the wheel plane)",
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _motor_reaches_speed(self) -> Self:
+        if self.motor is not None and self.motor.no_load_speed_rpm < self.machine.speed_rpm:
+            raise problem(
+                "the motor cannot reach machine.speed_rpm",
+                "motor",
+                "no_load_speed_rpm",
+                found=f"{self.motor.no_load_speed_rpm:g} rpm",
+                allowed=f"at least {self.machine.speed_rpm:g} rpm",
+                remedy="give the no-load speed at the spindle",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _pauses_below_its_speed(self) -> Self:
+        pause = None if self.run_up is None else self.run_up.pause_speed_rpm
+        if pause is None:
+            return self
+        place = "run_up", "pause_speed_rpm"
+        if self.motor is not None:
+            raise problem("a motor sets its own pace", *place, found=f"{pause:g} rpm beside [motor]",
+                          remedy="leave one of them out")  # fmt: skip
+        lowest = min(self.machine.speed_range)
+        if pause >= lowest:
+            raise problem("the rotor pauses below its working speeds", *place, found=f"{pause:g} rpm",
+                          allowed=f"below {lowest:g} rpm",
+                          remedy="a speed at which the balls rest in the race")  # fmt: skip
+        return self

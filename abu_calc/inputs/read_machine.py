@@ -1,0 +1,151 @@
+"""Bearings given key by key, with no file: read as a file of those bearings would be.
+
+Reading a file of whichever kind.
+
+Machine files, read and found right: document → overrides → tables, every fault with its place.
+"""
+
+import os
+import tomllib
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Final
+
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.bearing_file import BearingFile
+from abu_calc.inputs.reading.document import (
+    LARGEST_FILE,
+    Document,
+    FileReading,
+    named,
+    open_document,
+    parsed_overrides,
+    validate,
+)
+from abu_calc.inputs.reading.kinds import kind_of, refuse_others
+from abu_calc.inputs.reading.overrides import Override
+
+if TYPE_CHECKING:
+    from abu_calc.inputs.machine import MachineFile
+
+
+def read_file(source: str, overrides: Sequence[str] = ()) -> FileReading:
+    """Reads a file of any kind, or a preset by its name, entries replaced; raises as the reader of its kind."""
+    document = open_document(source)
+    reading: FileReading = kind_of(document.content).call("reads", document, parsed_overrides(overrides))
+    return reading
+
+
+__all__ = ["LARGEST_FILE", "Machine", "machine_from", "read", "read_machine", "variant_of"]
+
+
+@dataclass(frozen=True)
+class Machine(FileReading):
+    """A machine file, or one of bearings alone; `tables` are what stands in it, in the units people wrote.
+
+    Tables that only a whole machine has are those of `whole()`: `machine.whole().wheel.mass_kg`.
+    """
+
+    tables: "MachineFile | BearingFile"
+
+    @property
+    def title(self) -> str:
+        """The machine's name."""
+        return self.tables.machine.name
+
+    def changed(self, values: Mapping[str, object]) -> "Machine":
+        """The machine with entries of its file replaced, by key path: `changed({"wheel.mass_kg": 0.5})`.
+
+        Checked as if the file said so; raises InputError with key, what was found, and what is allowed.
+        """
+        from abu_calc.inputs.reading.overrides import following, overrides_of
+
+        return machine_from(self.document, following(self.overrides, overrides_of(values), _whole()))
+
+    def whole(self, command: str | None = None) -> "MachineFile":
+        """The tables of a whole machine; raises InputError, naming the command, for a file of bearings alone."""
+        if not isinstance(self.tables, BearingFile):
+            return self.tables
+        needs = f"`abu {command}` needs a whole machine" if command else "not a whole machine"
+        raise InputError(
+            f"this file holds bearings only, {needs}",
+            place=Place(self.file, key="machine"),
+            remedy="Use `abu check-fit`, or add [suspension], [wheel] and [autobalancer].",
+        )
+
+
+def read(source: str | os.PathLike[str]) -> Machine:
+    """Reads a machine file, or a preset by its name; raises InputError with file, line, key and remedy."""
+    return read_machine(named(source))
+
+
+def read_machine(source: str, overrides: Sequence[str] = ()) -> Machine:
+    """Reads a machine file, or a preset by its name, with entries overridden (`table.key=value`, typed as TOML).
+
+    Raises InputError for whatever is wrong, with file, line, key and remedy; several faults come as SpecErrors.
+    """
+    return machine_from(open_document(source), parsed_overrides(overrides))
+
+
+def machine_from(document: Document, overrides: "Sequence[Override]" = ()) -> Machine:
+    """The machine of a document that is open already; raises as `read_machine` does."""
+    refuse_others(document, "machine")
+    # Only overrides ask what keys are known, so that a file of bearings alone loads no more than it needs.
+    known = _whole() if overrides else BearingFile
+    tables, reading = validate(document, overrides, known, _model)
+    return Machine(**vars(reading), tables=tables)
+
+
+def variant_of(machine: Machine, text: str) -> Machine:
+    """The machine with the entries replaced that `--variant "key=value,key=value"` names; raises as `changed` does."""
+    from abu_calc.inputs.reading.overrides import following, parse_variant
+
+    return machine_from(machine.document, following(machine.overrides, parse_variant(text), _whole()))
+
+
+def _model(content: Mapping[str, object]) -> "type[MachineFile] | type[BearingFile]":
+    return BearingFile if _bearings_alone(content) else _whole()
+
+
+def _whole() -> "type[MachineFile]":
+    from abu_calc.inputs.machine import MachineFile
+
+    return MachineFile
+
+
+def _bearings_alone(document: Mapping[str, object]) -> bool:
+    """True if a file is for bearing seats only.
+
+    Its machine then has no more than a name, and there are bearings.
+    """
+    head = document.get("machine", {})
+    named_only = isinstance(head, dict) and head.keys() <= {"name"}
+    return (
+        named_only and bool(document.get("bearing")) and not document.keys() & {"suspension", "wheel", "autobalancer"}
+    )
+
+
+MACHINE: Final = """
+[machine]
+name = "bearing"
+"""
+BEARING: Final = """
+[[bearing]]
+name = "bearing"
+"""
+
+
+def machine_of_bearings(bearings: Sequence[Mapping[str, object]], options: Mapping[str, str]) -> Machine:
+    """A machine of these bearings and no more; `options`: what gave each key, so that errors can name it.
+
+    Raises InputError as for a file.
+    """
+    text = MACHINE + BEARING * len(bearings)
+    document = Document("", text, "", tomllib.loads(text))
+    given = tuple(
+        Override(("bearing", index, key), value, options[key])
+        for index, keys in enumerate(bearings)
+        for key, value in keys.items()
+    )
+    tables, reading = validate(document, given, BearingFile, lambda _: BearingFile)
+    return Machine(**vars(reading), tables=tables)

@@ -1,0 +1,291 @@
+"""The way of every file: path or preset → bytes → text → document → overrides → model, every fault with its place.
+
+What words faults is imported when there is one.
+
+Warnings about a file that reads without error.
+
+They concern unusual numbers, numbers that do not go together, and defaults that are another machine's.
+"""
+
+import hashlib
+import os
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import cached_property, reduce
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+
+from pydantic import ValidationError
+
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.validity import bounded
+from abu_calc.inputs.reading.plain import check_nesting
+from abu_calc.inputs.reading.sources import LARGEST_FILE, bytes_of
+from abu_calc.inputs.reading.table import Table, Usual, usual_of
+from abu_calc.inputs.reading.text import Part, is_number, key_path, unit_suffix, unit_symbol
+
+if TYPE_CHECKING:
+    from abu_calc.inputs.reading.overrides import Override
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where the entries of a file come from: its text, or an override."""
+
+    text: str
+    overrides: "Sequence[Override]" = ()
+
+    @cached_property
+    def _lines(self) -> Mapping[str, int]:
+        from abu_calc.inputs.reading.toml_text import key_lines
+
+        return key_lines(self.text)
+
+    def of(self, path: tuple[Part, ...]) -> str:
+        """Line, or option, in brackets; empty where there is neither."""
+        given = [override for override in self.overrides if path[: len(override.path)] == override.path]
+        if given:
+            return f" ({given[-1].option.removesuffix(given[-1].key).strip() or 'changed'})"
+        from abu_calc.inputs.reading.toml_text import line_of
+
+        line = line_of(self._lines, path)
+        return f" (line {line})" if line else ""
+
+
+def remarks(root: Table, source: Source) -> Iterator[str]:
+    """The warnings of a file, each with its key and where that stands."""
+    for path, table in root.tables():
+        for name, usual, values in unusual(table):
+            yield f"{_entry(table, path, (name,), source)} is unusual, {_asked(root, name, usual, values)}"
+    for path, table in root.tables():
+        for below, words in table.contradictions():
+            yield f"{_entry(table, path, below, source)} {words}"
+        if borrowed := table.borrowed():
+            yield _borrowed(table, path, borrowed, source)
+
+
+def unusual(table: Table) -> Iterator[tuple[str, Usual, list[float]]]:
+    """Keys of a table with numbers outside their usual range, and these numbers."""
+    given = table.model_fields_set - table.unused()
+    for key in type(table).model_fields:
+        if key not in given or not (usual := usual_of(type(table).model_fields[key])):
+            continue
+        silent = unit_suffix(key) == "db"  # a level of zero is not none
+        odd = [value for value in _numbers(getattr(table, key)) if not usual.holds(value) or (silent and value == 0)]
+        if odd:
+            yield key, usual, odd
+
+
+def _numbers(value: object) -> Iterator[float]:
+    if isinstance(value, tuple):
+        for each in value:
+            yield from _numbers(each)
+    elif isinstance(value, (int, float)) and is_number(value):
+        yield value
+
+
+def _entry(table: Table, path: tuple[Part, ...], below: tuple[str, ...], source: Source) -> str:
+    """An entry below a table of the file, and where it stands: "machine.speed_rpm = 97 (line 5)"."""
+    whole, value = (*path, *below), reduce(getattr, below, cast("object", table))
+    return f"{key_path(whole)} = {said(value)}{source.of(whole)}"
+
+
+def _asked(root: Table, key: str, usual: Usual, values: list[float]) -> str:
+    from abu_calc.inputs.reading.suggestions import guesses, meant_in
+
+    unit, speed = unit_symbol(key), getattr(getattr(root, "machine", None), "speed_rpm", None)
+    meant = meant_in(guesses(key, values, usual, speed), unit)
+    return f"{usual}{unit} is usual." + (f" M{meant[1:]}?" if meant else "")
+
+
+def _borrowed(table: Table, path: tuple[Part, ...], keys: Sequence[str], source: Source) -> str:
+    taken = ", ".join(f"{key} = {said(getattr(table, key))}" for key in keys)
+    return (
+        f"[{key_path(path)}]{source.of(path)} takes example data, not your machine's: {taken}. What rests on it holds "
+        "for the example: give your own."
+    )
+
+
+def said(value: object) -> str:
+    """A number, or a list of numbers, as messages say it.
+
+    >>> said((2.5, 250.0)), said(2e5), said((6.5,))
+    ('[2.5, 250]', '200000', '6.5')
+    """
+    if isinstance(value, tuple):
+        inner = [said(each) for each in value]
+        return inner[0] if len(inner) == 1 else f"[{', '.join(inner)}]"
+    return bounded(value) if isinstance(value, (int, float)) else str(value)
+
+
+__all__ = ["LARGEST_FILE", "Document", "Reading", "named", "open_document", "parsed_overrides", "validate"]
+
+Model = TypeVar("Model", bound=Table)
+
+
+class Document(NamedTuple):
+    """A file whose TOML is right; its tables are not looked at yet."""
+
+    file: str
+    """Name as it was given: a path, or a preset; empty if there is none."""
+    text: str
+    sha256: str
+    content: dict[str, object]
+
+
+@dataclass(frozen=True)
+class FileReading:
+    """A file, read and found right, and what there is to know about it."""
+
+    file: str
+    text: str
+    sha256: str
+    overrides: "tuple[Override, ...]"
+    """Entries of the file that were replaced, in the order given."""
+    defaults_used: tuple[tuple[str, object], ...]
+    """Key path and value of each default in force in the tables that are there."""
+    warnings: tuple[str, ...]
+
+    @property
+    def title(self) -> str:
+        """The name of what it is about, as reports print it."""
+        return Path(self.file).name
+
+    @property
+    def lines(self) -> Mapping[str, int]:
+        """Key path → line."""
+        from abu_calc.inputs.reading.toml_text import key_lines
+
+        return key_lines(self.text)
+
+    @property
+    def document(self) -> Document:
+        """The file once more, without its overrides."""
+        return Document(self.file, self.text, self.sha256, _parsed(self.text, self.file))
+
+    @contextmanager
+    def located(self) -> Iterator[None]:
+        """Give errors that know only a key the file and the line they come from."""
+        try:
+            yield
+        except InputError as error:
+            key = error.place.key
+            if error.place.file is not None or (key or "").startswith("--"):
+                raise
+            if given := self._override_of(key or ""):
+                raise given.blamed(error) from None
+            if not self.file:
+                raise
+            raise error.at(Place(self.file, self.lines.get(key) if key else None, key)) from None
+
+    def _override_of(self, key: str) -> "Override | None":
+        """The override that an entry of the file comes from, if any: it, or the last that set a table around it."""
+        around = [
+            override
+            for override in self.overrides
+            if key == override.key or key.startswith((f"{override.key}.", f"{override.key}["))
+        ]
+        return around[-1] if around else None
+
+
+def named(source: object) -> str:
+    """The name of a file, or of a preset, that a script gives as text or as a path; raises InputError for all else."""
+    if isinstance(source, (str, os.PathLike)) and isinstance(name := os.fspath(source), str):
+        return name
+    from abu_calc.inputs.reading.plain import found_as
+
+    raise InputError(
+        "not the name of a file or a preset",
+        place=Place(key="source"),
+        found=found_as(source),
+        allowed="text or a path",
+    )
+
+
+def open_document(source: str) -> Document:
+    """The document of a file, or of a preset by its name. Raises InputError with file, line, key and remedy."""
+    raw = bytes_of(source)
+    text = _decoded(raw, source)
+    content = _parsed(text, source)
+    if not content:
+        raise InputError(
+            "the file holds comments only", place=Place(source), remedy="`abu init FILE` writes a commented one"
+        )
+    return Document(source, text, hashlib.sha256(raw).hexdigest(), content)
+
+
+def validate(
+    document: Document,
+    overrides: "Sequence[Override]",
+    known: type[Table],
+    choose: Callable[[dict[str, object]], type[Model]],
+) -> tuple[Model, FileReading]:
+    """The table of a document with entries overridden, and what there is to know of it.
+
+    `known` has the keys that overrides may name, `choose` the model of the document as overridden. Raises InputError
+    for whatever is wrong; several faults come as SpecErrors.
+    """
+    content = document.content
+    options, notes = _overridden(content, overrides, known)
+    model = choose(content)
+    try:
+        table = model.model_validate(content)
+    except ValidationError as error:
+        from abu_calc.inputs.reading.errors import Origin, input_error
+        from abu_calc.inputs.reading.toml_text import key_lines
+
+        raise input_error(error, Origin(document.file, content, key_lines(document.text), options, model)) from None
+    defaults = tuple((key_path(path), value) for path, value in table.defaults())
+    notes = [*remarks(table, Source(document.text, overrides)), *notes]
+    notes += [f"{key_path(path)} plays no part beside the other keys." for path in table.given_in_vain()]
+    return table, FileReading(document.file, document.text, document.sha256, tuple(overrides), defaults, tuple(notes))
+
+
+def _overridden(
+    content: dict[str, object], overrides: "Sequence[Override]", known: type[Table]
+) -> tuple[dict[tuple[Part, ...], str], list[str]]:
+    """Puts overrides into the document; the option of each path that one set, and the notes."""
+    if not overrides:
+        return {}, []
+    from abu_calc.inputs.reading.overrides import apply
+
+    notes = apply(content, overrides, known)
+    return {override.path: override.option for override in overrides}, notes
+
+
+def parsed_overrides(overrides: Sequence[str]) -> "tuple[Override, ...]":
+    """Overrides as written on the command line, `table.key=value`."""
+    if not overrides:
+        return ()
+    from abu_calc.inputs.reading.overrides import parse_overrides
+
+    return parse_overrides(overrides)
+
+
+def _parsed(text: str, source: str) -> dict[str, object]:
+    check_nesting(text, source)
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        from abu_calc.inputs.reading.toml_text import reworded
+
+        raise reworded(text, source, error) from None
+
+
+def _decoded(raw: bytes, source: str) -> str:
+    place = Place(source)
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in raw[:4]:
+        raise InputError("the text is UTF-16 or UTF-32", place=place, allowed="UTF-8", remedy="save the file as UTF-8")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        bad_byte = f"byte 0x{raw[error.start]:02x}"
+        raise InputError(
+            "the text is not UTF-8", place=Place(source, line), found=bad_byte, remedy="save the file as UTF-8"
+        ) from None
+    if not text.strip():
+        raise InputError("the file is empty", place=place, remedy="`abu init FILE` writes a commented one")
+    return text

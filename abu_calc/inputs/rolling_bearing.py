@@ -1,0 +1,396 @@
+"""A rolling bearing and its two seats.
+
+A rolling bearing: what it is, and the load on its rings.
+"""
+
+import itertools
+from typing import Annotated, ClassVar, Final, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.reading.table import Name, Table, problem, usual
+from abu_calc.standards.tolerance_classes import RingLoad
+
+SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
+_CLASSES: Final = {"NORMAL": "0", "P0": "0", "PN": "0", "P6": "6", "P5": "5", "P4": "4", "P2": "2"}
+
+
+def _class_as_iso_has_it(value: object) -> object:
+    """P5 and Normal for 5 and 0; everything else as it is, to be judged as written."""
+    return _CLASSES.get(value.strip().upper(), value) if isinstance(value, str) else value
+
+
+class RollingBearing(Table):
+    """A rolling bearing by its designation or its sizes, with its load."""
+
+    name: Name = Field(
+        default="bearing",
+        description="Name of the bearing, as reports print it. Default: {default}.",
+        examples=["spindle, drive end"],
+        min_length=1,
+    )
+    designation: Name | None = Field(
+        default=None,
+        description="Designation whose sizes, type, series and load ratings are looked up, in quotes; seals and the "
+        "like may follow (6203-2RS), C3 and P5 count. Or give bore_mm, outer_mm and width_mm.",
+        examples=["6203"],
+        min_length=1,
+    )
+    bearing_type: Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical"] | None = Field(
+        default=None,
+        description="Type of a bearing given by its sizes: ball (deep groove), angular-contact, cylindrical, tapered "
+        "or spherical. Decides the makers' fits and the tables of its rings and clearance.",
+        examples=["ball"],
+    )
+    bore_mm: float | None = Field(
+        default=None,
+        description="Bore of the bearing [mm]; {range}.",
+        examples=[17.0],
+        gt=0,
+        le=5000,
+        json_schema_extra=usual(3, 500),
+    )
+    outer_mm: float | None = Field(
+        default=None,
+        description="Outer diameter of the bearing [mm]; above bore_mm, up to {most}, {usual}.",
+        examples=[40.0],
+        gt=0,
+        le=8000,
+        json_schema_extra=usual(8, 800),
+    )
+    width_mm: float | None = Field(
+        default=None,
+        description="Width of the ring [mm]; {range}.",
+        examples=[12.0],
+        gt=0,
+        le=2000,
+        json_schema_extra=usual(2, 300),
+    )
+    chamfer_mm: float | None = Field(
+        default=None,
+        description="Chamfer of one edge; the seat is as long as the width less two of them [mm]; {range}.",
+        examples=[0.6],
+        ge=0,
+        le=100,
+        json_schema_extra=usual(0.1, 10),
+    )
+    radial_load_kN: float | None = Field(
+        default=None,
+        description="Radial load [kN]; {range}. Without it whether a ring creeps is not known.",
+        examples=[0.8],
+        ge=0,
+        le=1e5,
+        json_schema_extra=usual(0.01, 300),
+    )
+    dynamic_load_rating_kN: float | None = Field(
+        default=None,
+        description="Basic dynamic load rating C [kN]; {range}. Default: that of the designation.",
+        examples=[9.95],
+        gt=0,
+        le=1e5,
+        json_schema_extra=usual(0.1, 3000),
+    )
+    static_load_rating_kN: float | None = Field(
+        default=None,
+        description="Basic static load rating C0 [kN]; {range}. Default: that of the designation.",
+        examples=[4.75],
+        gt=0,
+        le=1e5,
+        json_schema_extra=usual(0.05, 5000),
+    )
+    series: Literal["light", "medium", "heavy"] | None = Field(
+        default=None,
+        description="Series of the bearing: light, medium or heavy. Default: by the designation; light where the sizes "
+        "are given.",
+        examples=["light"],
+    )
+    inner_ring_load: RingLoad = Field(
+        default="rotating",
+        description="How the load meets the inner ring: rotating, stationary or indeterminate. Default: {default}, "
+        "as of a turning shaft.",
+    )
+    outer_ring_load: RingLoad = Field(
+        default="stationary",
+        description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: {default}.",
+    )
+    bearing_class: Annotated[Literal["0", "6", "5", "4", "2"], BeforeValidator(_class_as_iso_has_it)] | None = Field(
+        default=None,
+        description='Accuracy class of the bearing, in quotes: "0", "6", "5", "4" or "2" (ISO 492 Normal, P6, P5, '
+        'P4, P2, which may be written so, too). Default: by the designation\'s suffix, else "0".',
+        examples=["0"],
+    )
+    internal_clearance: Literal["C2", "CN", "C3", "C4"] | None = Field(
+        default=None,
+        description="Group of radial clearance of a deep groove ball bearing: C2, CN, C3 or C4 (ISO 5753-1). When "
+        "given, by this key or the designation's suffix, the clearance left after mounting is checked.",
+        examples=["C3"],
+    )
+
+    def own_defaults(self) -> dict[str, object]:
+        """Class and series have a default where no designation tells them."""
+        derived: dict[str, object] = {}
+        if self.series is None and self.designation is None:
+            derived["series"] = "light"
+        if self.bearing_class is None and not self._class_is_designated():
+            derived["bearing_class"] = "0"
+        return {**super().own_defaults(), **derived}
+
+    def _class_is_designated(self) -> bool:
+        """True if a suffix gives the class; an unknown designation is refused where it is looked up."""
+        from abu_calc.standards.bearing_catalogue import read_designation
+
+        try:
+            return self.designation is not None and read_designation(self.designation).accuracy is not None
+        except InputError:
+            return True
+
+    @model_validator(mode="after")
+    def _sized_one_way(self) -> Self:
+        given = [key for key in SIZES if getattr(self, key) is not None]
+        if self.designation is not None and given:
+            raise problem(
+                f"designation and {given[0]} both size the bearing",
+                given[0],
+                remedy="keep the designation, or the sizes (the designation may stand in name)",
+            )
+        absent = [key for key in SIZES if key not in given]
+        if self.designation is None and absent:
+            raise problem(
+                "the bearing has no size" if not given else "the bearing's size is not whole",
+                absent[0],
+                found=" and ".join(given) or "none",
+                allowed="designation, or all of " + ", ".join(SIZES),
+                remedy=f"add {' and '.join(absent)}" if given else 'add designation = "…"',
+            )
+        return self
+
+
+MOST_BEARINGS: Final = 100
+"""Most bearings in one file; the longest report on them takes some seconds."""
+SeatMaterial = Literal["steel", "stainless-steel", "cast-iron", "aluminium", "magnesium"]
+Pair = Annotated[tuple[float, ...], Field(strict=False, min_length=2, max_length=2)]
+
+
+class Bearing(RollingBearing):
+    """A rolling bearing and its two seats, checked by `abu check-fit`."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"designation"})
+
+    shaft_fit: str | None = Field(
+        default=None,
+        description="Tolerance class of the shaft by ISO 286, small letters. Without it the answer is which to write.",
+        examples=["k6"],
+        pattern=r"^[a-z]{1,2}[0-9]{1,2}$",
+    )
+    housing_fit: str | None = Field(
+        default=None,
+        description="Tolerance class of the housing by ISO 286, capital letters. Without it the answer is which to "
+        "write.",
+        examples=["H7"],
+        pattern=r"^[A-Z]{1,2}[0-9]{1,2}$",
+    )
+    shaft_limits_um: Pair | None = Field(
+        default=None,
+        description="Least and largest deviation of the shaft from its nominal size as measured [µm], {usual} either "
+        "way. In place of shaft_fit, which may stand beside it as what the drawing asks for.",
+        examples=[[2.0, 21.0]],
+        json_schema_extra=usual(0.1, 500),
+    )
+    housing_limits_um: Pair | None = Field(
+        default=None,
+        description="Least and largest deviation of the housing from its nominal size as measured [µm], {usual} either "
+        "way. In place of housing_fit, which may stand beside it as what the drawing asks for.",
+        examples=[[0.0, 25.0]],
+        json_schema_extra=usual(0.1, 500),
+    )
+    shaft_rz_um: float | None = Field(
+        default=None,
+        description="Roughness Rz of the shaft [µm]; {range}. When given, its smoothing is taken off the interference.",
+        examples=[4.0],
+        ge=0,
+        le=1000,
+        json_schema_extra=usual(0.1, 50),
+    )
+    housing_rz_um: float | None = Field(
+        default=None,
+        description="Roughness Rz of the housing [µm]; {range}. When given, its smoothing is taken off the "
+        "interference.",
+        examples=[6.3],
+        ge=0,
+        le=1000,
+        json_schema_extra=usual(0.1, 50),
+    )
+    ring_temperature_difference_K: float | None = Field(
+        default=None,
+        description="By how much the inner ring is warmer than its shaft, negative when colder [K]; {range}. When "
+        "given, the loss of interference α·d·ΔT is counted.",
+        examples=[10.0],
+        ge=-500,
+        le=500,
+        json_schema_extra=usual(0.1, 100),
+    )
+    housing_temperature_difference_K: float | None = Field(
+        default=None,
+        description="By how much the housing is warmer than the outer ring, negative when colder [K]; {range}. When "
+        "given, the loss of interference α·D·ΔT is counted.",
+        examples=[-5.0],
+        ge=-500,
+        le=500,
+        json_schema_extra=usual(0.1, 100),
+    )
+    temperature_rise_K: float | None = Field(
+        default=None,
+        description="By how much the bearing is warmer in service than at mounting (20 °C), negative when colder [K]; "
+        "{range}. When given, shafts and housings that expand otherwise than steel lose or gain interference by it.",
+        examples=[40.0],
+        ge=-300,
+        le=500,
+        json_schema_extra=usual(0.1, 150),
+    )
+    speed_rpm: float | None = Field(
+        default=None,
+        description="Speed of the shaft with the inner ring [rpm]; {range}. When given, the loss of interference by "
+        "centrifugal growth is counted.",
+        examples=[5800.0],
+        ge=0,
+        le=300_000,
+        json_schema_extra=usual(10, 60_000),
+    )
+    shaft_bore_mm: float | None = Field(
+        default=None,
+        description="Bore of a hollow shaft, for stresses [mm]; 0 (solid) up to the bearing's bore, {usual}.",
+        examples=[0.0],
+        ge=0,
+        le=5000,
+        json_schema_extra=usual(1, 500),
+    )
+    housing_outer_mm: float | None = Field(
+        default=None,
+        description="Outer diameter of the housing, for stresses [mm]; above that of the bearing, up to {most}, "
+        "{usual}.",
+        examples=[60.0],
+        gt=0,
+        le=20_000,
+        json_schema_extra=usual(10, 2000),
+    )
+    shaft_material: SeatMaterial = Field(
+        default="steel",
+        description="Material of the shaft, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}.",
+    )
+    housing_material: SeatMaterial = Field(
+        default="steel",
+        description="Material of the housing, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
+        "magnesium. Default: {default}.",
+    )
+    shaft_strength_MPa: float | None = Field(
+        default=None,
+        description="Hoop stress that the shaft bears [MPa]; {range}. Default: a low one of its material, assumed.",
+        examples=[300.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(30, 2000),
+    )
+    housing_strength_MPa: float | None = Field(
+        default=None,
+        description="Hoop stress that the housing bears [MPa]; {range}. Default: a low one of its material, assumed.",
+        examples=[200.0],
+        gt=0,
+        le=10_000,
+        json_schema_extra=usual(30, 2000),
+    )
+    housing_split: bool = Field(
+        default=False,
+        description="Whether the housing is split: its halves pinch a ring tighter than J7. Default: {default}.",
+    )
+    raceway_temperature_difference_K: float | None = Field(
+        default=None,
+        description="By how much the inner ring is warmer than the outer one, negative when colder [K]; {range}. When "
+        "given, it is taken off the clearance left.",
+        examples=[5.0],
+        ge=-500,
+        le=500,
+        json_schema_extra=usual(0.1, 60),
+    )
+    starting_torque_N_m: float | None = Field(
+        default=None,
+        description="Torque that a ring under a rotating load must pass on by friction when the machine starts "
+        "[N·m]; {range}. When given, the seat's friction torque is checked against it.",
+        examples=[2.0],
+        ge=0,
+        le=1e7,
+        json_schema_extra=usual(0.01, 5000),
+    )
+    seat_friction: float = Field(
+        default=0.12,
+        description="Coefficient of friction between ring and seat; {range}. Default: {default}, assumed (steel on "
+        "steel).",
+        ge=0,
+        le=1,
+        json_schema_extra=usual(0.05, 0.3),
+    )
+    asked_interference_um: Pair | None = Field(
+        default=None,
+        description="Least and largest interference asked of the pairs, ascending, tight positive [µm], {usual} either "
+        "way. When given, "
+        "the groups for selective assembly are given.",
+        examples=[[10.0, 28.0]],
+        json_schema_extra=usual(1, 300),
+    )
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """A designation takes the place of sizes, and sizes that of a designation."""
+        if key == "designation":
+            return (*SIZES, "chamfer_mm", "bearing_type")
+        if key in ("shaft_fit", "housing_fit"):
+            return (key.replace("fit", "limits_um"),)
+        return ("designation",) if key in SIZES else ()
+
+    def unused(self) -> frozenset[str]:
+        """The friction without a starting torque."""
+        return frozenset() if self.starting_torque_N_m is not None else frozenset({"seat_friction"})
+
+    @model_validator(mode="after")
+    def _band_ascends(self) -> Self:
+        band = self.asked_interference_um
+        if band is not None and not band[0] < band[1]:
+            raise problem(
+                "the band of interference must ascend",
+                "asked_interference_um",
+                found=f"[{band[0]:g}, {band[1]:g}]",
+                remedy="write the least first",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _limits_ascend(self) -> Self:
+        for key in ("shaft_limits_um", "housing_limits_um"):
+            pair = getattr(self, key)
+            if pair is not None and not pair[0] <= pair[1]:
+                raise problem(
+                    "measured limits must ascend",
+                    key,
+                    found=f"[{pair[0]:g}, {pair[1]:g}]",
+                    remedy="write the least first",
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _sizes_nest(self) -> Self:
+        ascending = ("shaft_bore_mm", "bore_mm", "outer_mm", "housing_outer_mm")
+        known = [(key, value) for key in ascending if (value := getattr(self, key)) is not None]
+        for (inner, small), (outer, large) in itertools.pairwise(known):
+            if small >= large:
+                raise problem(
+                    f"{outer} must be above {inner}", outer, found=f"{outer} = {large:g}, {inner} = {small:g}"
+                )
+        if self.chamfer_mm is not None and self.width_mm is not None and 2 * self.chamfer_mm >= self.width_mm:
+            raise problem(
+                "two chamfers leave no seat",
+                "chamfer_mm",
+                found=f"chamfer_mm = {self.chamfer_mm:g}, width_mm = {self.width_mm:g}",
+                allowed="chamfer_mm below half of width_mm",
+            )
+        return self

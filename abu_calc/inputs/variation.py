@@ -1,0 +1,330 @@
+"""The tables of a file with some of its values replaced, again and again: read once, checked each time.
+
+Variation of a value among the samples of a sweep: `LOW:HIGH:N`, a list, or a distribution.
+
+The module reads it as it is written.
+
+[sweep]: a study of many machines like this one, as a table of its file.
+"""
+
+import copy
+import re
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
+from typing import Annotated, Final, Generic, Literal
+
+from pydantic import BeforeValidator, Field, ValidationError, WithJsonSchema
+
+from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.document import Document, FileReading, Model
+from abu_calc.inputs.reading.errors import Origin, input_error
+from abu_calc.inputs.reading.overrides import Override, apply, parse_override
+from abu_calc.inputs.reading.plain import found_as, plain_number
+from abu_calc.inputs.reading.table import Table, problem
+from abu_calc.inputs.reading.text import Part
+
+GRAMMAR: Final = (
+    "LOW:HIGH:N, a list A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), triangular(LOW,MODE,HIGH), "
+    "choice(A,B,…)"
+)
+COUNTS: Final = {"uniform": 2, "normal": 2, "lognormal": 2, "triangular": 3}
+"""Numbers that each distribution takes."""
+MOST_VALUES: Final = 100_000
+
+_NUMBER: Final = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_CALL: Final = re.compile(r"([A-Za-z_]+)\s*\((.*)\)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Variation:
+    """How one value varies. `kind`: values (each in its turn), choice (one at random), or a distribution's name.
+
+    `numbers` of a distribution; `values` of the other two; `text` as it was written.
+    """
+
+    kind: str
+    numbers: tuple[float, ...]
+    values: tuple[object, ...]
+    text: str
+
+    @property
+    def listed(self) -> bool:
+        """True if the values come each in its turn, so that they count samples."""
+        return self.kind == "values"
+
+    @property
+    def extremes(self) -> tuple[object, ...]:
+        """Values that a file must bear for all members to be right; of what has no bounds a typical one."""
+        if self.values:
+            return self.values
+        return self.numbers[:1] if self.kind in ("normal", "lognormal") else (self.numbers[0], self.numbers[-1])
+
+    @property
+    def typical(self) -> object:
+        """A value amid the others."""
+        if self.values:
+            return self.values[len(self.values) // 2]
+        return self.numbers[0] if self.kind in ("normal", "lognormal") else sum(self.numbers) / len(self.numbers)
+
+
+def variation(value: object, place: Place) -> Variation:
+    """Variation of a value, given as text on the command line and in a file, or as a list of values.
+
+    >>> variation("1:2:3", Place()).values
+    (1.0, 1.5, 2.0)
+    >>> variation("normal(265, 40)", Place()).numbers
+    (265.0, 40.0)
+
+    Raises InputError at that place.
+    """
+    if isinstance(value, (list, tuple)):
+        return Variation("values", (), _several(tuple(value), place, value), ", ".join(map(str, value)))
+    if not isinstance(value, str):
+        raise InputError("not a way to vary a value", place=place, found=found_as(value), allowed=GRAMMAR)
+    text = value.strip()
+    if call := _CALL.fullmatch(text):
+        return _distribution(call[1].lower(), call[2], text, place)
+    if re.match(r"[A-Za-z_]+\s*\(", text):
+        raise _refused(text, place, "a bracket is not closed")
+    if text.count(":") == 2:
+        return Variation("values", (), _spaced(text, place), text)
+    if "," in text or _NUMBER.fullmatch(text):
+        return Variation("values", (), _several(_listed(text, place), place, text), text)
+    raise _refused(text, place)
+
+
+def _refused(
+    text: str, place: Place, message: str = "not a way to vary a value", remedy: str | None = None
+) -> InputError:
+    return InputError(message, place=place, found=text or "nothing", allowed=GRAMMAR, remedy=remedy)
+
+
+def _distribution(kind: str, inner: str, text: str, place: Place) -> Variation:
+    if kind == "choice":
+        return Variation("choice", (), _several(_listed(inner, place), place, text), text)
+    if kind not in COUNTS:
+        raise _refused(text, place, "an unknown distribution")
+    numbers = tuple(_number(part, text, place) for part in inner.split(","))
+    if len(numbers) != COUNTS[kind]:
+        raise _refused(text, place, f"{kind} takes {COUNTS[kind]} numbers")
+    if problem := CHECKS[kind](numbers):
+        raise _refused(text, place, f"{kind}: {problem}")
+    return Variation(kind, numbers, (), text)
+
+
+def _ascending(numbers: Sequence[float]) -> str | None:
+    rises = all(a <= b for a, b in pairwise(numbers)) and numbers[0] < numbers[-1]
+    return None if rises else "its numbers must ascend"
+
+
+def _spread(numbers: Sequence[float]) -> str | None:
+    return None if numbers[1] >= 0 else "the standard deviation is negative"
+
+
+def _scaled(numbers: Sequence[float]) -> str | None:
+    return "the median must be above 0" if numbers[0] <= 0 else _spread(numbers)
+
+
+CHECKS: Final[dict[str, Callable[[Sequence[float]], str | None]]] = {
+    "uniform": _ascending,
+    "normal": _spread,
+    "lognormal": _scaled,
+    "triangular": _ascending,
+}
+
+
+def _spaced(text: str, place: Place) -> tuple[object, ...]:
+    """LOW:HIGH:N as N values, equally spaced, both ends among them; whole ones where all are."""
+    low, high, many = text.split(":")
+    first, last = _number(low, text, place), _number(high, text, place)
+    if not re.fullmatch(r"\s*\d{1,9}\s*", many) or not 1 <= int(many) <= MOST_VALUES:
+        raise _refused(text, place, f"N is a whole number from 1 to {MOST_VALUES}")
+    count = int(many)
+    if count == 1 and first != last:
+        raise _refused(text, place, "one value cannot be both ends")
+    values = [first + (last - first) * k / max(count - 1, 1) for k in range(count)]
+    whole = all(re.fullmatch(r"\s*[+-]?\d+\s*", part) for part in (low, high)) and all(v == int(v) for v in values)
+    return tuple(int(value) if whole else value for value in values)
+
+
+def _listed(text: str, place: Place) -> tuple[object, ...]:
+    """Values parted by commas, each typed as TOML; bare words are text."""
+    return tuple(_one(part.strip(), text, place) for part in text.split(","))
+
+
+def _one(part: str, text: str, place: Place) -> object:
+    if not part:
+        raise _refused(text, place, "a value is missing")
+    try:
+        return tomllib.loads(f"value = {part}")["value"]
+    except (ValueError, RecursionError):  # no TOML, or brackets without end
+        return part
+
+
+def _several(values: tuple[object, ...], place: Place, given: object) -> tuple[object, ...]:
+    """Values of a list, of which there are some, and finite."""
+    for value in values:
+        number = plain_number(value)
+        if number is not None and not -1e300 < number < 1e300:
+            raise InputError("a finite number is expected", place=place, found=found_as(value))
+    if not values or len(values) > MOST_VALUES:
+        raise InputError("the list has no values, or too many", place=place, found=found_as(given))
+    return tuple(tuple(value) if isinstance(value, list) else value for value in values)
+
+
+def _number(part: str, text: str, place: Place) -> float:
+    try:
+        number = float(part)
+    except ValueError:
+        raise _refused(text, place, f'"{part.strip()}" is no number') from None
+    if not -1e300 < number < 1e300:
+        raise _refused(text, place, "a finite number is expected")
+    return number
+
+
+MOST_RUNS: Final = 100_000_000
+RUNS: Final = 100
+"""Members where nothing says how many."""
+
+
+def _by_key(value: object) -> object:
+    """KEY=… as on the command line, a list of them, as a table by key."""
+    if not isinstance(value, list) or not all(isinstance(entry, str) for entry in value):
+        return value
+    variations = {}
+    for assignment in value:
+        key, equals, how = assignment.partition("=")
+        if not equals:
+            raise problem("not KEY=…", found=assignment, allowed='"wheel.imbalance_g_mm=normal(265, 40)"')
+        variations[key.strip()] = how.strip()
+    return variations
+
+
+def _texts(value: object) -> object:
+    """Ways to vary are texts or lists of values; what each says is read where it is used."""
+    for key, how in value.items() if isinstance(value, dict) else ():
+        if not isinstance(how, (str, list)) or plain_number(how) is not None:
+            raise problem("text or a list of values is expected", key, found=str(how), allowed='"normal(265, 40)"')
+    return value
+
+
+Vary = Annotated[
+    dict[str, str | list[object]],
+    BeforeValidator(_texts),
+    BeforeValidator(_by_key),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "object", "additionalProperties": {"anyOf": [{"type": "string"}, {"type": "array"}]}},
+                {"type": "array", "items": {"type": "string"}},
+            ]
+        }
+    ),
+]
+
+
+class Sweep(Table):
+    """Many machines like this one, for `abu sweep`: what varies among them, and how many there are."""
+
+    vary: Vary | None = Field(
+        default=None,
+        description="What varies, as on the command line: KEY=LOW:HIGH:N, A,B,…, uniform(LOW, HIGH), normal(MEAN, SD), "
+        "lognormal(MEDIAN, SIGMA), triangular(LOW, MODE, HIGH) or choice(A, B, …). KEY is one of this file, or "
+        "start.kind, start.angle_deg, start.eccentricity_deg, start.temperature_C. Or a table by key.",
+        examples=[["autobalancer.race_eccentricity_mm=triangular(0, 0.005, 0.015)"]],
+    )
+    runs: int | None = Field(
+        default=None,
+        description="How many members; {range}. Without it as many as there are combinations of listed values, or "
+        f"{RUNS}.",
+        examples=[1000],
+        ge=1,
+        le=MOST_RUNS,
+    )
+    what: Literal["build", "design"] = Field(
+        default="build",
+        description="build: the design is fixed, each member is one machine built and switched on once; design: it is "
+        "sized anew for each. Default: {default}.",
+    )
+    tolerances: bool = Field(
+        default=False,
+        description="true: also the drawing's own tolerances and the usual scatter of use. Default: {default}.",
+    )
+    grid: Annotated[tuple[str, ...], Field(strict=False, min_length=2, max_length=2)] | None = Field(
+        default=None,
+        description="Two of the keys with listed values, for a chart over them: across and upward.",
+        examples=[["wheel.imbalance_g_mm", "machine.speed_rpm"]],
+    )
+    sensitivity: bool = Field(
+        default=False,
+        description="true: spend the runs that a Saltelli design needs on sensitivities. Default: {default}.",
+    )
+    sampling: Literal["latin-hypercube", "sobol"] = Field(
+        default="latin-hypercube", description="How values are drawn: latin-hypercube or sobol. Default: {default}."
+    )
+    seed: int = Field(default=0, description="Of all that is drawn; {range}. Default: {default}.", ge=0, le=2**31 - 1)
+    time_limit_s: float = Field(
+        default=60.0,
+        description="Longest time for one member [s]; {range}. Default: {default}; the next one follows.",
+        gt=0,
+        le=1e6,
+    )
+    least_share: float | None = Field(
+        default=None,
+        description="Share of members that must meet the limits; {range}. Without it nothing is asked.",
+        examples=[0.95],
+        ge=0,
+        le=1,
+    )
+
+
+VARIED = "vary {}"
+"""Name in messages of a value that a sweep gave."""
+
+
+@dataclass(frozen=True)
+class Variants(Generic[Model]):
+    """A file with its overrides put in, as data that processes can hand on; `model`: its tables."""
+
+    content: dict[str, object]
+    model: type[Model]
+
+    @classmethod
+    def of(cls, reading: FileReading, model: type[Model]) -> "Variants[Model]":
+        """Variants of a file that was read."""
+        content = reading.document.content
+        apply(content, reading.overrides, model)
+        return cls({name: table for name, table in content.items() if name not in ("sweep", "expected")}, model)
+
+    def table(self, values: Mapping[tuple[Part, ...], object]) -> Model:
+        """The tables with these values. Raises InputError that names the key."""
+        overrides = tuple(Override(path, value, VARIED) for path, value in values.items())
+        content = copy.deepcopy(self.content)
+        apply(content, overrides, self.model)
+        try:
+            return self.model.model_validate(content)
+        except ValidationError as error:
+            options = {override.path: override.option for override in overrides}
+            raise input_error(error, Origin("", content, {}, options, self.model)) from None
+
+    def notes(self, paths: "tuple[tuple[Part, ...], ...]", values: tuple[object, ...]) -> list[str]:
+        """Entries of the file whose place the values take, in words."""
+        overrides = [Override(path, value, VARIED) for path, value in zip(paths, values, strict=True)]
+        return apply(copy.deepcopy(self.content), overrides, self.model)
+
+
+def path_of(key: str) -> tuple[Part, ...]:
+    """The path of a key as TOML writes it. Raises InputError for what is none.
+
+    >>> path_of("suspension.natural_frequencies_hz[0]")
+    ('suspension', 'natural_frequencies_hz', 0)
+    """
+    try:
+        return parse_override(f"{key}=0").path
+    except InputError as error:
+        raise error.at(error.place) from None
+
+
+__all__ = ["Document", "Variants", "path_of"]

@@ -1,0 +1,332 @@
+"""The wheel, and where its imbalance is known from.
+
+Instrument readings of the idle machine in a file: keys of [wheel] and of [measured_after] alike.
+"""
+
+from typing import Annotated, Any, ClassVar, Final, Literal, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.inputs.reading.table import Name, Table, boxed, problem, usual, whole
+
+Weighting = Literal["none", "Wh"]
+
+QUANTITIES: Final = (
+    *("measured_level_db", "measured_velocity_mm_per_s", "measured_displacement_um"),
+    "measured_acceleration_m_per_s2",
+)
+"""Keys of which one holds what was measured."""
+MOST_VALUES: Final = 1000
+"""Measured one after another."""
+COMPANIONS: Final = ("measured_at", "measured_weighting", "measured_axes")
+"""Keys that say how and where."""
+
+_Level = Annotated[float, Field(ge=0, le=200)]
+_Velocity = Annotated[float, Field(gt=0, le=1e5)]
+_Displacement = Annotated[float, Field(gt=0, le=1e6)]
+_Acceleration = Annotated[float, Field(gt=0, le=1e6)]
+
+
+_VALUES: Final = Field(strict=False, min_length=1, max_length=MOST_VALUES)
+
+
+def _one_or_many(kind: Any) -> BeforeValidator:
+    """One number stands for a list of one."""
+    return BeforeValidator(
+        boxed, json_schema_input_type=kind | Annotated[tuple[kind, ...], Field(min_length=1, max_length=MOST_VALUES)]
+    )
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What the instrument showed: `key` holds the values, in the unit of the key."""
+
+    key: str
+    values: tuple[float, ...]
+    weighting: Weighting
+    axes: int
+    at: str | None
+
+
+def measured_field(key: str, state: str) -> Any:
+    """The field of a key of this kind; `state`: of which machine, in words."""
+    examples, width, quantity = _QUANTITY_WORDS[key]
+    return Field(
+        default=None,
+        description=f"{quantity}, {state}: one number, or a list that is averaged in velocity {{range}}.".replace(
+            "{range}", f"{_UNIT[key]}; {{range}}"
+        ),
+        examples=examples,
+        json_schema_extra=usual(*width),
+    )
+
+
+_UNIT: Final = dict(zip(QUANTITIES, ("[dB re 5e-8 m/s]", "[mm/s]", "[µm]", "[m/s²]"), strict=True))
+_QUANTITY_WORDS: Final[dict[str, tuple[list[Any], tuple[float, float], str]]] = {
+    "measured_level_db": ([111.0], (85, 135), "Velocity level measured"),
+    "measured_velocity_mm_per_s": ([17.7], (0.5, 300), "Velocity rms as the instrument shows it"),
+    "measured_displacement_um": ([29.2], (0.5, 3000), "Displacement rms as the instrument shows it"),
+    "measured_acceleration_m_per_s2": ([10.8], (0.3, 500), "Acceleration rms as the instrument shows it"),
+}
+
+
+class Measured(Table):
+    """Rules that the keys share, in whichever table they stand."""
+
+    @property
+    def shown(self) -> Shown | None:
+        """Measured quantity; None if nothing was measured."""
+        for key in QUANTITIES:
+            values = getattr(self, key, None)
+            if values is not None:
+                at, weighting, axes = (getattr(self, name, None) for name in COMPANIONS)
+                return Shown(key, values, weighting or "none", axes or 1, at)
+        return None
+
+    @model_validator(mode="after")
+    def _companions_go_with_a_value(self) -> Self:
+        given = [key for key in QUANTITIES if getattr(self, key, None) is not None]
+        for name in COMPANIONS:
+            if getattr(self, name, None) is not None and not given:
+                raise problem(
+                    f"{name} goes with a measured value only",
+                    name,
+                    allowed=f"beside one of {', '.join(QUANTITIES)}",
+                    remedy=f"leave {name} out, or give what was measured",
+                )
+        if getattr(self, "measured_weighting", None) == "Wh" and given and given[0] != "measured_acceleration_m_per_s2":
+            raise problem(
+                'measured_weighting = "Wh" goes with an acceleration only',
+                "measured_weighting",
+                found=given[0],
+                remedy="leave measured_weighting out: W_h of ISO 5349-1 weights accelerations",
+            )
+        return self
+
+
+WEIGHTING_WORDS: Final = (
+    "With an acceleration: how it is weighted by frequency, none, or Wh (ISO 5349-1, as data sheets give it). "
+    "Without it: none."
+)
+AXES_WORDS: Final = (
+    "How many axes what was measured stands for: 1, or 3 for the vector sum of three, as the total a_hv of data "
+    "sheets. A spinning imbalance moves two axes alike, so one takes 1/√2 of a sum. Without it: 1."
+)
+Axes = Annotated[Literal[1, 3], BeforeValidator(whole)]
+Levels = Annotated[tuple[_Level, ...], _VALUES, _one_or_many(_Level)] | None
+Velocities = Annotated[tuple[_Velocity, ...], _VALUES, _one_or_many(_Velocity)] | None
+Displacements = (
+    Annotated[
+        tuple[_Displacement, ...],
+        _VALUES,
+        _one_or_many(_Displacement),
+    ]
+    | None
+)
+Accelerations = (
+    Annotated[
+        tuple[_Acceleration, ...],
+        _VALUES,
+        _one_or_many(_Acceleration),
+    ]
+    | None
+)
+
+
+class MeasuredAfter(Measured):
+    """What was measured with the autobalancer, idle: printed beside what is predicted, with the difference."""
+
+    measured_level_db: Levels = measured_field("measured_level_db", "with the autobalancer")
+    measured_velocity_mm_per_s: Velocities = measured_field("measured_velocity_mm_per_s", "with the autobalancer")
+    measured_displacement_um: Displacements = measured_field("measured_displacement_um", "with the autobalancer")
+    measured_acceleration_m_per_s2: Accelerations = measured_field(
+        "measured_acceleration_m_per_s2", "with the autobalancer"
+    )
+    measured_weighting: Weighting | None = Field(default=None, description=WEIGHTING_WORDS, examples=["none"])
+    measured_axes: Axes | None = Field(default=None, description=AXES_WORDS, examples=[1])
+    measured_at: Name | None = Field(
+        default=None,
+        description="Name of the handle where it was measured. Without it: the wheel plane.",
+        examples=["front"],
+        min_length=1,
+    )
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """One quantity takes the place of the others."""
+        return displaced_quantities(key)
+
+    @model_validator(mode="after")
+    def _one_value(self) -> Self:
+        given = [key for key in QUANTITIES if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise problem(
+                "exactly one measured value is needed",
+                *given[1:2],
+                found=" and ".join(given) or "none",
+                allowed="one of " + ", ".join(QUANTITIES),
+                remedy="keep one of them" if given else "add one, or leave the table out",
+            )
+        return self
+
+
+def displaced_quantities(key: str) -> tuple[str, ...]:
+    """Keys that one measured quantity replaces: the other quantities, and a weighting of accelerations."""
+    if key not in QUANTITIES:
+        return ()
+    others = tuple(other for other in QUANTITIES if other != key)
+    return others if key == "measured_acceleration_m_per_s2" else (*others, "measured_weighting")
+
+
+BalanceGrade = Literal["G4000", "G1600", "G630", "G250", "G100", "G40", "G16", "G6.3", "G2.5", "G1", "G0.4"]
+"""The grades of ISO 21940-11:2016, table 1."""
+
+SOURCES: Final = ("imbalance_g_mm", "balance_grade", *QUANTITIES)
+BARE: Final = "idle, without autobalancer, instead of imbalance_g_mm"
+"""The state of the machine that the wheel's imbalance is found from."""
+RUNOUTS: Final = ("runout_mm", "runout_tir_mm")
+
+
+class Wheel(Measured):
+    """The wheel, its runout, and exactly one source of its imbalance."""
+
+    shown_in_template: ClassVar[frozenset[str]] = frozenset({"imbalance_g_mm"})
+
+    mass_kg: float = Field(
+        description="Mass of the wheel with its flanges [kg]; {range}, hand grinders 0.05 … 2.",
+        examples=[0.6],
+        ge=0.0001,
+        le=5000,
+        json_schema_extra=usual(0.005, 50),
+    )
+    diameter_mm: float = Field(
+        description="Outer diameter of the wheel [mm]; {range}, hand grinders 50 … 230.",
+        examples=[150.0],
+        ge=1,
+        le=5000,
+        json_schema_extra=usual(20, 600),
+    )
+    runout_mm: float = Field(
+        default=0.0,
+        description="Eccentricity of the wheel's outer surface, half of what a dial gauge shows [mm]; {range}, "
+        "mounted wheels 0.02 … 0.2. Default: {default}, a true wheel. Or give runout_tir_mm.",
+        ge=0,
+        le=10,
+        json_schema_extra=usual(0.001, 1),
+    )
+    runout_tir_mm: float | None = Field(
+        default=None,
+        description="Total indicated runout of the outer surface, as the dial gauge shows it: twice runout_mm, and "
+        "instead of it [mm]; {range}.",
+        examples=[0.08],
+        ge=0,
+        le=20,
+        json_schema_extra=usual(0.002, 2),
+    )
+    runout_angle_deg: float = Field(
+        default=0.0,
+        description="Where the high spot stands, from the imbalance in the sense of rotation [degrees]; {range}. "
+        "Sizing takes the worst angle whatever stands here. Default: {default}, at the imbalance.",
+        ge=-360,
+        le=360,
+    )
+    axial_runout_mm: float = Field(
+        default=0.0,
+        description="Axial runout of the wheel's face, half of what a dial gauge shows [mm]; {range}, mounted wheels "
+        "0.02 … 0.2. Under load a face wheel moves the machine by it along the spindle, once per turn, and the balls "
+        "across their race. Default: {default}.",
+        ge=0,
+        le=10,
+        json_schema_extra=usual(0.001, 1),
+    )
+    usable_wear_mm: float | None = Field(
+        default=None,
+        description="How much of the wheel's radius may be worn off [mm]; {range}. No default: wear is then told in "
+        "depths, not in minutes.",
+        examples=[10.0],
+        gt=0,
+        le=2000,
+        json_schema_extra=usual(0.5, 200),
+    )
+    life_min: float | None = Field(
+        default=None,
+        description="Grinding time in which usable_wear_mm is worn off [minutes]; {range}. No default.",
+        examples=[32.0],
+        gt=0,
+        le=1e6,
+        json_schema_extra=usual(1, 10000),
+    )
+    imbalance_g_mm: float | None = Field(
+        default=None,
+        description="Imbalance of the wheel [g·mm]; {range}, hand grinders 20 … 1000. One source is needed: "
+        "this, balance_grade or a measured_ value.",
+        examples=[150.0],
+        ge=0,
+        le=1e9,
+        json_schema_extra=usual(2, 5e4),
+    )
+    balance_grade: BalanceGrade | None = Field(
+        default=None,
+        description="Balance quality grade by ISO 21940-11, of the wheel's mass at the rated speed: G4000, G1600, "
+        "G630, G250, G100, G40, G16, G6.3, G2.5, G1 or G0.4. Instead of imbalance_g_mm.",
+        examples=["G16"],
+    )
+    measured_level_db: Levels = measured_field("measured_level_db", BARE)
+    measured_velocity_mm_per_s: Velocities = measured_field("measured_velocity_mm_per_s", BARE)
+    measured_displacement_um: Displacements = measured_field("measured_displacement_um", BARE)
+    measured_acceleration_m_per_s2: Accelerations = measured_field("measured_acceleration_m_per_s2", BARE)
+    measured_weighting: Weighting | None = Field(default=None, description=WEIGHTING_WORDS, examples=["none"])
+    measured_axes: Axes | None = Field(default=None, description=AXES_WORDS, examples=[1])
+    measured_at: Name | None = Field(
+        default=None,
+        description="With a measured_ value: name of the handle where it was measured. Without it: the wheel plane.",
+        examples=["front"],
+        min_length=1,
+    )
+
+    @property
+    def runout(self) -> float:
+        """Eccentricity of the outer surface [mm], from either key."""
+        return self.runout_mm if self.runout_tir_mm is None else self.runout_tir_mm / 2
+
+    @property
+    def grade(self) -> float | None:
+        """The balance grade as a number [mm/s], G 6.3 → 6.3."""
+        return None if self.balance_grade is None else float(self.balance_grade[1:])
+
+    @classmethod
+    def displaced_by(cls, key: str, value: object) -> tuple[str, ...]:
+        """One source of the imbalance takes the place of the others, one runout that of the other."""
+        if key in QUANTITIES:
+            return ("imbalance_g_mm", "balance_grade", *displaced_quantities(key))
+        if key in SOURCES:
+            return (*(source for source in SOURCES if source != key), *COMPANIONS)
+        return tuple(other for other in RUNOUTS if other != key) if key in RUNOUTS else ()
+
+    def unused(self) -> frozenset[str]:
+        """The default of runout_mm, when the runout is given as the gauge shows it."""
+        return frozenset() if self.runout_tir_mm is None else frozenset({"runout_mm"})
+
+    @model_validator(mode="after")
+    def _one_source_of_imbalance(self) -> Self:
+        given = [key for key in SOURCES if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise problem(
+                "exactly one source of the imbalance is needed",
+                *given[1:2],
+                found=" and ".join(given) or "none",
+                allowed="one of " + ", ".join(SOURCES),
+                remedy="keep one of them" if given else "add imbalance_g_mm, the imbalance in g·mm",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _one_runout(self) -> Self:
+        if "runout_mm" in self.model_fields_set and self.runout_tir_mm is not None:
+            raise problem(
+                "runout_mm and runout_tir_mm say the same thing twice",
+                "runout_tir_mm",
+                remedy="keep one: runout_tir_mm (dial gauge) is twice runout_mm (eccentricity)",
+            )
+        return self

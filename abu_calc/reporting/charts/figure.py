@@ -1,0 +1,145 @@
+"""A figure of a result: its name, what it shows, where it stands in a report.
+
+The balls on their way from start to rest, and imbalance, level and speed meanwhile.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from abu_calc.reporting.blocks import Block, number
+from abu_calc.reporting.charts.chart import Axis, Bars, Cells, Curve, MarkedPoint, Plot, db
+from abu_calc.reporting.drawings.shapes import Drawing
+
+if TYPE_CHECKING:
+    from abu_calc.simulation.rotor_view import Array, RotorView
+
+SMALLEST: Final = 0.05
+"""Radius of a ball as drawn, over that of its circle: of smaller ones, and of those whose size is not known."""
+SERIES: Final = 8
+"""Looks of lines; those of further balls begin again."""
+
+
+class RotorMotionFigure(NamedTuple):
+    """A run as seen in the rotor; races of several planes lie over one another. `others`: by what they are called."""
+
+    view: "RotorView"
+    name: str = ""
+    others: Sequence[tuple[str, "RotorView"]] = ()
+
+    @property
+    def balls_mm(self) -> tuple[float, ...]:
+        """Radii of the balls as they are drawn."""
+        view = self.view
+        both = zip(view.ball_radii_mm, view.pitch_radii_mm, strict=True)
+        return tuple(max(ball, SMALLEST * pitch) for ball, pitch in both)
+
+    @property
+    def race_mm(self) -> float:
+        """The radius of the largest race as it is drawn."""
+        return max((sum(radii) for radii in zip(self.balls_mm, self.view.pitch_radii_mm, strict=True)), default=1.0)
+
+
+def settling(view: "RotorView", limit: float | None) -> Plot:
+    """Imbalance left against time."""
+    bound = None if limit is None else (limit, f"permitted {_g_mm(limit)}")
+    course, text = _course(view, view.residual_g_mm, _g_mm)
+    up = Axis.around("imbalance left [g·mm]", [*(rest for _, rest in course), limit or 0.0], zero=True)
+    return Plot("Imbalance left against time", text, _time(view), up, (Curve(course),), (), bound)
+
+
+def level(view: "RotorView", limit: float | None, measured: float | None = None) -> Plot:
+    """Level against time, and what was measured in the end."""
+    bound = None if limit is None else (limit, f"limit {db(limit)}")
+    course, text = _course(view, view.level_db, db)
+    up = Axis.around(
+        "velocity level [dB]",
+        [*(decibels for _, decibels in course), *(mark for mark in (limit, measured) if mark is not None)],
+    )
+    points = () if measured is None else (MarkedPoint(course[-1][0], measured, "measured", 3),)
+    text += "" if measured is None else f"; measured {db(measured)}"
+    return Plot("Level against time", text, _time(view), up, (Curve(course),), points, bound)
+
+
+def angles(view: "RotorView") -> Plot:
+    """Angles of the balls from the imbalance, against time: the still picture of a motion.
+
+    The angles run from 0 to 360°. Balls about the place opposite the imbalance, where they gather, then do not
+    jump.
+    """
+    turned = (view.ball_angles_deg - view.imbalance_angle_deg) % 360.0
+    lines = [line for index, row in enumerate(turned) for line in _without_jumps(view, row, index + 1)]
+    last = ", ".join(f"{value:.0f}°" for value in turned[:, -1])
+    text = f"The balls end at {last} from the imbalance" if len(turned) else "There are no balls"
+    up = Axis("angle of the balls from the imbalance [°]", 0.0, 360.0)
+    return Plot("Angles of the balls", text, _time(view), up, lines)
+
+
+def _without_jumps(view: "RotorView", angle: "Array", index: int) -> Iterator[Curve]:
+    """A course in pieces: behind 360° it goes on at 0°."""
+    points = list(zip(view.t_s.tolist(), angle.tolist(), strict=True))
+    jumps = [k for k in range(1, len(points)) if abs(points[k][1] - points[k - 1][1]) > 180.0]
+    for start, end in pairwise((0, *jumps, len(points))):
+        yield Curve(points[start:end], f"ball {index}", (index - 1) % SERIES + 1)
+
+
+def caught(view: "RotorView", speed: "Array") -> Plot:
+    """Speed of the rotor and imbalance left against time, both of their largest."""
+    courses = ((speed, "speed", _rpm), (view.residual_g_mm, "imbalance left", _g_mm))
+    lines, texts = [], []
+    for series, (values, name, form) in enumerate(courses, 1):
+        most = float(values.max()) or 1.0
+        lines.append(Curve(_course(view, 100 * values / most, form)[0], f"{name}, of {form(most)}", series))
+        texts.append(f"{name}: {_course(view, values, form)[1]}")
+    return Plot("Run-up", "; ".join(texts), _time(view), Axis("share of the largest [%]", 0.0, 105.0), lines)
+
+
+def run_up(view: "RotorView", speed: "Array") -> Plot:
+    """Speed of the rotor against time."""
+    course, text = _course(view, speed, _rpm)
+    up = Axis.around("speed of the rotor [rpm]", (speed_rpm for _, speed_rpm in course), zero=True)
+    return Plot("Run-up", text, _time(view), up, (Curve(course),))
+
+
+def _time(view: "RotorView") -> Axis:
+    return Axis("time [s]", 0.0, float(view.t_s[-1]))
+
+
+def _g_mm(value: float) -> str:
+    return f"{number(value)} g·mm"
+
+
+def _rpm(value: float) -> str:
+    return f"{value:.0f} rpm"
+
+
+def _course(view: "RotorView", values: "Array", form: Callable[[float], str]) -> tuple[list[tuple[float, float]], str]:
+    """Points, and how it begins and ends in words."""
+    course = list(zip(view.t_s.tolist(), values.tolist(), strict=True))
+    first, last = (form(value) for value in (course[0][1], course[-1][1]))
+    return course, f"From {first} at the start to {last} at {course[-1][0]:.3g} s"
+
+
+Shown = Plot | Bars | Cells | Drawing | RotorMotionFigure
+
+
+class Figure(NamedTuple):
+    """Figure with a caption that says what to see.
+
+    `name`: unique among a result's figures; `section`: the heading it stands below, as far as it is given.
+    """
+
+    name: str
+    section: str
+    shown: Shown
+    caption: str
+
+
+class Extras(NamedTuple):
+    """Parts of a page beyond the blocks of a report: figures, and the formulas with numbers put in."""
+
+    figures: tuple[Figure, ...] = ()
+    note: tuple[Block, ...] = ()
+
+
+MakesExtras = Callable[[], Extras]

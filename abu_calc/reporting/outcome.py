@@ -1,0 +1,135 @@
+"""Return value of a command, and the one JSON document it becomes."""
+
+import math
+from collections.abc import Callable
+from dataclasses import asdict, field
+from typing import TYPE_CHECKING, Any
+
+from abu_calc.foundation.checks import Check, Status
+from abu_calc.foundation.errors import AbuError, InputError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.reporting.blocks import Block
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.charts.figure import MakesExtras
+    from abu_calc.reporting.drawings.shapes import Drawing
+    from abu_calc.reporting.write import Target
+    from abu_calc.simulation.result import Provenance, Result
+
+SCHEMA = 1
+EXIT_STATUS: dict[Status, int] = {"pass": 0, "fail": 1, "not-done": 1}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The frozen result of a command: numbers in user units, checks, and how they are shown."""
+
+    command: str
+    result: Any
+    view: tuple[Block, ...] | Callable[[], tuple[Block, ...]]
+    """Blocks, or what makes them where text is wanted."""
+    provenance: "Provenance" = field(default_factory=lambda: _today())
+    checks: tuple[Check, ...] = ()
+    model: dict[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+    status: Status = "pass"
+    short: Callable[[], tuple[Block, ...]] | None = None
+    """The one screen that stands in a terminal for blocks that take more."""
+    drawings: "Callable[[], tuple[Drawing, ...]] | None" = None
+    """Function that makes the sheets of a drawing; None if the command has none."""
+    extras: "MakesExtras | None" = None
+    """Function that makes the figures and the calculation note of a page; None if the command has none."""
+    asked: str = ""
+    """The command line that gives this, files that it writes left out."""
+    plain: str | None = None
+    """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
+    plain_suffix: str = ".json"
+    """The ending of files that hold such a text."""
+    further: tuple["Target", ...] = ()
+    """Files that were asked for beside the result's own."""
+
+    @classmethod
+    def of(
+        cls,
+        result: "Result",
+        view: Callable[[], tuple[Block, ...]],
+        short: Callable[[], tuple[Block, ...]] | None = None,
+        drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
+        extras: "MakesExtras | None" = None,
+    ) -> "Outcome":
+        """Outcome of a study.
+
+        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings, `extras` its page's
+        extras.
+        """
+        return cls(
+            result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
+            result.warnings, result.status, short, drawings, extras,
+        )  # fmt: skip
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """The whole report."""
+        return self.view() if callable(self.view) else self.view
+
+    @property
+    def screen(self) -> tuple[Block, ...]:
+        """The report on one screen; the whole one where that is short anyway."""
+        return self.short() if self.short else self.blocks
+
+    @property
+    def exit_status(self) -> int:
+        """0 when every check passed, else 1."""
+        return EXIT_STATUS[self.status]
+
+
+def document(outcome: Outcome) -> dict[str, Any]:
+    """The envelope of a result."""
+    return {
+        "abu": _head(outcome.command, outcome.provenance),
+        "input": outcome.provenance.input,
+        "status": outcome.status,
+        "checks": [asdict(check) for check in outcome.checks],
+        "result": outcome.result,
+        "model": outcome.model,
+        "warnings": list(outcome.warnings),
+    }
+
+
+def error_document(command: str, error: BaseException) -> dict[str, Any]:
+    """The envelope of an error."""
+    facts: dict[str, Any] = {"kind": error.kind if isinstance(error, AbuError) else "bug", "message": str(error)}
+    if isinstance(error, InputError):
+        facts |= {
+            "message": error.message,
+            "file": error.place.file,
+            "line": error.place.line,
+            "key": error.place.key,
+            "found": error.found,
+            "allowed": error.allowed,
+            "remedy": error.remedy,
+        }
+    return {"abu": _head(command, _today()), "input": None, "status": "not-done", "checks": [],
+            "result": None, "model": {}, "warnings": [], "error": facts}  # fmt: skip
+
+
+def _today() -> "Provenance":
+    from abu_calc.simulation.result import Provenance
+
+    return Provenance.today()
+
+
+def _head(command: str, provenance: "Provenance") -> dict[str, Any]:
+    return {"version": provenance.version, "command": command, "schema": SCHEMA, "date": provenance.date}
+
+
+def to_json(content: dict[str, Any]) -> str:
+    """One JSON document; refuses NaN and infinities, which no result may hold; ASCII, so every console can take it."""
+    import json
+
+    return json.dumps(content, allow_nan=False, indent=2)
+
+
+def finite(value: float | None) -> float | None:
+    """A number for JSON: null where it is not finite."""
+    return value if value is not None and math.isfinite(value) else None

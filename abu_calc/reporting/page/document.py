@@ -1,0 +1,126 @@
+"""The page: verdict, design and checks first, then what they rest on, at the end what is needed to repeat it."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from itertools import chain
+from typing import TYPE_CHECKING, Final
+
+from abu_calc.reporting.blocks import Block, Heading, Picture
+from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.page.assets import beside, text
+from abu_calc.reporting.page.elements import elements, figure, paragraph
+from abu_calc.reporting.screen import sections
+
+if TYPE_CHECKING:
+    from abu_calc.reporting.outcome import Outcome
+
+LAST: Final = ("Conventions", "Defaults used (not in the file)", "Provenance")
+"""Sections that stand at the end, behind the calculation note."""
+SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
+"""Security policy of the page: it never asks a network, not even by mistake."""
+WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
+
+
+def page(outcome: "Outcome") -> str:
+    """The text of a file in HTML."""
+    extras = outcome.extras() if outcome.extras else Extras()
+    parts = sections(outcome.blocks)
+    title = _heading(parts[0]) or f"abu {outcome.command}"
+    head, *others = parts
+    front = [part for part in others if _heading(part) not in LAST]
+    back = [part for part in others if _heading(part) in LAST]
+    drawn = [illustration for part in (head, *front) for illustration in figures_of(part, extras.figures)]
+    rest = tuple(illustration for illustration in extras.figures if illustration not in drawn)
+    repeat = _repeat(outcome)
+    named = [_heading(part) for part in front]
+    named += ["Figures"] * bool(rest) + ["Calculation note"] * bool(extras.note)
+    named += [name for part in back if (name := _heading(part)) != "Provenance"] + ["To repeat it"]
+    body = chain(
+        (f"<header><h1>{text(title)}</h1>",),
+        elements(_below(head), title),
+        ("</header>", _contents(named), '<main id="main" tabindex="-1">'),
+        ("<section>", *map(figure, figures_of(head, extras.figures)), "</section>"),
+        _sections(front, extras.figures),
+        (_opened("Figures"), *map(figure, rest), "</section>") if rest else (),
+        _note(extras.note),
+        _sections([part for part in back if _heading(part) != "Provenance"], ()),
+        (_opened("To repeat it"), *repeat),
+        chain.from_iterable(elements(_below(part), "To repeat it") for part in back if _heading(part) == "Provenance"),
+        ("</section>", "</main>"),
+    )
+    return _framed(f"{WORDS[outcome.status]}: {title}", body)
+
+
+def _framed(title: str, body: Iterable[str]) -> str:
+    lines = (
+        "<!DOCTYPE html>",
+        '<html lang="en"><head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{escape(SAFE)}">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        '<meta name="color-scheme" content="light dark"><link rel="icon" href="data:,">',
+        f"<title>{text(title)}</title>",
+        f"<style>\n{beside('page.css')}</style></head>",
+        '<body><a class="skip" href="#main">To the report</a>',
+        *body,
+        "</body></html>",
+    )
+    return "\n".join(line for line in lines if line) + "\n"
+
+
+def _sections(parts: Sequence[Sequence[Block]], figures: Sequence[Figure]) -> Iterator[str]:
+    """Each a heading, its figures, and what stands below it; pictures in characters give way to figures."""
+    titles = [_heading(part) for part in parts]
+    for index, (title, part) in enumerate(zip(titles, parts, strict=True)):
+        drawn = figures_of(part, figures)
+        yield _opened(title, linked=title not in titles[:index])
+        yield from map(figure, drawn)
+        yield from elements((block for block in _below(part) if not (drawn and isinstance(block, Picture))), title)
+        yield "</section>"
+
+
+def figures_of(part: Sequence[Block], figures: Sequence[Figure]) -> list[Figure]:
+    """Figures that belong to a section."""
+    return [figure for figure in figures if figure.section and _heading(part).startswith(figure.section)]
+
+
+def _note(blocks: Sequence[Block]) -> Iterator[str]:
+    if blocks:
+        yield f'{_opened("Calculation note")}<div class="note">'
+        yield paragraph(
+            "Each step with the numbers of this result put in (→), then what its formulas say of themselves."
+        )
+        yield from elements(blocks, "Calculation note", 3)
+        yield "</div></section>"
+
+
+def _repeat(outcome: "Outcome") -> Iterator[str]:
+    """The command, the whole hash: what the lines of a terminal have no room for."""
+    if outcome.asked:
+        yield f'{paragraph("The command:")}<pre class="command" tabindex="0">{text(outcome.asked)}</pre>'
+    source = outcome.provenance
+    if source.sha256:
+        yield f'<p>{text(source.file or "")}, SHA-256:</p><pre class="command" tabindex="0">{text(source.sha256)}</pre>'
+
+
+def _contents(titles: Sequence[str]) -> str:
+    """Contents of the page; of sections that share a name, the first."""
+    links = "".join(f'<li><a href="#{_place(title)}">{text(title)}</a></li>\n' for title in dict.fromkeys(titles))
+    return f'<nav aria-label="Contents"><ul>\n{links}</ul></nav>'
+
+
+def _opened(title: str, *, linked: bool = True) -> str:
+    place = f' id="{_place(title)}"' if linked else ""
+    return f"<section{place}><h2>{text(title)}</h2>"
+
+
+def _place(title: str) -> str:
+    """Link name of a section: letters and digits of its title."""
+    return "-" + "".join(sign if sign.isalnum() and sign.isascii() else "-" for sign in title.lower())
+
+
+def _heading(part: Sequence[Block]) -> str:
+    return part[0].text.strip() if part and isinstance(part[0], Heading) else ""
+
+
+def _below(part: Sequence[Block]) -> Sequence[Block]:
+    return part[1:] if part and isinstance(part[0], Heading) else part

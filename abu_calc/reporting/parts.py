@@ -1,0 +1,207 @@
+"""Levels as instruments show them, and what was measured beside what is predicted, for every report of levels.
+
+Blocks that several reports share: facts of a record, checks, defaults, warnings, where a result comes from.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final
+
+from abu_calc.foundation.checks import Check, Grade
+from abu_calc.foundation.quantity import Record, quantities
+from abu_calc.inputs.reading.text import key_path
+from abu_calc.inputs.reading.text import shown as exact
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number, shown
+from abu_calc.simulation.result import Provenance, Result
+from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
+
+BOUND: Final = {"most": "at most", "least": "at least"}
+WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT DONE"}
+"""Word before a check of each grade: no grade is shown by its colour alone."""
+
+
+RANK: Final[tuple[Grade, ...]] = ("fail", "not-done", "warn")
+"""Grades that need a word, the worst first."""
+MARGIN: Final = 2
+DIGITS: Final = range(4, 9)
+"""Numbers of significant digits for a value and its limit."""
+MOST_ALIKE: Final = 3
+"""Checks that are named with the reason they share; the table of checks has all."""
+
+
+def of_scene(scene: str) -> str:
+    """Scene of a machine, as words; empty for a scene file, which holds but one."""
+    return "" if scene == "scene" else f" of the scene {scene}"
+
+
+def facts(record: Record, *names: str) -> Facts:
+    """Rows for fields of a record, those without a value left out; without names all that say what they are."""
+    labels = quantities(type(record))
+    rows = []
+    for name in names or labels:
+        value = getattr(record, name)
+        if value is not None and value != ():
+            rows.append((labels[name].label, labels[name].symbol, shown(type(record), name, value)))
+    return Facts(tuple(rows))
+
+
+def value_of(record: Record, name: str) -> str:
+    """One field of a record with its unit, as text."""
+    return shown(type(record), name, getattr(record, name))
+
+
+def check_blocks(checks: Sequence[Check]) -> list[Block]:
+    """All checks as a table; those that did not simply pass with their reasons and remedies below."""
+    rows = tuple((WORD[check.status], check.code, check.name, _value(check), limit_of(check)) for check in checks)
+    table = Grid(("", "code", "check", "value", "limit"), rows, frozenset({3}))
+    return [Heading("Checks"), table, *reasons(checks)]
+
+
+def reasons(checks: Iterable[Check]) -> list[Paragraph]:
+    """Checks that did not simply pass, the worst first, each with its grade, reason and remedy; alike ones together."""
+    return [reason(alike) for alike in unlike(checks)]
+
+
+def unlike(checks: Iterable[Check]) -> list[list[Check]]:
+    """Checks that did not simply pass, the worst first; those of one grade, reason and remedy together."""
+    groups: dict[tuple[str, ...], list[Check]] = {}
+    for check in sorted((item for item in checks if item.status != "pass"), key=lambda item: RANK.index(item.status)):
+        groups.setdefault((check.status, check.message, check.remedy or ""), []).append(check)
+    return list(groups.values())
+
+
+def reason(alike: Sequence[Check]) -> Paragraph:
+    """Checks of one grade, one reason and one remedy."""
+    first, more = alike[0], len(alike) - MOST_ALIKE
+    names = ", ".join(f"{check.code} {check.name}{_found(check)}" for check in alike[:MOST_ALIKE])
+    others = f" and {more} more" if more > 0 else ""
+    remedy = f" Remedy: {first.remedy}" if first.remedy else ""
+    return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
+
+
+def _found(check: Check) -> str:
+    """The value beside its limit."""
+    parts = [part for part in (_value(check), limit_of(check)) if part and check.value is not None]
+    return f" ({', '.join(parts)})" if parts else ""
+
+
+def notices(result: Result) -> list[Block]:
+    """Warnings, each a paragraph; defaults that were in force."""
+    return [*warning_blocks(result.warnings), *default_blocks(result.provenance.defaults)]
+
+
+def warning_blocks(warnings: Iterable[str]) -> list[Block]:
+    """Warnings, each a paragraph."""
+    lines = warning_lines(warnings)
+    return [Heading("Warnings"), *lines] if lines else []
+
+
+def warning_lines(warnings: Iterable[str]) -> list[Paragraph]:
+    """Each with its mark."""
+    return [Paragraph(f"! {warning}", hang=MARGIN) for warning in warnings]
+
+
+def default_blocks(defaults: Iterable[tuple[str, object]]) -> list[Block]:
+    """The defaults that were in force."""
+    cells = [f"{path} = {written(value)}" for path, value in defaults]
+    if not cells:
+        return []
+    return [Heading("Defaults used (not in the file)"), *(Paragraph(cell) for cell in cells)]
+
+
+def provenance_blocks(provenance: Provenance) -> list[Block]:
+    """Data needed to repeat a result: version, date, file and its hash, replaced entries."""
+    text = f"abu-calc {provenance.version}, {provenance.date}"
+    if provenance.file is not None:
+        text += f"; {provenance.file}, SHA-256 {(provenance.sha256 or '')[:16]}…"
+    blocks: list[Block] = [Heading("Provenance"), Paragraph(text)]
+    entries = [entry for key, value in provenance.overrides for entry in _entries(key, value)]
+    if entries:
+        blocks += [Paragraph("With these entries replaced:"), *(Paragraph(entry, indent=4) for entry in entries)]
+    return blocks
+
+
+def _entries(path: str, value: object) -> Iterator[str]:
+    """An entry that was replaced as a file would have it, exactly; of a table each key on a line of its own."""
+    if isinstance(value, dict) and value:
+        for key, inner in value.items():
+            yield from _entries(f"{path}.{key_path((key,))}", inner)
+    elif isinstance(value, (list, tuple)) and any(isinstance(inner, dict) for inner in value):
+        for index, inner in enumerate(value):
+            yield from _entries(f"{path}[{index}]", inner)
+    else:
+        yield f"{path} = {'{}' if value == {} else exact(value)}"
+
+
+def written(value: object) -> str:
+    """A value as a file would have it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(written, value))}]"
+    return f"{value:g}" if isinstance(value, float) else f"{value}"
+
+
+def _value(check: Check) -> str:
+    return "" if check.value is None else f"{number(check.value, _digits(check))} {check.unit or ''}".rstrip()
+
+
+def limit_of(check: Check) -> str:
+    """The most or the least that is permitted, in words."""
+    return "" if check.limit is None else f"{BOUND[check.bound]} {number(check.limit, _digits(check))}"
+
+
+def _digits(check: Check) -> int:
+    """Number of digits with which a value beyond its limit is not shown as that limit."""
+    value, limit = check.value, check.limit
+    if value is None or limit is None:
+        return DIGITS[0]
+    return next((digits for digits in DIGITS if number(value, digits) != number(limit, digits)), DIGITS[0])
+
+
+def limit_in_file(check: Check | None) -> str:
+    """A limit that a file gives, as it gives it, with its unit; nothing without one."""
+    return (
+        ""
+        if check is None or check.limit is None
+        else f"{BOUND[check.bound]} {check.limit:g} {check.unit or ''}".strip()
+    )
+
+
+def readings_grid(rows: Sequence[tuple[str, InstrumentReadings]]) -> Grid:
+    """Places and states against what instruments show of them."""
+    header = ("", "mm/s", "µm", "m/s²", "a_h W_h", "a_hv W_h")
+    cells = tuple(
+        (name, *map(_short, (reading.velocity_mm_per_s, reading.displacement_um, reading.acceleration_m_per_s2,
+                             reading.weighted_m_per_s2, reading.total_m_per_s2)))
+        for name, reading in rows
+    )  # fmt: skip
+    return Grid(header, cells, frozenset(range(1, 6)))
+
+
+def _short(value: float | None) -> str:
+    return "–" if value is None else number(value, 3)
+
+
+def measured_after_line(comparison: MeasuredAfterRecord) -> str:
+    """Measured, predicted, the difference in words."""
+    measured = f"Measured with the autobalancer, idle, {comparison.place}: {comparison.measured}"
+    if comparison.unit != "dB":
+        measured += f", that is {comparison.measured_level_db:.1f} dB"
+    loaded = "" if comparison.predicted_loaded_db is None else f"; {comparison.predicted_loaded_db:.1f} dB under load"
+    if comparison.predicted_level_db is None or comparison.difference_db is None:
+        return f"{measured}; no idle level is predicted{loaded}."
+    predicted = f"{comparison.predicted_level_db:.1f} dB"
+    if comparison.unit != "dB" and comparison.predicted_value is not None:
+        predicted += f" ({number(comparison.predicted_value, 3)} {comparison.unit} on that instrument)"
+    word = "above" if comparison.difference_db >= 0 else "below"
+    return f"{measured}: {abs(comparison.difference_db):.1f} dB {word} what is predicted, {predicted}{loaded}."
+
+
+def measured_after_blocks(comparison: MeasuredAfterRecord | None) -> list[Block]:
+    """A line, where something was measured."""
+    return [] if comparison is None else [Paragraph(measured_after_line(comparison))]
+
+
+def shown_blocks(rows: Sequence[tuple[str, InstrumentReadings]]) -> list[Block]:
+    """The table with its heading, where there is a level."""
+    return [Heading("As instruments show it, rms"), readings_grid(rows)] if rows else []

@@ -1,0 +1,173 @@
+"""A report on one screen: verdict, what it is about, what failed or warns with remedies, the numbers that matter, where
+to look next. What there is no room for is counted, never left out in silence.
+"""
+
+from bisect import bisect_right
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
+from typing import Final
+
+from abu_calc.foundation.checks import Check, Status
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.reporting.parts import reason, unlike, warning_lines
+from abu_calc.reporting.text import height
+from abu_calc.simulation.result import Result
+
+LINES: Final = 48
+"""Lines of one screen, at 80 columns."""
+LEAST: Final = 8
+"""Lines kept for the warnings and for the body, where others ask for all."""
+BLANK: Final[Block] = Paragraph("")
+ELSEWHERE: Final = frozenset({"Checks", "Warnings", "Defaults used (not in the file)", "Conventions", "Provenance"})
+"""Sections of a whole report that a screen words in its own way, or leaves to it."""
+WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
+
+
+def one_screen(
+    result: Result,
+    about: Sequence[Block],
+    body: Sequence[Block] = (),
+    more: Sequence[str] = (),
+    picture: Callable[[int], Sequence[Block]] | None = None,
+) -> tuple[Block, ...]:
+    """`about`: title, verdict, the thing in a line; `body`: its numbers; `more`: further places to look.
+
+    First come the checks that did not pass, then the body, then the warnings; each as far as there is room. In the
+    lines that are left then, `picture` draws what it can, below the body.
+    """
+    passed = [Paragraph(_passed(result.checks))] if result.checks else []
+    last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
+    warnings, groups = warning_lines(result.warnings), unlike(result.checks)
+    room = LINES - height([*about, *last])
+    kept = min(2 + _height(warnings), LEAST) if warnings else 0
+    taken = room - kept - min(1 + _height(body), LEAST)
+    reasons = _fitted([reason(alike) for alike in groups], [[check.code for check in alike] for alike in groups], taken)
+    room -= height(reasons)
+    shown = cut(body, room - kept - 1)
+    parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
+    rest = _fitted(warnings, [], room - height([BLANK, *shown]) - 2)
+    below: list[Block] = [Heading("Warnings"), *rest] if rest else []
+    drawn = picture(LINES - height([*about, *reasons, *parted, BLANK, *below, *last])) if picture else ()
+    return (*about, *reasons, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
+
+
+def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:
+    """Lines that there is room for, and the rest as a count.
+
+    `codes`: codes of the checks that each line reports; empty if the lines are warnings.
+    """
+    if _height(lines) <= room:
+        return list(lines)
+    fit = max(bisect_right(range(min(len(lines), LINES)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
+    left = [code for each in codes[fit:] for code in each]
+    more = many(len(left), "more check") if codes else many(len(lines) - fit, "more warning")
+    named = f" ({', '.join(dict.fromkeys(left))})" if left else ""
+    return [*lines[:fit], Paragraph(f"And {more}{named}: --full.")] if lines else []
+
+
+def _height(blocks: Sequence[Block]) -> int:
+    """Number of lines that blocks take.
+
+    Blocks taller than a screen are laid out only as far as is needed to show that they are taller.
+    """
+    tall = LINES + 1
+    seen = [part._replace(rows=part.rows[:tall]) if isinstance(part, Grid) else part for part in blocks[: 2 * tall]]
+    return height(seen)
+
+
+def cut(blocks: Sequence[Block], room: int) -> list[Block]:
+    """Blocks as far as there is room for them, of tables the first rows; then a line that says so.
+
+    What stands below a heading that does not fit is left out with it.
+    """
+    if _height(blocks) <= room:
+        return list(blocks)
+    kept: list[Block] = []
+    headless = False
+    for block in blocks:
+        part = [] if headless and not isinstance(block, Heading) else _what_fits(block, kept, room - 1)
+        headless = not part and (headless or isinstance(block, Heading))
+        kept += part
+    ended: list[Block] = [*kept, Heading("")]
+    empty = [isinstance(above, Heading) and isinstance(below, Heading) for above, below in pairwise(ended)]
+    return [*(piece for piece, bare in zip(kept, empty, strict=True) if not bare), Paragraph("And more: --full.")]
+
+
+def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
+    """A block, the first rows of a table, or nothing; a heading where some lines fit below it."""
+    lines = [BLANK] * 3 if isinstance(block, Heading) else []
+    if _height([*above, block, *lines]) <= room:
+        return [block]
+    if not isinstance(block, Grid):
+        return []
+    parts = [block._replace(rows=block.rows[:count]) for count in range(min(len(block.rows), LINES))]
+    fitting = bisect_right(parts, room - 1, key=lambda part: height([*above, part]))
+    more = many(len(block.rows) - fitting + 1, "more row")
+    return [parts[fitting - 1], Paragraph(f"And {more}: --full.")] if fitting > 1 else []
+
+
+def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
+    """PASS, FAIL or NOT DONE, and how many checks and warnings stand behind the word.
+
+    `unjudged`: what to say in place of PASS where nothing was judged that the word could stand for.
+    """
+    count, total = Counter(check.status for check in result.checks), many(len(result.checks), "check")
+    warned = [many(number, "warning")] if (number := count["warn"] + len(result.warnings)) else []
+    if result.status == "pass":
+        text = "; ".join([unjudged, *warned]) if unjudged else " with ".join(["PASS", *warned])
+        return Paragraph(text, "warn" if count["warn"] else None if unjudged else "pass")
+    failed = [f"{count['fail']} of {total} failed"] if count["fail"] else []
+    missing = f"{count['not-done']} not done" if failed else f"{count['not-done']} of {total} not done"
+    clauses = [*failed, *([missing] if count["not-done"] else []), *warned]
+    return Paragraph(f"{WORDS[result.status]}: {', '.join(clauses or ['there are no checks'])}", result.status)
+
+
+def many(count: int, name: str, plural: str | None = None) -> str:
+    """Count with its noun, singular or plural.
+
+    >>> many(1, "check"), many(2, "entry", "entries")
+    ('1 check', '2 entries')
+    """
+    return f"{count} {name if count == 1 else plural or f'{name}s'}"
+
+
+def _passed(checks: Iterable[Check]) -> str:
+    """The codes of the checks that passed, in a line; how often, where several things were checked."""
+    codes = Counter(check.code for check in checks if check.status == "pass")
+    names = [code if times == 1 else f"{code} ({times})" for code, times in sorted(codes.items())]
+    short = [name if k == 0 else name.removeprefix("ABU") for k, name in enumerate(names)]
+    return f"Passed: {' '.join(short) or 'none'}."
+
+
+def _next(result: Result, more: Sequence[str]) -> str:
+    """Last line of a screen: commands for more, with the defaults and replaced entries behind the result."""
+    source, codes = result.provenance, [check.code for check in result.checks if check.status != "pass"]
+    codes = codes or [check.code for check in result.checks]
+    asked = [f"`abu explain {codes[0]}`, what a check asks"] if codes else []
+    defaults = [f"{many(len(source.defaults), 'default')} in force"] if source.defaults else []
+    replaced = [f"{many(len(source.overrides), 'entry', 'entries')} replaced"] if source.overrides else []
+    within = f" ({', '.join([*defaults, *replaced])})" if defaults or replaced else ""
+    return f"More: {'; '.join([f'--full, the whole report{within}', *more, *asked])}."
+
+
+def shortened(
+    result: Result, whole: Sequence[Block], *left_out: str, head: int = 2, more: Sequence[str] = ()
+) -> tuple[Block, ...]:
+    """A whole report on one screen: its title and verdict, and the sections that are not worded in another way here.
+
+    `left_out`: titles of further sections that are left to the whole report; `head`: blocks that are never cut.
+    """
+    first, *others = sections(whole)
+    kept = [part for part in others if isinstance(part[0], Heading) and part[0].text not in ELSEWHERE | set(left_out)]
+    return one_screen(result, first[:head], [*first[head:], *(block for part in kept for block in part)], more)
+
+
+def sections(blocks: Iterable[Block]) -> list[list[Block]]:
+    """A heading with what stands below it, one after another."""
+    parts: list[list[Block]] = []
+    for block in blocks:
+        if isinstance(block, Heading) or not parts:
+            parts.append([])
+        parts[-1].append(block)
+    return parts

@@ -1,0 +1,76 @@
+"""The scenes a machine file calls for, simulated with the effects they call for."""
+
+from collections.abc import Sequence
+
+from abu_calc.dynamics.integrators.run import TooMuchWorkError
+from abu_calc.foundation.errors import ChaoticError, NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.parallel import side_by_side
+from abu_calc.foundation.progress import Progress, Stage, silent
+from abu_calc.simulation.effect_selection import Ledger, chosen
+from abu_calc.simulation.ensemble_checks import WORK
+from abu_calc.simulation.scene_of_design import scene_of_design
+from abu_calc.simulation.simulate import Simulation, simulate
+from abu_calc.sizing.design import Design
+
+MORE = 10
+"""Times the work of a first try that a second may take, where the first did not suffice."""
+
+
+@dataclass(frozen=True)
+class SceneRun:
+    """One scene that was simulated, and which of its effects were."""
+
+    ledger: Ledger
+    simulation: Simulation
+
+
+@dataclass(frozen=True)
+class SceneFailure:
+    """One scene that gave no number to be trusted, and why."""
+
+    scene: str
+    reason: str
+
+
+def scenes_of(design: Design) -> tuple[str, ...]:
+    """Names of the scenes the file calls for, the idle one first."""
+    table = design.case.table
+    grinding = ("grinding",) if table.grinding else ()
+    return ("idle", *grinding, *(("swing-arm-idle", "swing-arm-cutting") if table.swing_arm else ()))
+
+
+def simulated(
+    design: Design, accuracy: float, progress: Progress = silent, names: Sequence[str] | None = None,
+    workers: int = 1,
+) -> tuple[tuple[SceneRun, ...], tuple[SceneFailure, ...]]:  # fmt: skip
+    """All of them, or those of some names, each within the work that `abu size` may take."""
+    names = scenes_of(design) if names is None else names
+    alone = workers == 1 or len(names) == 1
+    watched = progress if alone else silent  # of those side by side, each on its own
+    tasks = [(design, name, accuracy, watched) for name in names]
+
+    def told(done: int) -> None:
+        if watched is silent:
+            progress(Stage(f"{done} of {len(names)} scenes", done / len(names)))
+
+    runs = list(side_by_side(_simulated, tasks, workers, told))
+    return tuple(run for run in runs if isinstance(run, SceneRun)), tuple(
+        run for run in runs if isinstance(run, SceneFailure)
+    )
+
+
+def _simulated(design: Design, name: str, accuracy: float, progress: Progress) -> SceneRun | SceneFailure:
+    try:
+        ledger = chosen(scene_of_design(design, name), accuracy)
+        try:
+            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=WORK, progress=progress)
+        except TooMuchWorkError:
+            run = simulate(ledger.scene, accuracy - ledger.spared, most_evaluations=MORE * WORK, progress=progress)
+        return SceneRun(ledger, run)
+    except ChaoticError as error:
+        if error.ended is not None and error.ended.scene.effect("lift_off"):  # ABU506 judges a disk that bounces
+            return SceneRun(ledger, error.ended)
+        return SceneFailure(name, str(error).splitlines()[0])
+    except NotTrustworthyError as error:
+        return SceneFailure(name, str(error).splitlines()[0])

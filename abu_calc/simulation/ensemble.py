@@ -1,0 +1,286 @@
+"""One design switched on in many ways: which starts balance, how soon, how loud, and which leave balls hanging.
+
+The closed bounds on hanging balls of a design, idle, over its whole speed range.
+"""
+
+import math
+from collections.abc import Generator, Sequence
+from contextlib import closing
+from dataclasses import replace
+from functools import partial
+from itertools import islice
+from typing import NamedTuple
+
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators.choice import choose
+from abu_calc.dynamics.integrators.run import TooMuchWorkError
+from abu_calc.dynamics.scene import Scene, with_parted_balls
+from abu_calc.dynamics.stability.stall import HangingBounds
+from abu_calc.dynamics.stability.stall import hanging_bounds as bounds_of
+from abu_calc.dynamics.supports.receptance import reference_imbalance
+from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.formulas.slow_motion import shaken_drag
+from abu_calc.foundation import patience
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.parallel import side_by_side
+from abu_calc.foundation.progress import Progress, Stage, silent, within
+from abu_calc.simulation.early_stopping import Early
+from abu_calc.simulation.effect_selection import chosen
+from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome, deciding, worse
+from abu_calc.simulation.response import Response, allowed_imbalance, balances, needed_times, slip
+from abu_calc.simulation.scene_of_design import contact_half_angle, guided, idle_scene
+from abu_calc.simulation.start_cases import DRAGS, Member, members, scene_of_member
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.vibration import level_at_loudest
+
+
+def hanging_bounds(design: Design) -> HangingBounds:
+    """Drags [1/s] above which no balls of a design hang at any speed of its range; `doubt(drag)` asks of one."""
+    horizontal = design.case.table.machine.spindle_axis == "horizontal"
+    return bounds_of(idle_scene(design), contact_half_angle(design), design.case.speed_range, horizontal=horizontal)
+
+
+TOLERANCE, TIGHTER = 2e-4, 0.1
+"""Tolerance of the first run of a start case, and the factor on it for a confirming run.
+
+A case that decides a check is confirmed by a run at the tighter tolerance.
+"""
+
+MARGIN = 1.0
+"""Distance below the permitted level [dB]: a run that may come nearer does not end early."""
+
+WORK, MOST_LOST = 400_000, 3
+"""Evaluations of one run, in SciPy's: half a second in compiled code. Machines that balance take a twentieth of that.
+And how many starts at the drag given may be without an answer until no others are tried."""
+
+MORE, MOST_MORE = 10, 24_000_000
+"""Times the work that a start may take in a second run, where that of the first did not suffice, and the work of all
+second runs together: about half a minute of compiled code."""
+
+STARTS = 30
+"""About how many starts and closer runs a machine has."""
+
+LONGEST_SETTLING = 3.0
+"""Settling times permitted: for so long at full speed a start is followed whose balls are not at rest before."""
+
+LINGERING = 0.1
+"""Share of the imbalance: if balls leave more beyond what they leave balanced, they are not balanced."""
+
+ALWAYS = ("dry_rolling_friction", "ball_contact")
+"""Effects that are in whatever they weigh: where balls hang or rest is decided by them."""
+
+
+class StartRun(NamedTuple):
+    """Outcome of one start case, and the run it is from."""
+
+    outcome: StartOutcome
+    scene: Scene
+    trajectory: Trajectory
+
+
+def simulate_members(
+    design: Design, accuracy: float = 0.01, progress: Progress = silent, workers: int = 1,
+    shares: tuple[float, ...] = DRAGS, doubtful: float | None = None,
+) -> Ensemble:  # fmt: skip
+    """Every start once, at these shares of the drag given.
+
+    Those that decide a check run again at a tighter tolerance, and the worse of both counts. `doubtful` [1/s]: the drag
+    below which balls might hang, so that a slow run-up is tried, too; None: by the closed bounds. A start
+    whose work did not suffice gets more. The outcome does not depend on how many run side by side.
+    """
+    if doubtful is None:
+        doubtful = hanging_bounds(design).largest or 0.0
+    starts, tolerance = list(members(design, doubtful, shares)), first_tolerance(design)
+    results = _found(design, starts, accuracy, tolerance, progress, workers)
+    while undecided := deciding(results, design.case.drag):
+        again = [(results[k].member, early_end) for k, early_end in undecided.items()]
+        closer = within(progress, "closer")
+        runs = list(every_start(design, again, accuracy, TIGHTER * tolerance, closer, workers))
+        runs = _with_more(design, runs, again, accuracy, TIGHTER * tolerance, closer, workers)
+        for k, rerun in zip(undecided, runs, strict=True):
+            results[k] = worse(results[k], rerun)
+    outcomes = tuple(result for result in results if isinstance(result, StartOutcome))
+    return Ensemble(design.case.drag, outcomes, tuple(result for result in results if isinstance(result, Lost)))
+
+
+def first_tolerance(design: Design) -> float:
+    """Tolerance of the first run of each start; tighter with a pause, whose slow turns amplify errors."""
+    return TIGHTER * TOLERANCE if guided(design, 0.0).pause else TOLERANCE
+
+
+def start_once(
+    design: Design,
+    member: Member,
+    accuracy: float,
+    tolerance: float,
+    work: int = WORK,
+    early_end: bool = True,
+    wanted: str = "auto",
+) -> StartOutcome | Lost:
+    """One start, by one run; `work`: evaluations it may take, in SciPy's; `early_end`: whether it may end early."""
+    try:
+        return run_of_start(design, member, accuracy, tolerance, work, early_end, wanted).outcome
+    except NotTrustworthyError as error:
+        reason = str(error).splitlines()[0]
+        if not isinstance(error, TooMuchWorkError) or patience.over():
+            return Lost(member, reason, work)
+        return Lost(member, reason + _would_do(design, member, error), work, short=True)
+
+
+def _would_do(design: Design, member: Member, error: TooMuchWorkError) -> str:
+    """Advice on how many seconds suffice for all start cases, rounded, by how far this one came.
+
+    Empty if this run never began.
+    """
+    if not error.reached:
+        return ""
+    scene = scene_of_member(design, member)
+    evaluations = STARTS * error.evaluations * scene.duration / error.reached
+    return f"; {patience.would_do(evaluations, scene.state_count)} would do, in seconds"
+
+
+def integrator_for(design: Design, member: Member, accuracy: float, tolerance: float) -> str:
+    """Integrator to request from `choose` for all start cases of a design, found from one of them.
+
+    The cases differ only in where the balls are. Finding the decay rate of each would take as long as many
+    runs.
+    """
+    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    name = choose(assemble(scene), "auto", tolerance).name
+    return "compiled" if name.startswith("compiled") else "auto"
+
+
+def run_of_start(
+    design: Design,
+    member: Member,
+    accuracy: float,
+    tolerance: float,
+    work: int = WORK,
+    early_end: bool = False,
+    wanted: str = "auto",
+) -> StartRun:
+    """The same with the run itself; raises NotTrustworthyError.
+
+    A scene ends by the rates of small motions. Balls that linger in an unstable equilibrium, or creep by friction, take
+    longer: their run is done again, as long as settling may matter.
+    """
+    scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
+    outcome, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    goes_on = goes_on or _linger(design, scene, outcome.outcome)
+    limit = design.case.table.limits.settling_time_s
+    longest = scene.full_speed + LONGEST_SETTLING * limit
+    late = outcome.outcome.hanging or (outcome.outcome.settling or 0.0) > limit
+    if not goes_on or late or longest <= scene.duration:
+        return outcome
+    longer = replace(scene, duration=longest)
+    again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
+    whole = replace(again.outcome, work=outcome.outcome.work + again.outcome.work, duration=longest)
+    return again._replace(outcome=whole)
+
+
+def _linger(design: Design, scene: Scene, outcome: StartOutcome) -> bool:
+    """True if balls that friction does not hold stand elsewhere than where they balance; sooner or later they leave.
+
+    On a horizontal spindle gravity shakes them loose, see `shaken_drag`. Balanced they leave M Δ, as the race's centre
+    then stands still.
+    """
+    case, autobalancer = design.case, design.autobalancer
+    radius, held = autobalancer.ball_diameter / 2, case.friction_arm > 0
+    if case.table.machine.spindle_axis == "horizontal":
+        held = held and not shaken_drag(
+            case.friction_arm, radius, autobalancer.pitch_radius, scene.speed, case.inertia_factor
+        )
+    balanced = autobalancer.requirement.effective_mass * case.race_eccentricity
+    return not held and abs(outcome.imbalance - balanced) > LINGERING * reference_imbalance(scene)
+
+
+def _run_of_scene(
+    design: Design, member: Member, scene: Scene, tolerance: float, work: int, early_end: bool, wanted: str
+) -> tuple[StartRun, bool]:
+    """One run, and whether the balls were not at rest at its end."""
+    equations = assemble(scene)
+    choice = choose(equations, wanted, tolerance)
+    early = Early(scene, scene.full_speed, partial(_decided, design, member, scene))
+    times = early.sampling() if early_end else needed_times(scene)
+    run = choice.integrate(equations, tolerance, times, choice.evaluations(work))
+    outcome = outcome_of(design, member, scene, early.response(run))
+    outcome = replace(outcome, work=choice.work(run), rise=early.rising(run))
+    return StartRun(outcome, scene, run), early.goes_on(run)
+
+
+def _decided(
+    design: Design, member: Member, scene: Scene, response: Response, creep: float, rise: float
+) -> bool:  # fmt: skip
+    """True if a start case balances well and in time, even with the change still possible.
+
+    Otherwise the run goes on to its end. The level follows the residual imbalance: if little is left, a
+    small creep is many decibels.
+    """
+    outcome, limits = outcome_of(design, member, scene, response), design.case.table.limits
+    if _linger(design, scene, outcome):
+        return False
+    if not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip) or outcome.time > limits.settling_time_s:
+        return False
+    louder = max(rise, 20 * math.log10(1 + creep / outcome.imbalance)) if outcome.imbalance else math.inf
+    return outcome.level + louder <= design.case.level_limit - MARGIN
+
+
+def _found(
+    design: Design, starts: Sequence[Member], accuracy: float, tolerance: float, progress: Progress, workers: int
+) -> list[StartOutcome | Lost]:
+    """All starts, those at the drag given first; the others only where these have answers."""
+    first = [(start, True) for start in starts if start.drag == design.case.drag]
+    others = [(start, True) for start in starts if start.drag != design.case.drag]
+    with closing(every_start(design, [*first, *others], accuracy, tolerance, progress, workers)) as runs:
+        results = list(islice(runs, len(first)))
+        results = _with_more(design, results, first, accuracy, tolerance, progress, workers)
+        if sum(isinstance(result, Lost) for result in results) >= MOST_LOST:
+            return [*results, *(Lost(start, "not tried, since others gave no answer", 0) for start, _ in others)]
+        rest = list(runs)
+    return [*results, *_with_more(design, rest, others, accuracy, tolerance, progress, workers)]
+
+
+def _with_more(
+    design: Design, results: list[StartOutcome | Lost], starts: Sequence[tuple[Member, bool]], accuracy: float,
+    tolerance: float, progress: Progress, workers: int,
+) -> list[StartOutcome | Lost]:  # fmt: skip
+    """Outcomes of the start cases; those that ran out of allowed work are tried once more with more of it."""
+    short = [k for k, outcome in enumerate(results) if isinstance(outcome, Lost) and outcome.short]
+    if not short:
+        return results
+    work = min(MORE * WORK, MOST_MORE // len(short))
+    runs = every_start(
+        design, [starts[k] for k in short], accuracy, tolerance, within(progress, "longer"), workers, work
+    )
+    longer = dict(zip(short, runs, strict=True))
+    return [longer.get(k, outcome) for k, outcome in enumerate(results)]
+
+
+def every_start(
+    design: Design, starts: Sequence[tuple[Member, bool]], accuracy: float, tolerance: float, progress: Progress,
+    workers: int, work: int = WORK,
+) -> Generator[StartOutcome | Lost, None, None]:  # fmt: skip
+    """Each start once, and whether it may end early."""
+    wanted = integrator_for(design, starts[0][0], accuracy, tolerance) if starts else "auto"
+    tasks = [(design, start, accuracy, tolerance, work, early_end, wanted) for start, early_end in starts]
+
+    def told(done: int) -> None:
+        progress(Stage(f"idle: {done} of {len(tasks)} starts", done / len(tasks)))
+
+    return side_by_side(start_once, tasks, workers, told)
+
+
+def outcome_of(design: Design, member: Member, scene: Scene, response: Response) -> StartOutcome:
+    """Return the outcome that the response of a start case's scene gives."""
+    speed = abs(response.final.speed) or scene.speed
+    case = replace(design.case, speed=speed)
+    return StartOutcome(
+        member=member,
+        settling=response.settling_time,
+        residual=response.axis_amplitude,
+        level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
+        slip=slip(response, speed),
+        imbalance=response.residual_imbalance,
+        allowed=allowed_imbalance(design, scene.imbalance),
+        ball_angles=response.final.ball_angles,
+    )

@@ -1,0 +1,176 @@
+"""Outcomes of the start cases of one design.
+
+They tell which cases are worst, and which decide the design's checks and must be confirmed.
+"""
+
+import math
+import statistics
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from itertools import product
+from operator import attrgetter
+from typing import Any
+
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.simulation.response import SLIPPING, balances
+from abu_calc.simulation.start_cases import Member
+
+
+@dataclass(frozen=True)
+class StartOutcome:
+    """Outcome of one start case.
+
+    Settling [s] from full speed on, None: never; `residual`: axis amplitude [m]; `level` [dB] at the
+    loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
+    """
+
+    member: Member
+    settling: float | None
+    residual: float
+    level: float
+    slip: float
+    imbalance: float
+    allowed: float
+    work: int = 0
+    confirmed: bool = False
+    rise: float = 0.0
+    """Possible further rise of the level [dB] if the run ended early."""
+    ball_angles: tuple[float, ...] = ()
+    """Angles of the balls in the rotor at the end [rad]."""
+    duration: float = 0.0
+    """Duration [s] of a run that went on longer than its scene, since the balls were not at rest by then; else 0."""
+
+    @property
+    def hanging(self) -> bool:
+        """True if balls stall: they keep turning more slowly than the rotor."""
+        return self.slip > SLIPPING
+
+    @property
+    def balanced(self) -> bool:
+        """True if the balls are at rest in their race and the imbalance left is allowed [kg m]."""
+        return balances(self.imbalance, self.allowed, self.slip)
+
+    @property
+    def time(self) -> float:
+        """Until it settled where it balances [s]; infinite if never."""
+        return self.settling if self.settling is not None and self.balanced else math.inf
+
+    @property
+    def loudest(self) -> float:
+        """The level it might have risen to [dB]."""
+        return self.level + self.rise
+
+    @property
+    def badness(self) -> tuple[bool, bool, float]:
+        """Sorts the worst last."""
+        return self.hanging, not self.balanced, self.level
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A start that gave no number to be trusted, and why; `work`: the evaluations it was allowed.
+
+    `short`: whether more work would have given one, as far as is known.
+    """
+
+    member: Member
+    reason: str
+    work: int
+    short: bool = False
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """All starts of one design; `drag` [1/s]: the one given, which decides what fails."""
+
+    drag: float
+    outcomes: tuple[StartOutcome, ...]
+    lost: tuple[Lost, ...]
+
+    @property
+    def members(self) -> int:
+        """Number of start cases."""
+        return len(self.outcomes) + len(self.lost)
+
+    @property
+    def work(self) -> int:
+        """Evaluations of all of them, in SciPy's."""
+        return sum(outcome.work for outcome in self.outcomes) + sum(lost.work for lost in self.lost)
+
+    @property
+    def given(self) -> tuple[StartOutcome, ...]:
+        """Outcomes at the given drag rate."""
+        return tuple(outcome for outcome in self.outcomes if outcome.member.drag == self.drag)
+
+    @property
+    def rated(self) -> tuple[StartOutcome, ...]:
+        """Outcomes at the rated speed."""
+        return tuple(outcome for outcome in self.outcomes if outcome.member.speed is None)
+
+    @property
+    def balanced(self) -> int:
+        """Number of start cases that balance."""
+        return sum(outcome.balanced for outcome in self.outcomes)
+
+    @property
+    def hanging(self) -> tuple[StartOutcome, ...]:
+        """Outcomes in which balls stall."""
+        return tuple(outcome for outcome in self.outcomes if outcome.hanging)
+
+    @property
+    def worst(self) -> StartOutcome | None:
+        """Worst outcome: stalled ranks before not balanced, and not balanced before loud."""
+        return max(self.outcomes, key=lambda outcome: outcome.badness, default=None)
+
+    def typical(self, values: Iterable[float]) -> float | None:
+        """Median of the values; None if most are infinite."""
+        middle = statistics.median(list(values) or [math.inf])
+        return middle if math.isfinite(middle) else None
+
+
+SLACK = 0.3
+"""A difference in level [dB] that decides nothing."""
+
+Order = tuple[Callable[[StartOutcome], Any], float, bool]
+"""Criterion that ranks start cases, its insignificant difference, and whether early end is allowed.
+
+The criterion ends in a number; a smaller difference of that number decides nothing. The last item
+applies to the confirming run: the level is that at the very end, the settling time is known earlier.
+"""
+
+ORDERS: tuple[Order, ...] = (
+    (attrgetter("badness"), SLACK, False),
+    (lambda outcome: (outcome.level,), SLACK, False),
+    (lambda outcome: (outcome.time,), 0.0, True),
+)
+
+
+def deciding(results: Sequence[StartOutcome | Lost], drag: float) -> dict[int, bool]:
+    """Outcomes to confirm: the worst ones that are neither confirmed nor as bad as a confirmed one.
+
+    The worst are found at the given drag rate and among all. Outcomes that might have become the loudest
+    are included. The value tells whether the confirming run may end early.
+    """
+    done = [(k, outcome) for k, outcome in enumerate(results) if isinstance(outcome, StartOutcome)]
+    groups = [group for group in (done, [(k, outcome) for k, outcome in done if outcome.member.drag == drag]) if group]
+    undecided: dict[int, bool] = {}
+    for group in groups:
+        most = max(outcome.level for _, outcome in group)
+        # Half of it: what is near would be asked for next, by itself.
+        undecided.update((k, False) for k, outcome in group if outcome.loudest > most + SLACK / 2)
+    for (order, slack, early_end), group in product(ORDERS, groups):
+        k, worst = max(group, key=lambda pair: order(pair[1]))
+        *kind, value = order(worst)
+        confirmed = [order(outcome) for _, outcome in group if outcome.confirmed]
+        if not any([*same] == kind and (near == value or near >= value - slack) for *same, near in confirmed):
+            undecided.setdefault(k, early_end)
+    return undecided
+
+
+def worse(loose: StartOutcome | Lost, tight: StartOutcome | Lost) -> StartOutcome | Lost:
+    """The tighter of two runs of a start; where they end differently the worse: less than any error decides there."""
+    if isinstance(loose, Lost) or isinstance(tight, Lost):
+        return tight if isinstance(tight, Lost) else loose
+    if (loose.hanging, loose.balanced) == (tight.hanging, tight.balanced):
+        return replace(tight, confirmed=True)
+    return replace(max(loose, tight, key=lambda outcome: outcome.badness), confirmed=True)

@@ -1,0 +1,300 @@
+"""One scene that was simulated, as results hold it.
+
+The SI numbers and states of a scene that is integrated, and what it is in words.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Annotated, Any, ClassVar, Self
+
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene import Scene
+from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
+from abu_calc.foundation.units import from_si, wrapped_deg
+from abu_calc.simulation.effect_selection import EffectAudit as AuditRun
+from abu_calc.simulation.effect_selection import Ledger
+from abu_calc.simulation.response import FinalState
+from abu_calc.simulation.simulate import Simulation
+from abu_calc.simulation.simulate import SimulationCost as RunCost
+
+
+@record
+class RaceModel(Record):
+    """A race and its balls."""
+
+    pitch_radius_m: float
+    plane_offset_m: float
+    ball_masses_kg: tuple[float, ...]
+    ball_radius_m: float
+    drag_per_s: float
+    inertia_factor: float
+    start_angles_rad: tuple[float, ...]
+    start_speeds_rad_per_s: tuple[float, ...]
+
+    @classmethod
+    def of(cls, race: Race) -> Self:
+        """Model of a race."""
+        return cls(
+            pitch_radius_m=race.pitch_radius,
+            plane_offset_m=race.plane_offset,
+            ball_masses_kg=race.ball_masses,
+            ball_radius_m=race.ball_radius,
+            drag_per_s=race.drag,
+            inertia_factor=race.inertia_factor,
+            start_angles_rad=race.start_angles,
+            start_speeds_rad_per_s=race.start_speeds,
+        )
+
+
+@record
+class SceneModel(Record):
+    """A scene as it is integrated; the numbers of its support stand beside the others."""
+
+    left_out: ClassVar[frozenset[str]] = frozenset({"support"})
+
+    states: tuple[str, ...]
+    support: Mapping[str, object]
+    speed_rad_per_s: float
+    imbalance_kg_m: float
+    imbalance_angle_rad: float
+    couple_kg_m2: float
+    couple_angle_rad: float
+    races: tuple[RaceModel, ...]
+    effects: tuple[str, ...]
+    start_position: tuple[float, ...]
+    start_velocity: tuple[float, ...]
+    duration_s: float
+
+    @classmethod
+    def of(cls, scene: Scene) -> Self:
+        """Model of a scene."""
+        return cls(
+            states=assemble(scene).states,
+            support=scene.support.model(),
+            speed_rad_per_s=scene.speed,
+            imbalance_kg_m=scene.imbalance,
+            imbalance_angle_rad=scene.imbalance_angle,
+            couple_kg_m2=scene.couple,
+            couple_angle_rad=scene.couple_angle,
+            races=tuple(map(RaceModel.of, scene.races)),
+            effects=tuple(effect.name for effect in scene.effects),
+            start_position=scene.start_position,
+            start_velocity=scene.start_velocity,
+            duration_s=scene.duration,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The support's numbers beside the others."""
+        return {**as_plain(self.support), **super().to_dict()}
+
+
+def in_words(scene: Scene) -> str:
+    """Support, races and balls in a sentence."""
+    races, balls = len(scene.races), len(scene.ball_masses)
+    contact = "" if scene.balls_meet or balls < 2 else "; balls pass through each other"
+    where = "one race" if races == 1 else f"{races} races"
+    return f"{scene.support.description}, {where} with {balls} balls in all, viscous rolling drag{contact}."
+
+
+def finite(value: float | None) -> float | None:
+    """A number for a result: None where it is not finite."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+@record
+class End(Record):
+    """Final state of a run; ball angles in (−180, 180], in the order of the file."""
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"tilt_x_mrad", "tilt_y_mrad", "arm_angle_mrad", "bearing_amplitudes_mm"}
+    )
+
+    t_s: Annotated[float, Quantity("time", "t")]
+    x_mm: Annotated[float, Quantity("axis, along the work", "x", 3)]
+    y_mm: Annotated[float, Quantity("axis, away from the work", "y", 3)]
+    vx_mm_per_s: Annotated[float, Quantity("velocity along the work", "x'", 3)]
+    vy_mm_per_s: Annotated[float, Quantity("velocity away from the work", "y'", 3)]
+    ball_angles_deg: Annotated[tuple[float, ...], Quantity("ball angles", "θ", 5, "in the rotor, from its zero mark")]
+    ball_speeds_rpm: Annotated[
+        tuple[float, ...], Quantity("ball speeds", "θ'", 3, "relative to the race, mean over the amplitude window")
+    ]
+    ball_rates_rpm: Annotated[
+        tuple[float, ...], Quantity("ball speeds at the end", "θ'", 6, "relative to the race, at that very moment")
+    ]
+    rotor_speed_rpm: Annotated[float, Quantity("speed of the rotor", "", 6)]
+    tilt_x_mrad: Annotated[float | None, Quantity("tilt about x", "θ_x", 3)] = None
+    tilt_y_mrad: Annotated[float | None, Quantity("tilt about y", "θ_y", 3)] = None
+    arm_angle_mrad: Annotated[float | None, Quantity("angle of the arm", "φ")] = None
+    bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
+
+    @classmethod
+    def of(cls, final: FinalState, bearings: tuple[float, ...]) -> Self:
+        """Record in user units."""
+        about_y, about_minus_x = final.tilt or (0.0, 0.0)
+        return cls(
+            t_s=final.t,
+            x_mm=from_si(final.x, "mm"),
+            y_mm=from_si(final.y, "mm"),
+            vx_mm_per_s=from_si(final.vx, "mm_per_s"),
+            vy_mm_per_s=from_si(final.vy, "mm_per_s"),
+            ball_angles_deg=tuple(wrapped_deg(angle) for angle in final.ball_angles),
+            ball_speeds_rpm=tuple(from_si(speed, "rpm") for speed in final.ball_speeds),
+            ball_rates_rpm=tuple(from_si(rate, "rpm") for rate in final.ball_rates),
+            rotor_speed_rpm=from_si(final.speed, "rpm"),
+            tilt_x_mrad=None if final.tilt is None else -1000 * about_minus_x,
+            tilt_y_mrad=None if final.tilt is None else 1000 * about_y,
+            arm_angle_mrad=None if final.arm_angle is None else 1000 * final.arm_angle,
+            bearing_amplitudes_mm=bearings or None,
+        )
+
+
+@record
+class EffectEntry(Record):
+    """One effect: whether it was simulated, what leaving it out would change, and why."""
+
+    name: Annotated[str, Quantity("effect")]
+    included: Annotated[bool, Quantity("simulated")]
+    weight: Annotated[float | None, Quantity("weight", "", 2, "what leaving it out changes; None: nothing cheap tells")]
+    why: Annotated[str, Quantity("why")]
+
+
+def effect_entries(ledger: Ledger) -> tuple[EffectEntry, ...]:
+    """The ledger of a scene."""
+    return tuple(
+        EffectEntry(name=entry.name, included=entry.included, weight=finite(entry.weight), why=entry.why)
+        for entry in ledger.entries
+    )
+
+
+@record
+class Cost(Record):
+    """Work of all runs of a simulation together; tolerance and steps of the one that is reported."""
+
+    integrator: Annotated[str, Quantity("integrator")]
+    tolerance: Annotated[float, Quantity("tolerance", "", 1)]
+    evaluations: Annotated[int, Quantity("evaluations of the equations")]
+    steps: Annotated[int, Quantity("steps")]
+    events: Annotated[int, Quantity("events", "", 4, "switches of how effects act")]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
+    why: Annotated[str, Quantity("why this integrator")]
+
+    @classmethod
+    def of(cls, cost: RunCost) -> Self:
+        """Cost of a simulation."""
+        return cls(
+            integrator=cost.integrator, tolerance=cost.tolerance, evaluations=cost.evaluations, steps=cost.steps,
+            events=cost.events, wall_s=cost.wall_s, why=cost.why,
+        )  # fmt: skip
+
+
+@record
+class Envelope(Record):
+    """Usability of the averaged slow motion: its error estimate, and why it was taken or not."""
+
+    error_estimate: Annotated[float | None, Quantity("error estimate of the averages", "", 2)]
+    why: Annotated[str, Quantity("why it was taken, or not")]
+
+
+@record
+class Audit(Record):
+    """The same scene once more with every effect in: what that changed beside what was promised."""
+
+    difference: Annotated[float, Quantity("difference", "", 2)]
+    promise: Annotated[float, Quantity("weights of what was left out", "", 2)]
+    effects: Annotated[tuple[str, ...], Quantity("taken in for the audit")]
+    evaluations: Annotated[int, Quantity("evaluations of the equations")]
+    wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
+
+    @classmethod
+    def of(cls, run: AuditRun) -> Self:
+        """Record of an audit."""
+        return cls(
+            difference=run.difference, promise=run.promise, effects=run.effects, evaluations=run.evaluations,
+            wall_s=run.wall_s,
+        )  # fmt: skip
+
+
+@record
+class SimulatedLevel(Record):
+    """Level at one place where the machine is held, by the simulated motion."""
+
+    name: Annotated[str, Quantity("place")]
+    level_db: Annotated[float, Quantity("level", "L")]
+
+
+@record
+class SettlingEstimate(Record):
+    """Settling at another drag: that of the same start in the ensemble, the slower of both sides of the race."""
+
+    drag_per_s: Annotated[float, Quantity("rolling drag", "h₀", 3)]
+    settling_time_s: Annotated[float | None, Quantity("settling time", "", 3)]
+
+
+@record
+class SimulatedScene(Record):
+    """One scene: how it ended, when it settled, what was left out, what it cost, how far it may be off."""
+
+    optional: ClassVar[frozenset[str]] = frozenset(
+        {"bearing_amplitudes_mm", "full_speed_s", "settling_estimates", "audit"}
+    )
+
+    scene: Annotated[str, Quantity("scene")]
+    duration_s: Annotated[float, Quantity("simulated time", "", 3)]
+    settling_time_s: Annotated[
+        float | None, Quantity("settling time", "", 3, "from full speed; None if later than 95 % of the run")
+    ]
+    residual_imbalance_g_mm: Annotated[float, Quantity("imbalance left", "", 3, "|m₀e + Σ m·R_p·e^{iθ}| at the end")]
+    axis_amplitude_mm: Annotated[
+        float, Quantity("axis amplitude 0–peak", "", 3, "largest √(x² + y²) about the mean place in the window")
+    ]
+    velocity_rms_mm_per_s: Annotated[float, Quantity("velocity rms", "v", 3, "of the larger of x', y' in the window")]
+    level_db: Annotated[float | None, Quantity("level", "L", 4, "20 lg(v/5e-8 m/s)")]
+    unbalanced_amplitude_mm: Annotated[float, Quantity("axis amplitude without balls", "A₀", 3)]
+    largest_amplitude_mm: Annotated[float, Quantity("largest since the start", "", 3)]
+    final: End
+    effects: tuple[EffectEntry, ...]
+    cost: Cost
+    error_estimate: Annotated[
+        float, Quantity("error estimate", "", 2, "of amplitude and settling time relative, of ball angles in rad")
+    ]
+    rung: Annotated[str, Quantity("computed by", "", 4, "envelope: averaged slow motion; equations: of motion")]
+    envelope: Envelope
+    bearing_amplitudes_mm: Annotated[tuple[float, ...] | None, Quantity("amplitudes at the bearings", "", 3)] = None
+    full_speed_s: Annotated[float | None, Quantity("full speed reached after", "", 3, "None: at the start")] = None
+    settling_estimates: tuple[SettlingEstimate, ...] | None = None
+    audit: Audit | None = None
+
+    @classmethod
+    def of(
+        cls,
+        simulation: Simulation,
+        ledger: Ledger,
+        settling_estimates: tuple[SettlingEstimate, ...] | None = None,
+        audit: AuditRun | None = None,
+    ) -> Self:
+        """Record in user units."""
+        response = simulation.response
+        bearings = tuple(from_si(value, "mm") for value in response.bearing_amplitudes)
+        return cls(
+            scene=response.scene,
+            duration_s=response.duration,
+            settling_time_s=response.settling_time,
+            residual_imbalance_g_mm=from_si(response.residual_imbalance, "g_mm"),
+            axis_amplitude_mm=from_si(response.axis_amplitude, "mm"),
+            velocity_rms_mm_per_s=from_si(response.velocity_rms, "mm_per_s"),
+            level_db=response.level,
+            unbalanced_amplitude_mm=from_si(response.unbalanced_amplitude, "mm"),
+            largest_amplitude_mm=from_si(response.largest_amplitude, "mm"),
+            final=End.of(response.final, bearings),
+            effects=effect_entries(ledger),
+            cost=Cost.of(simulation.cost),
+            error_estimate=simulation.error_estimate + ledger.spared,
+            rung=simulation.rung,
+            envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),
+            bearing_amplitudes_mm=bearings or None,
+            full_speed_s=response.full_speed or None,
+            settling_estimates=settling_estimates,
+            audit=None if audit is None else Audit.of(audit),
+        )

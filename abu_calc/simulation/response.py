@@ -1,0 +1,367 @@
+"""Criteria by which the balls of a design count as balancing it, for one run and for many.
+
+Residual history of a run, read as it goes on: three numbers of each sample.
+
+Settling and the largest amplitude need no more of a run.
+
+Results of one run: amplitude, velocity, level, settling, residual imbalance and final state.
+"""
+
+import math
+from copy import copy
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
+from abu_calc.dynamics.trajectory import Array, Samples, Sampling, merged
+from abu_calc.formulas.motion import HARDLY, SETTLED
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import level_from_velocity
+from abu_calc.sizing.design import Design
+
+HISTORY_SAMPLES_PER_REVOLUTION = 16
+"""Settling samples per revolution, over the whole run.
+
+The residual imbalance ripples with the speed, and a crest may be the last value above the limit.
+"""
+
+
+class Course:
+    """Residual imbalance [kg m] and the axis's place x, y [m] at the settling times of a run; a reader of its samples.
+
+    `lost`: what to raise for a motion that left what its support stands for.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self.count = scene, settling_count(scene)
+        self.residuals = np.empty(self.count + 1)
+        self.places = np.empty((2, self.count + 1))
+        self.lost: NotTrustworthyError | None = None
+
+    @property
+    def times(self) -> Array:
+        """Settling times [s] that have been read or will be read."""
+        return settling_times(self.scene)[: self.count + 1]
+
+    def until(self, t: float) -> "Course":
+        """The same up to one of its times."""
+        short = copy(self)
+        short.count = round(t / (self.scene.duration / self.count))
+        short.residuals, short.places = self.residuals[: short.count + 1], self.places[:, : short.count + 1]
+        return short
+
+    def __call__(self, samples: Samples) -> None:
+        """Read these."""
+        scene, size = self.scene, len(self.scene.support.names)
+        self.lost = self.lost or scene.support.lost(samples.t, samples.y[:size])
+        step = scene.duration / self.count
+        index = np.rint(samples.t / step).astype(np.intp)
+        here = (index * step == samples.t) | (samples.t == scene.duration)
+        index, states = index[here], samples.y[:, here]
+        self.residuals[index] = np.abs(total_imbalance(scene, states[2 * size : 2 * size + len(scene.ball_masses)]))
+        self.places[:, index] = axis_place(scene, states)
+
+
+def settling_count(scene: Scene) -> int:
+    """Number of intervals between settling times."""
+    return math.ceil(scene.duration / scene.revolution * HISTORY_SAMPLES_PER_REVOLUTION)
+
+
+def settling_times(scene: Scene) -> Array:
+    """Equally spaced times [s] from 0 to the end, 16 per revolution, at which settling is judged."""
+    count = settling_count(scene)
+    times = np.arange(count + 1.0)
+    times *= scene.duration / count
+    times[-1] = scene.duration
+    return times
+
+
+def axis_place(scene: Scene, states: Array, plane: float = 0.0) -> Array:
+    """x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, time].
+
+    Of a swing arm: from where it lies along +x.
+    """
+    return scene.support.axis(states[: len(scene.support.names)], plane)
+
+
+def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
+    """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, time]."""
+    total = np.full(angles.shape[1:], scene.imbalance * np.exp(1j * scene.imbalance_angle))
+    for static_moment, angle in zip(scene.static_moments, angles, strict=True):
+        total += static_moment * np.exp(1j * angle)
+    return total
+
+
+SAMPLES_PER_REVOLUTION = 64
+"""Samples per revolution in the amplitude window."""
+
+BLOCK = 2**16
+"""Samples of which distances are taken at once."""
+
+HELD = 2**22
+"""Numbers in a trajectory that holds every sample."""
+
+QUARTIC = np.array(
+    ((1, -4, 6, -4, 1), (-2, 4, 0, -4, 2), (-1, 16, -30, 16, -1), (2, -16, 0, 16, -2), (0, 0, 24, 0, 0))
+) / 24  # fmt: skip
+"""Coefficients, the highest first, of the quartic through five values at −2 … 2."""
+
+BEGINNING = 20_000
+"""Samples of the beginning of a longer run that stay."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """The amplitude window: times [s], equally spaced up to the end but for the first, which is where the window
+    begins, and how many of the last steps make whole turns.
+    """
+
+    times: Array
+    whole: int
+
+
+@dataclass(frozen=True)
+class FinalState:
+    """Final state of a run: axis [m, m/s], ball angles [rad] unwrapped, and their speeds.
+
+    The speeds are means over the window, and those at the end. `tilt` [rad]: θ_y, −θ_x on a support that
+    tilts; `arm_angle` [rad] on a swing arm; None on others. `speed` [rad/s] of the rotor.
+    """
+
+    t: float
+    x: float
+    y: float
+    vx: float
+    vy: float
+    ball_angles: tuple[float, ...]
+    ball_speeds: tuple[float, ...]
+    ball_rates: tuple[float, ...]
+    tilt: tuple[float, float] | None
+    arm_angle: float | None
+    speed: float
+
+
+@dataclass(frozen=True)
+class Response:
+    """Results of one scene in SI; level [dB] None without any velocity.
+
+    `settling_time` [s] counts from `full_speed` [s], see `Scene.full_speed`: 0 if the balls settled before, None if not
+    settled in time.
+    """
+
+    scene: str
+    duration: float
+    settling_time: float | None
+    residual_imbalance: float
+    axis_amplitude: float
+    velocity_rms: float
+    level: float | None
+    unbalanced_amplitude: float
+    largest_amplitude: float
+    """Largest amplitude of the axis over the whole run, about its mean place in the window [m]."""
+    bearing_amplitudes: tuple[float, ...]
+    """Amplitudes, defined like `axis_amplitude`, at each bearing of a support that tilts."""
+    final: FinalState
+    full_speed: float = 0.0
+
+    @property
+    def ball_angles(self) -> tuple[float, ...]:
+        """Ball angles at the end [rad], unwrapped."""
+        return self.final.ball_angles
+
+
+def amplitude_window(scene: Scene) -> Window:
+    """The last twentieth of the run, but at least one revolution, sampled 64 times per revolution."""
+    length = max(scene.duration / 20, scene.revolution)
+    turns = int(length / scene.revolution * (1 + 1e-12))
+    step = scene.revolution / SAMPLES_PER_REVOLUTION
+    times = scene.duration - step * np.arange(math.ceil(length / step - 1e-9), -1, -1)
+    return Window(times=np.maximum(times, scene.duration - length), whole=turns * SAMPLES_PER_REVOLUTION)
+
+
+def needed_times(scene: Scene) -> Array:
+    """All times [s] a trajectory must be sampled at to be evaluated."""
+    return merged(settling_times(scene), amplitude_window(scene).times)
+
+
+def sampling(scene: Scene, wanted: Array | None = None) -> Sampling:
+    """Sampling at the needed times and at further ones [s].
+
+    Trajectories of up to 32 MB hold all of them. Longer runs keep their beginning, the wanted times and the
+    amplitude window; a course must read their results as they go on.
+    """
+    wanted = np.empty(0) if wanted is None else wanted
+    times = merged(needed_times(scene), wanted)
+    whole = len(times) * scene.state_count <= HELD
+    return Sampling(times, None if whole else merged(amplitude_window(scene).times, wanted, beginning(scene)))
+
+
+def beginning(scene: Scene) -> Array:
+    """The first times [s] at which settling is judged; even very long runs are held at them."""
+    return settling_times(scene)[:BEGINNING]
+
+
+def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, creep: float = 0.0) -> Response:
+    """The results of a run that was sampled at least at `needed_times`; settled where what is left may yet go down by
+    `creep` [kg m].
+
+    Its trajectory holds these, or with a course, which has read them, only those of the amplitude window. Raises
+    NotTrustworthyError for an arm that turns right round, InputError at a resonance that nothing damps.
+    """
+    if course is None:
+        course = Course(scene)
+        course(trajectory)
+    if course.lost:
+        raise course.lost
+    window, first = amplitude_window(scene), 2 * len(scene.support.names)
+    balls = slice(first, first + len(scene.ball_masses))
+    states = trajectory.at(window.times)
+    whole = states[:, -1 - window.whole :]
+    place = axis_place(scene, states)
+    mean = _mean(axis_place(scene, whole))
+    rms = float(np.sqrt(_mean(axis_velocity(scene, whole) ** 2)).max())
+    residuals = course.residuals
+    settled = float(_mean(np.abs(total_imbalance(scene, whole[balls])))[0])
+    theta = states[balls, :][:, [-1 - window.whole, -1]]
+    span = float(window.times[-1] - window.times[-1 - window.whole])
+    time = settling_time(course.times, residuals, settled - creep + SETTLED * reference_imbalance(scene))
+    return Response(
+        scene=scene.name,
+        duration=scene.duration,
+        settling_time=None if time is None else max(time - scene.full_speed, 0.0),
+        residual_imbalance=float(residuals[-1]),
+        axis_amplitude=_largest_radius(place, mean),
+        velocity_rms=rms,
+        level=level_from_velocity(rms) if rms > 0 else None,
+        unbalanced_amplitude=unbalanced_amplitude(scene),
+        largest_amplitude=_largest_radius(course.places, mean),
+        bearing_amplitudes=_bearing_amplitudes(scene, states, whole),
+        # The mean of a speed is the way made; exact, whatever the samples.
+        final=_final(scene, states[:, -1], tuple(((theta[:, 1] - theta[:, 0]) / span).tolist())),
+        full_speed=scene.full_speed,
+    )
+
+
+def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:
+    first = 2 * len(scene.support.names)
+    x, y = axis_place(scene, end[:, None])[:, 0].tolist()
+    vx, vy = axis_velocity(scene, end[:, None])[:, 0].tolist()
+    q, turned, count = end[: first // 2], scene.support.turned(end), len(scene.ball_masses)
+    return FinalState(
+        t=scene.duration,
+        x=x,
+        y=y,
+        vx=vx,
+        vy=vy,
+        ball_angles=tuple(end[first : first + count].tolist()),
+        ball_speeds=ball_speeds,
+        ball_rates=tuple(end[first + count : first + 2 * count].tolist()),
+        tilt=scene.support.tilt(q),
+        arm_angle=None if turned is None else float(turned),
+        speed=float(scene.rotor.turning(scene.duration, end, scene.speed)[1]),
+    )
+
+
+def axis_velocity(scene: Scene, states: Array) -> Array:
+    """The velocity of the axis [m/s], likewise."""
+    size = len(scene.support.names)
+    return scene.support.axis_velocity(states[:size], states[size : 2 * size])
+
+
+def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
+    places = scene.support.bearings
+    return tuple(_largest_radius(axis_place(scene, states, z), _mean(axis_place(scene, whole, z))) for z in places)
+
+
+def settling_time(t: Array, residuals: Array, limit: float) -> float | None:
+    """The earliest time [s] of a run after which the residual stays below the limit; None if after 95 % of the run.
+
+    Between two samples it is read from the quintic through the six about them.
+    """
+    above = np.flatnonzero(residuals > limit)
+    if not len(above):
+        return 0.0
+    last = int(above[-1])
+    if last == len(t) - 1:
+        return None
+    time = _crossing(t, residuals, limit, last)
+    return time if time <= 0.95 * t[-1] else None
+
+
+def _crossing(t: Array, values: Array, limit: float, last: int) -> float:
+    """Time at which values fall to the limit, after the sample `last`, the last one above it."""
+    near, low, high = slice(max(last - 2, 0), last + 4), float(t[last]), float(t[last + 1])
+    curve = np.linalg.solve(np.vander((t[near] - low) / (high - low)), values[near] - limit)
+    inside = [root.real for root in np.roots(curve).tolist() if root.imag == 0 and 0 <= root.real <= 1]
+    # Rounding may move a root that is a sample itself out of the interval.
+    return low + (high - low) * max(inside, default=1.0)
+
+
+def _mean(values: Array) -> Array:
+    """Mean over equally spaced times of whole turns, both ends among them, by Simpson's rule: means of what turns are
+    exact, and what dies out meanwhile counts as long as it lasts.
+    """
+    ends, odd, even = values[..., [0, -1]], values[..., 1::2], values[..., 2:-1:2]
+    total = ends.sum(-1, keepdims=True) + 4 * odd.sum(-1, keepdims=True) + 2 * even.sum(-1, keepdims=True)
+    return np.asarray(total / (3 * (values.shape[-1] - 1)))
+
+
+def _squares(place: Array, middle: Array, first: int, count: int) -> Array:
+    """Squared distances from the middle."""
+    return np.asarray(((place[:, first : first + count] - middle) ** 2).sum(axis=0))
+
+
+def _largest_radius(place: Array, middle: Array) -> float:
+    """Largest distance from the middle of samples, equally spaced but for the first; its square refined by a quartic
+    through five.
+    """
+    count = place.shape[1]
+    tops = [first + int(_squares(place, middle, first, BLOCK).argmax()) for first in range(0, count, BLOCK)]
+    squares = [float(_squares(place, middle, top, 1)[0]) for top in tops]
+    largest = max(squares)
+    top = tops[squares.index(largest)]
+    if 2 < top < count - 2 and largest > 0:
+        near = QUARTIC @ (_squares(place, middle, top - 2, 5) / largest)
+        crests = [root.real for root in np.roots(np.polyder(near)).tolist() if root.imag == 0 and abs(root.real) <= 1]
+        largest *= max([1.0, *np.polyval(near, crests).tolist()])
+    return math.sqrt(largest)
+
+
+HALF = 0.5
+"""Share of the imbalance that friction may leave."""
+
+SLIPPING = 0.05
+"""Share of the rotor's speed: balls stall if their mean speed against the race stays above it."""
+
+
+def slip(response: Response, speed: float) -> float:
+    """The largest mean speed of a ball against its race over the rotor's, at the end of a run."""
+    return max(map(abs, response.final.ball_speeds), default=0.0) / speed
+
+
+def allowed_imbalance(design: Design, moved: float) -> float:
+    """Allowed residual imbalance [kg m]: a tenth of the imbalance, plus unavoidable shares.
+
+    Eccentricity and dry friction leave some imbalance in any case. Dry friction counts in its worst
+    arrangement, but with it at most half the imbalance is allowed: leaving more would be no balancing. A
+    design without worst arrangements takes the friction of evenly spread balls: the least that is allowed.
+    """
+    autobalancer = design.autobalancer
+    mass, budget = autobalancer.requirement.effective_mass, autobalancer.budget
+    tenth = SETTLED * max(moved, HARDLY * autobalancer.static_moment) + mass * budget.race_eccentricity
+    worst = max((each.rolling_friction for each in design.worst), default=0.0)
+    return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))
+
+
+def balances(left: float, allowed: float, slipping: float) -> bool:
+    """True if the balls are at rest in their race and the imbalance left [kg m] is allowed."""
+    return slipping <= SLIPPING and left <= allowed
+
+
+def balanced_well(design: Design) -> bool:
+    """True if the imbalance is so small relative to the balls that they hardly react to it."""
+    autobalancer = design.autobalancer
+    return design.imbalance.value * abs(autobalancer.requirement.plane_ratio) < HARDLY * autobalancer.static_moment

@@ -1,0 +1,107 @@
+"""Common parts of all results: the verdict, the warnings, and the data needed to repeat them."""
+
+import datetime
+import importlib
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+from abu_calc.foundation.checks import Check, Status, overall
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Record, as_plain, record
+from abu_calc.version import __version__
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from abu_calc.inputs.reading.document import FileReading
+
+
+FIGURES: Final = "abu_calc.registry"
+"""Module that draws results, in a layer above this one.
+
+It is imported by its name when somebody wants a figure, as a plugin is.
+"""
+
+NOTHING: Final = Record()
+"""A model of results that stand on no equations."""
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Provenance of a result: file as named, its hash, entries replaced, defaults in force, version, date.
+
+    `file` None: the input was no file.
+    """
+
+    file: str | None
+    sha256: str | None
+    overrides: tuple[tuple[str, object], ...]
+    defaults: tuple[tuple[str, object], ...]
+    version: str
+    date: str
+
+    @classmethod
+    def of(cls, reading: "FileReading") -> "Provenance":
+        """Provenance of a file that was read."""
+        replaced = {override.key: override.value for override in reading.overrides}
+        return cls.today(reading.file or None, reading.sha256 or None, tuple(replaced.items()), reading.defaults_used)
+
+    @classmethod
+    def today(
+        cls, file: str | None = None, sha256: str | None = None, overrides: tuple[tuple[str, object], ...] = (),
+        defaults: tuple[tuple[str, object], ...] = (),
+    ) -> "Provenance":  # fmt: skip
+        """Provenance of this day and this version."""
+        return cls(file, sha256, overrides, defaults, __version__, datetime.date.today().isoformat())
+
+    @property
+    def input(self) -> dict[str, Any] | None:
+        """Input as the JSON document has it; null if that was no file."""
+        if self.file is None:
+            return None
+        return {
+            "file": self.file,
+            "sha256": self.sha256,
+            "overrides": as_plain(dict(self.overrides)),
+            "defaults": as_plain(dict(self.defaults)),
+        }
+
+
+@record
+class Result(Record):
+    """Answer of a study: its own fields, in user units, the checks that judge them, and their provenance."""
+
+    command: ClassVar[str]
+    left_out: ClassVar[frozenset[str]] = frozenset({"title", "checks", "warnings", "model", "provenance"})
+
+    title: str
+    """The machine's name, or the file's."""
+    checks: tuple[Check, ...] = ()
+    warnings: tuple[str, ...] = ()
+    model: Record = NOTHING
+    """The SI numbers behind the result, for those who check it by hand."""
+    provenance: Provenance
+
+    @property
+    def status(self) -> Status:
+        """The worst of the checks."""
+        return overall(self.checks)
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """Names of the figures that this result has, for `figure`."""
+        names: tuple[str, ...] = importlib.import_module(FIGURES).names(self)
+        return names
+
+    def figure(self, name: str) -> "Figure":
+        """A figure of this result as one of matplotlib, to be shown, changed or saved; units stand on its axes.
+
+        Charts have axes with the numbers of the result, drawings are to scale in mm of paper. Raises InputError, with
+        the names there are, for another name, and OutputError where matplotlib (extra `report`) is not installed.
+        """
+        drawn: Figure = importlib.import_module(FIGURES).figure(self, name)
+        return drawn
+
+    @classmethod
+    def json_type(cls) -> Any:
+        """The type of what `to_dict` returns, the JSON document's `result`."""
+        return cls

@@ -1,0 +1,111 @@
+"""A run as who turns with the rotor sees it: balls on their way to rest, the axis, and what imbalance is left."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Final, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from abu_calc.dynamics.race import balls_of
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.trajectory import Trajectory, merged
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.simulation.response import axis_place, axis_velocity, beginning, settling_times, total_imbalance
+
+Array = NDArray[np.float64]
+Level = Callable[[float], float]
+"""Level [dB] that is looked at, as a function of a velocity of the axis, rms [m/s]."""
+
+MOST: Final = 500
+"""Samples that a picture needs."""
+
+
+@dataclass(frozen=True, eq=False)
+class RotorView:
+    """Thinned samples of a run that was made, without half a revolution at both ends.
+
+    Angles from the rotor's zero mark in its sense of rotation.
+    x, y: how the axis goes round, along axes that turn with the rotor: what it drifts, its mean over a revolution, is
+    taken off. `ball_angles_deg`: a row for each ball. `level_db`: by the velocity over a revolution, in the larger of
+    x and y. `speed_rpm`: None at a constant speed. `pitch_radii_mm`, `ball_radii_mm`: of each ball; a radius that is
+    not known is 0.
+    """
+
+    t_s: Array
+    x_um: Array
+    y_um: Array
+    ball_angles_deg: Array
+    residual_g_mm: Array
+    level_db: Array
+    speed_rpm: Array | None
+    imbalance_angle_deg: float
+    pitch_radii_mm: tuple[float, ...]
+    ball_radii_mm: tuple[float, ...]
+
+    @classmethod
+    def of(cls, scene: Scene, run: Trajectory, level: Level = level_from_velocity, most: int = MOST) -> Self | None:
+        """View of a run, in at most `most` samples.
+
+        If the run is too long, its beginning is shown; None if that is not held.
+        """
+        held = _held(run, settling_times(scene), beginning(scene))
+        if held is None:
+            return None
+        times, states = held
+        turn, speed = scene.rotor.turning(times, states, scene.speed)
+        inner = (turn >= turn[0] + np.pi) & (turn <= turn[-1] - np.pi)
+        if np.count_nonzero(inner) < 2:
+            return None
+        place = axis_place(scene, states)
+        swinging = (place - _over_a_turn(place, times, turn))[:, inner]
+        squares = _over_a_turn(axis_velocity(scene, states) ** 2, times, turn)[:, inner]
+        times, turn, states = times[inner], turn[inner], states[:, inner]
+        # Denser at the start, where all moves.
+        index = merged(((len(times) - 1) * np.linspace(0, 1, most) ** 2).round().astype(np.intp))
+        seen = (from_si(1.0, "um") * (swinging[0] + 1j * swinging[1]) * np.exp(-1j * turn))[index]
+        angles = _angles(scene, states[:, index])
+        changes = bool(scene.rotor.states) or scene.start_speed != scene.speed
+        balls = balls_of(scene.races)
+        return cls(
+            t_s=times[index],
+            x_um=seen.real,
+            y_um=seen.imag,
+            ball_angles_deg=from_si(1.0, "deg") * angles,
+            residual_g_mm=from_si(1.0, "g_mm") * np.abs(total_imbalance(scene, angles)),
+            level_db=_levels(squares[:, index], level),
+            speed_rpm=from_si(1.0, "rpm") * np.broadcast_to(speed, inner.shape)[inner][index] if changes else None,
+            imbalance_angle_deg=from_si(scene.imbalance_angle, "deg"),
+            pitch_radii_mm=tuple((from_si(1.0, "mm") * balls.radii).tolist()),
+            ball_radii_mm=tuple((from_si(1.0, "mm") * balls.sizes).tolist()),
+        )
+
+
+def _held(trajectory: Trajectory, *choices: Array) -> tuple[Array, Array] | None:
+    """The first of these times that are all held, and the states then."""
+    for times in choices:
+        with suppress(ValueError):
+            return times, trajectory.at(times)
+    return None
+
+
+def _angles(scene: Scene, states: Array) -> Array:
+    """Angles of the balls in the rotor [rad]."""
+    first = 2 * len(scene.support.names)
+    return np.asarray(states[first : first + len(scene.ball_masses)])
+
+
+def _levels(squares: Array, level: Level) -> Array:
+    """Levels of the mean squares of both velocities; nothing moves at less than a picometre per second."""
+    velocities = np.sqrt(np.maximum(squares.max(axis=0), 1e-24))
+    return np.array([level(velocity) for velocity in velocities.tolist()])
+
+
+def _over_a_turn(values: Array, times: Array, turn: Array) -> Array:
+    """Means over the revolution about each time, as far as there is one."""
+    steps = np.diff(times) * (values[:, 1:] + values[:, :-1]) / 2
+    sums = np.concatenate((np.zeros((len(values), 1)), np.cumsum(steps, axis=1)), axis=1)
+    first, last = (np.interp(turn + half, turn, times) for half in (-np.pi, np.pi))
+    means = [(np.interp(last, times, row) - np.interp(first, times, row)) / (last - first) for row in sums]
+    return np.array(means)

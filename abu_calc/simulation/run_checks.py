@@ -1,0 +1,137 @@
+"""Checks of one run of a machine against the limits in its file."""
+
+import math
+from collections.abc import Callable
+from typing import Final
+
+from abu_calc.foundation.checks import Check, coded, overall, verdict
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, level_from_velocity
+from abu_calc.simulation.response import SLIPPING, Response, allowed_imbalance, balances, slip
+from abu_calc.sizing.budget import displacement_level
+from abu_calc.sizing.design import Design
+
+HELD: Final = frozenset({"idle", "run-up", "grinding"})
+"""Scenes of a machine that is held where its handles are; on a swing arm it is not."""
+LIMITED: Final = frozenset({"idle", "run-up"})
+"""Scenes that the limits of a file are for; under load a level is information."""
+Level = Callable[[float], float]
+"""Function from the rms velocity of the axis [m/s] to the level [dB]."""
+LAST: Final = 0.95
+"""Share of a run by which balls must have settled to count as settled."""
+TRIES: Final = "abu size tries what helps."
+
+
+@dataclass(frozen=True)
+class SimulatedPlaceLevel:
+    """Simulated velocity level [dB] at a handle, or in the wheel plane where the file names none."""
+
+    name: str
+    level: float
+
+
+def levels_at_places(design: Design, response: Response) -> tuple[SimulatedPlaceLevel, ...]:
+    """Levels where the machine is held: what the race plane does, carried there as by a free rigid body.
+
+    What balls in another plane than the imbalance's leave when they hold the race still is added as squares; a
+    background as energy. Valid well above the suspension, as in sizing. No places for a machine on a swing arm.
+    """
+    held = _held(design, response) if response.scene in HELD else []
+    return tuple(SimulatedPlaceLevel(name, level(response.velocity_rms)) for name, level in held)
+
+
+def _held(design: Design, response: Response) -> list[tuple[str, Level]]:
+    """The level at each place where the machine is held, of a velocity."""
+    case = design.case
+    places = [(handle.name, handle.place) for handle in case.handles] or [("wheel plane", case.body.wheel)]
+    return [(name, _level_of(design, response, place)) for name, place in places]
+
+
+def loudest(design: Design, response: Response) -> Level:
+    """The level at the loudest place where the machine is held, of a velocity.
+
+    On a swing arm, where it is not, that on the axis.
+    """
+    levels = [level for _, level in _held(design, response)] if response.scene in HELD else [level_from_velocity]
+    return lambda velocity: max(level(velocity) for level in levels)
+
+
+def level_at(design: Design, response: Response, place: float) -> float:
+    """The level [dB] at a place [m] from the centre of mass, as `levels_at_places`."""
+    return _level_of(design, response, place)(response.velocity_rms)
+
+
+def _level_of(design: Design, response: Response, place: float) -> Level:
+    """The level at a place [m] at the speed that the run ends with."""
+    case, added, speed = design.case, design.autobalancer.mass, abs(response.final.speed) or design.case.speed
+    body, race = case.body, case.race_place
+    imbalance, balls = design.imbalance.value, design.imbalance.value * design.autobalancer.requirement.plane_ratio
+    held, at_race = body.inertance(race, race, added), body.inertance(place, race, added)
+    beside = imbalance * body.inertance(place, body.wheel, added) - balls * at_race
+
+    def level(velocity: float) -> float:
+        swing = math.sqrt(2) * velocity / speed / held
+        return displacement_level(math.hypot(swing * at_race, beside), speed, case.background_level)
+
+    return level
+
+
+def one_run_checks(
+    design: Design, response: Response, start: str, error: float = 0.0, *, asked: bool = False
+) -> tuple[Check, ...]:
+    """Check that the balls balance, settle in time and keep the level.
+
+    Only scenes that idle at full speed are checked. `start`: the start case in words; `error`: of the run,
+    relative; `asked`: the user set its duration. If such a run ends too soon to judge, the checks are NOT
+    EVALUATED. After a run-up, settling counts from full speed.
+    """
+    if response.scene not in LIMITED:
+        return ()
+    ramp, limit = response.full_speed, design.case.table.limits.settling_time_s
+    counted = f"{start}; counted from full speed, after {ramp:.3g} s" if ramp else start
+    motor = (check for check in design.checks if check.code == "ABU104")
+    checks = (*motor, *_balancing(design, response, f"from {counted}"), _level(design, response, error))
+    if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
+        reason = f"the run ends after {response.duration:.3g} s, before the limit of the settling time"
+        remedy = "A longer run (--duration, Python: duration_s=)."
+        return tuple(coded(check.code, "not-done", reason, remedy=remedy) for check in checks)
+    return checks
+
+
+def _balancing(design: Design, response: Response, start: str) -> tuple[Check, ...]:
+    """Check that the balls balance, and in time.
+
+    NOT EVALUATED if balls side by side cannot carry the imbalance.
+    """
+    autobalancer, limit = design.autobalancer, design.case.table.limits.settling_time_s
+    moved = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
+    if autobalancer.capacity < moved:
+        reason = "the balls cannot carry the imbalance side by side"
+        return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in ("ABU701", "ABU702"))
+    left, allowed, time = response.residual_imbalance, allowed_imbalance(design, moved), response.settling_time
+    slipping = slip(response, abs(response.final.speed) or design.case.speed)
+    balanced = balances(left, allowed, slipping)
+    message = "imbalance left: the balls end opposite the imbalance"
+    if slipping > SLIPPING:
+        message = "imbalance left: the balls hang, they keep going round behind the rotor"
+    elif not balanced:
+        word = "make it worse, they gather on the heavy side" if left > moved else "help, but do not balance"
+        message = f"imbalance left: the balls {word}"
+    soon = balanced and time is not None and time <= limit
+    remedy = None if balanced and soon else TRIES
+    return (
+        coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm", remedy),
+        coded("ABU702", verdict(soon), start if balanced else "settled where it does not balance", time, limit, "s",
+              remedy),
+    )  # fmt: skip
+
+
+def _level(design: Design, response: Response, error: float) -> Check:
+    """The loudest place against the limit; a warning where the error of the run leaves it open."""
+    loudest, limit = max(levels_at_places(design, response), key=lambda place: place.level), design.case.level_limit
+    passed, safe = loudest.level <= limit, loudest.level + 20 * math.log10(1 + error) <= limit
+    message = f"at the end of this run, {loudest.name}"
+    if passed and not safe:
+        message += f"; its error of {error:.2g} leaves it open"
+    remedy = None if passed and safe else TRIES if not passed else "Ask for more accuracy."
+    return coded("ABU401", verdict(passed, safe), message, loudest.level, limit, "dB", remedy)

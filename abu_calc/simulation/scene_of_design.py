@@ -1,0 +1,362 @@
+"""Scenes of a design.
+
+Parts that few files ask for (swing arm, motor, balls across their race) are imported on demand.
+
+The swing arm of a design as the support of its scenes.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Final, Literal
+
+from abu_calc.dynamics.effect import Effect
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.effects.run_up import RunUpEffect
+from abu_calc.dynamics.race import Race
+from abu_calc.dynamics.scene import Scene, parted_angles, placed
+from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.supports.planar import in_hands, planar
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport, cutting_arm, idle_arm
+from abu_calc.formulas.balls import half_angle
+from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate
+from abu_calc.formulas.suspension import Hands, Springs
+from abu_calc.formulas.swing_arm import pressed_angle
+from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place
+from abu_calc.foundation.units import to_si
+from abu_calc.foundation.validity import Range
+from abu_calc.inputs.duty import Motor as MotorTable
+from abu_calc.inputs.machine import SwingArm as SwingArmTable
+from abu_calc.simulation.durations import settling_duration, slowest_in_hand, slowest_rate
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.swing_arm import read_arm
+
+if TYPE_CHECKING:
+    from abu_calc.dynamics.effects.motor import MotorEffect
+
+
+def arm_of_design(design: Design, table: SwingArmTable, *, cutting: bool) -> SwingArmSupport:
+    """The swing arm with the machine and the autobalancer, without balls."""
+    case, autobalancer = design.case, design.autobalancer
+    arm = read_arm(case, table, autobalancer.mass - autobalancer.ball_count * autobalancer.ball_mass)
+    joint = arm.length, arm.inertia, arm.joint_stiffness, arm.joint_damping
+    if not cutting:
+        return idle_arm(*joint)
+    angle = pressed_angle(arm)
+    if angle is None or angle < arm.touch_angle:
+        why = "does not stand" if angle is None else "does not reach the work"
+        raise NotTrustworthyError(
+            f"the swing arm {why} while cutting\n  turn the contact angle nearer to 90°, or press with a larger moment"
+        )
+    return cutting_arm(
+        *joint, arm.contact_stiffness, arm.friction, arm.contact_angle, arm.touch_angle, arm.pressing_moment,
+        arm.disk_radius,
+    )  # fmt: skip
+
+
+def ball_rate_on_arm(design: Design, arm: SwingArmSupport, drag: float) -> float:
+    """Slowest decay rate of the balls' slow motion [1/s] on an arm, at a viscous drag rate [1/s].
+
+    There the rotor moves along one axis alone, so that half the stiffness of the slow motion is left.
+    """
+    case, candidate = design.case, design.autobalancer
+    mass = arm.felt_mass + candidate.ball_count * candidate.ball_mass
+    natural = math.sqrt(max(arm.stiffness, 0.0) / mass)
+    kappa = ball_stiffness(candidate.ball_mass, mass, case.speed, (natural, natural)) / 2
+    return decay_rate((kappa,) * candidate.ball_count, candidate.budget.resting_angles, drag, case.inertia_factor)
+
+
+AHEAD = math.radians(20)
+"""The bunch starts this far ahead of the imbalance: on the heavy side, and not in unstable equilibrium."""
+
+Start = Literal["bunched", "behind", "spread", "standstill", "settled", "placed"]
+
+STARTS: Final[dict[Start, str]] = {
+    "bunched": "balls at rest in the race, neighbours touching, their middle 20° ahead of the imbalance",
+    "behind": "balls at rest in the race, neighbours touching, their middle 20° behind the imbalance",
+    "spread": "balls at rest in the race, evenly round it, the first 20° ahead of the imbalance",
+    "standstill": "balls not turning at all, neighbours touching, their middle 20° ahead of the imbalance",
+    "settled": "balls at rest in the race, evenly fanned where they balance at idle",
+    "placed": "balls at rest in the race, where start.angles_deg of the file has them",
+}
+
+SCENES: Final[dict[str, str | None]] = {
+    "idle": None,
+    "grinding": "grinding",
+    "run-up": "run_up",
+    "swing-arm-idle": "swing_arm",
+    "swing-arm-cutting": "swing_arm",
+}
+"""The scenes of a machine, and the table of its file that each needs."""
+
+RESTITUTION = 0.5
+"""Coefficient of restitution of steel balls with oil between them; assumed."""
+
+WORST = math.pi
+"""Angle of the race's centre from the imbalance [rad] at which it asks for M Δ more of the balls.
+
+Sizing takes the same angle.
+"""
+
+LAGS = 3.0
+"""Times J/h₀, in which balls that stand still take up the speed of the race, that a run is longer for them."""
+
+TIME_CONSTANTS = 5.0
+"""Time constants after which the speed of a motor is within 1 % of its idle speed."""
+
+
+def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched", race_centre: float = WORST) -> Scene:
+    """One scene of a machine, with every effect its file has data for.
+
+    `idle`: at full speed, the axis at rest at its place, the balls as in `STARTS`, the mass that which is felt in
+    the race plane, without balls. `grinding`: pressed to the work, from where the cutting force holds it, unless the
+    contact is that of a face, which does not press in the plane. `run-up`: from rest; a motor brings it to its idle
+    speed. `swing-arm-…`: on the arm, at rest where it stands. Always with ball contact, dry rolling friction and the
+    race's eccentricity, its centre at an angle [rad] from the imbalance; on a horizontal spindle with gravity; a face
+    wheel at work with transverse motion, where its axial runout drives it. Left out: the motor at full speed, where it
+    would change the speed. It lasts seven decay times of what dies out last, within bounds, and longer for balls that
+    have to take up the speed. An idle scene has the pause of its file.
+    Raises InputError for a table that is missing, NotTrustworthyError for an arm that does not stand at the work.
+    """
+    _refuse_what_is_missing(design, which)
+    if which == "run-up" and design.case.idle_speed is not None:
+        design = replace(design, case=replace(design.case, speed=design.case.idle_speed))
+    case, table = design.case, design.case.table
+    effects = tuple(_effects(design, which, race_centre))
+    felt = abs(design.autobalancer.requirement.plane_ratio)
+    support: Support = _held(design)
+    if table.swing_arm and which.startswith("swing-arm"):
+        from abu_calc.dynamics.effects.lift_off import lift_off
+        from abu_calc.simulation.scene_of_file import in_order
+
+        support = arm = arm_of_design(design, table.swing_arm, cutting=which.endswith("cutting"))
+        felt, ball_rate = 1.0, slowest_rate(design, partial(ball_rate_on_arm, design, arm))
+        if which.endswith("cutting"):
+            joint, touch = table.swing_arm.joint_stiffness_N_per_m, to_si(table.swing_arm.touch_angle_deg, "deg")
+            effects = in_order((*effects, *lift_off(arm, joint, touch)))
+    else:
+        ball_rate = slowest_in_hand(design)
+    race = _race(design, start, turning=which != "run-up")
+    settling = settling_duration(design, support, race, ball_rate)
+    scene = Scene(
+        name=which,
+        support=support,
+        speed=case.speed,
+        imbalance=design.imbalance.value * felt,
+        imbalance_angle=0.0,
+        races=(race,),
+        duration=settling,
+        start_position=support.resting_position(_pulled(design, which)),
+        start_velocity=(0.0,) * len(support.names),
+        effects=effects,
+    )
+    longer = _taking_up(design) if which == "run-up" or (which, start) == ("idle", "standstill") else 0.0
+    scene = replace(scene, duration=settling + scene.full_speed + longer)
+    return scene if which == "run-up" else placed(scene)
+
+
+def _taking_up(design: Design) -> float:
+    """Time [s] in which balls that stand still take up the speed of the race: at most the settling time permitted."""
+    case = design.case
+    longest = case.table.limits.settling_time_s
+    return min(LAGS * case.inertia_factor / case.drag, longest) if case.drag else longest
+
+
+def grinding_without(design: Design) -> Scene:
+    """The machine at work without its autobalancer: the contact alone; one with a face idles."""
+    case, contact = design.case, _contact(design)
+    support = _support(case, case.body.effective_mass())
+    race = Race(1.0, (), 0.0, 1.0, (), ())
+    scene = Scene(
+        name="grinding, without autobalancer",
+        support=support,
+        speed=case.speed,
+        imbalance=design.imbalance.value,
+        imbalance_angle=0.0,
+        races=(),
+        duration=settling_duration(design, support, race, math.inf),
+        start_position=support.resting_position(_pulled(design, "grinding")),
+        start_velocity=(0.0,) * len(support.names),
+        effects=() if contact is None else (contact,),
+    )
+    return placed(scene)
+
+
+def idle_scene(design: Design, start: Start = "bunched") -> Scene:
+    """The machine idling at full speed, without any effect."""
+    return replace(scene_of_design(design, "idle", start), effects=())
+
+
+def _refuse_what_is_missing(design: Design, which: str) -> None:
+    if which not in SCENES:
+        raise InputError("there is no such scene of a machine", found=which, allowed=", ".join(SCENES))
+    needed = SCENES[which]
+    if needed and getattr(design.case.table, needed) is None:
+        raise InputError(
+            f"the scene {which} needs the table [{needed}]",
+            place=Place(key=needed),
+            found="none in the file",
+            remedy=f"Add [{needed}]; `abu init` writes a file that shows it.",
+        )
+
+
+def _held(design: Design) -> Support:
+    """The machine on its springs or in hands, as a point mass: that which is felt in the race plane, without balls."""
+    case, autobalancer = design.case, design.autobalancer
+    balls = autobalancer.ball_count * autobalancer.ball_mass
+    felt = case.body.effective_mass(autobalancer.mass, case.race_place)
+    Range("mass felt in the race plane", balls, unit="kg", open_low=True, key="autobalancer.ball_count",
+          remedy="Fewer or smaller balls.").check(felt)  # fmt: skip
+    return _support(case, felt - balls)
+
+
+def _support(case: Case, mass: float) -> Support:
+    """A point mass on the suspension."""
+    suspension = case.suspension
+    if isinstance(suspension, Hands):
+        return in_hands(mass, suspension.axes)
+    if isinstance(suspension, Springs):
+        return planar(mass, suspension.stiffness, suspension.damping)
+    raise InputError("no support is known for this suspension", place=Place(key="suspension.model"))
+
+
+def _pulled(design: Design, which: str) -> tuple[float, float]:
+    """The constant force [N] on a machine that grinds, which its support holds."""
+    contact = _contact(design) if which == "grinding" else None
+    return (0.0, 0.0) if contact is None else (contact.drag * contact.press_force, 0.0)
+
+
+def _race(design: Design, start: Start, *, turning: bool) -> Race:
+    """The race with its balls; a rotor that does not turn yet has them at rest, however they start."""
+    case, autobalancer = design.case, design.autobalancer
+    back = -case.speed if start == "standstill" and turning else 0.0
+    return Race(
+        pitch_radius=autobalancer.pitch_radius,
+        ball_masses=(autobalancer.ball_mass,) * autobalancer.ball_count,
+        drag=case.drag,
+        inertia_factor=case.inertia_factor,
+        start_angles=_start_angles(design, start),
+        start_speeds=(back,) * autobalancer.ball_count,
+        ball_radius=autobalancer.ball_diameter / 2,
+    )
+
+
+def contact_half_angle(design: Design) -> float:
+    """Half the angle between touching balls [rad]."""
+    autobalancer = design.autobalancer
+    return half_angle(autobalancer.ball_diameter / 2, autobalancer.pitch_radius)
+
+
+def _start_angles(design: Design, start: Start) -> tuple[float, ...]:
+    count = design.autobalancer.ball_count
+    if start == "spread":
+        return tuple(AHEAD + k * 2 * math.pi / count for k in range(count))
+    if start == "settled":
+        return tuple(math.pi + angle for angle in design.autobalancer.budget.resting_angles)
+    beta = contact_half_angle(design)
+    if start == "placed":
+        return parted_angles(_angles_of_file(design), 2 * beta)
+    middle = -AHEAD if start == "behind" else AHEAD
+    return tuple(middle + (2 * k - count + 1) * beta for k in range(count))
+
+
+def _angles_of_file(design: Design) -> tuple[float, ...]:
+    """Angles of the file, as many as there are balls [rad]. Raises InputError."""
+    table, count = design.case.table.start, design.autobalancer.ball_count
+    if table is None:
+        raise InputError(
+            "the file does not say where the balls start", place=Place(key="start"), found="no table [start]",
+            remedy="Add start.angles_deg, or ask for another --start.",
+        )  # fmt: skip
+    if len(table.angles_deg) != count:
+        raise InputError(
+            "an angle for each ball", place=Place(key="start.angles_deg"), found=f"{len(table.angles_deg)} angles",
+            allowed=f"{count}, as many as the design has balls",
+        )  # fmt: skip
+    return tuple(to_si(angle, "deg") for angle in table.angles_deg)
+
+
+def _effects(design: Design, which: str, race_centre: float) -> Iterator[Effect]:
+    """All effects that the file has data for, in the order of the registry."""
+    case, table, radius = design.case, design.case.table, design.autobalancer.ball_diameter / 2
+    if which == "run-up" and table.run_up:
+        yield guided(design, table.run_up.time_s) if table.motor is None else RunUpEffect(running_up(design))
+        if table.motor:
+            yield _motor(table.motor)
+    if which == "idle" and (pace := guided(design, 0.0)).at_speed:
+        yield pace
+    yield RaceEccentricityEffect(case.race_eccentricity, race_centre)
+    yield from _across(design) if which == "grinding" else ()
+    if table.machine.spindle_axis == "horizontal":
+        yield GravityEffect()
+    contact = _contact(design) if which == "grinding" else None
+    if contact:
+        yield contact
+    yield BallContactEffect(radius, RESTITUTION)
+    yield DryRollingFrictionEffect(case.friction_arm, radius)
+
+
+def _across(design: Design) -> Iterator[Effect]:
+    """Balls across their race, which a face wheel at work drives by its axial runout; rollers do not go there."""
+    case, groove = design.case, design.track.groove_radius
+    runout = to_si(case.table.wheel.axial_runout_mm, "mm")
+    if runout and groove and case.contact is not None and case.contact.kind == "face":
+        from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
+
+        yield TransverseMotionEffect(groove, design.autobalancer.ball_diameter / 2, runout)
+
+
+def _contact(design: Design) -> GrindingContactEffect | None:
+    """Wheel and work, in the plane of the race; None for a face, which does not press in the plane."""
+    case, wheel, contact = design.case, design.case.table.wheel, design.case.contact
+    if contact is None or contact.kind == "face":
+        return None
+    return GrindingContactEffect(
+        press_force=contact.press_force,
+        cutting_coefficient=contact.cutting_coefficient,
+        contact=contact.kind,
+        contact_stiffness=contact.stiffness,
+        rotation_sense=contact.sense,
+        runout=case.runout,
+        runout_angle=to_si(wheel.runout_angle_deg, "deg"),
+        wheel_radius=to_si(wheel.diameter_mm, "mm") / 2,
+        plane_offset=0.0,
+    )
+
+
+def guided(design: Design, up: float) -> RunUpEffect:
+    """Course of the speed from rest to full speed in a time [s]; 0: at full speed from the start.
+
+    The temporary speed reduction that the file asks for follows.
+    """
+    given, speed = design.case.table.run_up, design.case.speed
+    if given is None or given.pause_speed_rpm is None:
+        return RunUpEffect(up)
+    low = to_si(given.pause_speed_rpm, "rpm")
+    fall = (1 - low / speed) * given.run_down_s
+    return RunUpEffect(up, low=low, fall=fall, pause=given.pause_s, rise=given.pause_rise_s)
+
+
+def running_up(design: Design) -> float:
+    """Time [s] from rest to full speed for good; that of a motor is five of its time constants J Ω₀/M.
+
+    A motor takes its own time, whatever [run_up] gives.
+    """
+    table = design.case.table
+    if table.motor is None:
+        return guided(design, table.run_up.time_s if table.run_up else 0.0).at_speed
+    motor = _motor(table.motor)
+    return TIME_CONSTANTS * motor.inertia * motor.no_load_speed / motor.stall_torque
+
+
+def _motor(table: MotorTable) -> "MotorEffect":
+    from abu_calc.dynamics.effects.motor import MotorEffect
+    from abu_calc.simulation.scene_of_file import motor_numbers
+
+    return MotorEffect(**motor_numbers(table))

@@ -1,0 +1,189 @@
+"""One machine built and switched on once: where its balls lie, how warm the oil is, which way the race stands off.
+
+The many ways in which one machine is switched on: from where its balls start, how fast, with oil warm or cold.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+from abu_calc.dynamics.scene import Scene
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+from abu_calc.inputs.duty import RunUp
+from abu_calc.inputs.duty import Start as StartTable
+from abu_calc.simulation.scene_of_design import AHEAD, Start, running_up, scene_of_design
+from abu_calc.sizing.case import EQUAL_SPEEDS, Case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.track import track
+
+STARTS: tuple[Start, ...] = ("bunched", "behind", "spread", "standstill")
+
+DRAGS = (1.0, 1 / 3, 3.0)
+"""Factors on the given viscous drag rate: oil as intended, hot, and cold."""
+
+RUN_UP, SLOW = 1.0, 4.0
+"""Run-up [s] of a file that names none, and one slow enough to catch balls at a resonance."""
+
+OPPOSITE, ALIKE = math.pi, math.tau
+"""Angles of the race's centre from the imbalance [rad].
+
+Opposite it the race asks for the most capacity. On the same side balls settle latest, and friction leaves
+the loudest arrangements. `ALIKE` is a whole turn, since equations without an angle would be made and
+compiled once more.
+"""
+
+
+@dataclass(frozen=True)
+class Member:
+    """One start: where from, the drag h₀ [1/s], and the time [s] from standstill to full speed, 0 at full speed.
+
+    `eccentricity`: where the centre of the race stands, from the imbalance [rad]; `speed`: the full one [rad/s] where
+    it is not the rated one; `by_motor`: the motor's torque runs it up, to its idle speed.
+    """
+
+    start: Start
+    drag: float
+    run_up: float = 0.0
+    eccentricity: float = OPPOSITE
+    speed: float | None = None
+    by_motor: bool = False
+    angles: tuple[float, ...] = ()
+    """Angles of the balls from the imbalance [rad], if they are `placed`."""
+
+    @property
+    def race_centre_deg(self) -> float:
+        """Angle of the race's centre from the imbalance [deg], from 0 to 360."""
+        return round(from_si(self.eccentricity, "deg"), 9) % 360
+
+    @property
+    def way(self) -> str:
+        """Start case in words, without a speed."""
+        if self.by_motor:
+            return "run-up by the motor"
+        return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
+
+    @property
+    def name(self) -> str:
+        """Start case in words."""
+        return self.way if self.speed is None else f"{self.way} ({from_si(self.speed, 'rpm'):.6g} rpm)"
+
+
+def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = DRAGS) -> Iterator[Member]:
+    """All start cases that are simulated, at these shares of the given viscous drag rate.
+
+    At the given rate itself the race is off to either side. Below the rate `doubtful` [1/s] balls might stall,
+    so that a slow run-up is tried, too. The ends of a speed range are tried after the rated speed: at the
+    lowest balls stall first and settle latest, at the highest they are loudest. A motor runs up to its idle
+    speed alone.
+    """
+    case, usual = design.case, usual_run_up(design)
+    starts: tuple[Start, ...] = STARTS if case.table.start is None else (*STARTS, "placed")
+    ends = (end for end in dict.fromkeys(case.speed_range) if not math.isclose(end, case.speed))
+    for speed in (None, *ends):
+        for drag in dict.fromkeys(share * case.drag for share in shares):
+            both = speed is None and drag == case.drag and case.race_eccentricity > 0
+            for angle in (ALIKE, OPPOSITE) if both else (ALIKE,):
+                yield from (Member(start, drag, 0.0, angle, speed=speed) for start in starts)
+                if not usual.by_motor or speed is None:
+                    yield replace(usual, drag=drag, eccentricity=angle, speed=usual.speed or speed)
+                if drag < doubtful and usual.run_up < SLOW:
+                    yield Member("bunched", drag, SLOW, angle, speed=speed)
+
+
+def usual_run_up(design: Design) -> Member:
+    """The run-up of the file: by its motor to the idle speed, or guided to the rated speed; 1 s if it gives neither."""
+    case, given = design.case, design.case.table.run_up
+    if case.idle_speed is not None:
+        return Member("bunched", case.drag, running_up(design), speed=idle_speed(case), by_motor=True)
+    return Member("bunched", case.drag, given.time_s if given else RUN_UP)
+
+
+def idle_speed(case: Case) -> float | None:
+    """The speed [rad/s] at which the motor idles; None without a motor, or if it is the rated speed."""
+    idle = case.idle_speed
+    return None if idle is None or math.isclose(idle, case.speed, rel_tol=EQUAL_SPEEDS) else idle
+
+
+def scene_of_member(design: Design, member: Member) -> Scene:
+    """The idle scene of a machine started so, with every effect its file has data for."""
+    scene = "run-up" if member.run_up else "idle"
+    return scene_of_design(_with(design, member), scene, member.start, member.eccentricity)
+
+
+def grinding_scene_of_member(design: Design, member: Member) -> Scene:
+    """The scene of grinding with balls that start so, at full speed, with every effect its file has data for."""
+    return scene_of_design(_with(design, member), "grinding", member.start, member.eccentricity)
+
+
+def _with(design: Design, member: Member) -> Design:
+    """The design with the drag, the speed and the run-up of a member."""
+    case, given = design.case, design.case.table.run_up
+    table = case.table
+    if member.angles:
+        angles = tuple(round(from_si(angle, "deg"), 6) % 360 for angle in member.angles)
+        table = table.model_copy(update={"start": StartTable(angles_deg=angles)})
+    if member.run_up:
+        run_up = (given or RunUp()).model_copy(update={"time_s": member.run_up})
+        table = table.model_copy(update={"run_up": run_up, "motor": table.motor if member.by_motor else None})
+    idle = case.idle_speed if member.by_motor else None
+    case = replace(case, drag=member.drag, speed=member.speed or case.speed, idle_speed=idle, table=table)
+    return replace(design, case=case, track=track(case, design.autobalancer, design.frequency.natural_frequencies))
+
+
+KINDS: Final = ("bunched", "spread", "standstill", "run-up")
+"""Starts that are drawn: balls at rest in the race, touching or evenly round it; not turning at all; a run-up."""
+
+
+@dataclass(frozen=True)
+class SwitchedOn:
+    """A start: one of KINDS, where the middle of the bunch (or the first of balls spread) lies, and the centre of the
+    race, both from the imbalance [rad].
+    """
+
+    kind: str = "bunched"
+    angle: float = AHEAD
+    eccentricity: float = OPPOSITE
+
+    def member(self, design: Design) -> Member:
+        """The same as one of those that every design is tried with."""
+        if self.kind == "run-up":
+            return replace(usual_run_up(design), eccentricity=self.eccentricity)
+        start = next(kind for kind in KINDS if kind == self.kind)
+        return Member(start, design.case.drag, 0.0, self.eccentricity, idle_speed(design.case))  # type: ignore[arg-type]
+
+
+def scene_switched_on(design: Design, start: SwitchedOn, lighter: Sequence[float] = ()) -> Scene:
+    """The idle scene of a machine switched on so, with every effect its file has data for.
+
+    `lighter`: the share by which each ball's mass is off that of the lot.
+    """
+    scene = scene_of_member(design, start.member(design))
+    races = tuple(
+        replace(
+            race,
+            start_angles=tuple(angle + start.angle - AHEAD for angle in race.start_angles),
+            ball_masses=tuple(
+                mass * (1 + off)
+                for mass, off in zip(race.ball_masses, lighter or (0.0,) * len(race.ball_masses), strict=True)
+            ),
+        )
+        for race in scene.races
+    )
+    return replace(scene, races=races)
+
+
+def turned(scene: Scene, angle: float, drag_ratio: float) -> Scene:
+    """A scene given outright, its balls started further round by an angle [rad], in oil of another drag."""
+    races = tuple(
+        replace(
+            race,
+            start_angles=tuple(
+                math.remainder(each + angle, 2 * math.pi) if angle else each for each in race.start_angles
+            ),
+            drag=race.drag * drag_ratio,
+        )
+        for race in scene.races
+    )
+    return replace(scene, races=races)

@@ -1,0 +1,173 @@
+"""Levels as instruments show them, and what was measured beside what is predicted.
+
+Measurement with the autobalancer, beside the prediction for the same place.
+"""
+
+import math
+from typing import Annotated, ClassVar, Self
+
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
+from abu_calc.inputs.wheel import Shown
+from abu_calc.sizing.budget import accuracy_budget, displacement_level
+from abu_calc.sizing.case import Case
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.imbalance import measured_velocity
+from abu_calc.sizing.instruments import UNITS, as_shown, in_words, readings
+from abu_calc.sizing.vibration import LevelPlace
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A measured and a predicted rms velocity of one axis [m/s] at a place; no `predicted` where balls cannot balance.
+
+    `shown`: as the instrument showed it; `speed` [rad/s]: of the spindle, by which it is converted.
+    """
+
+    shown: Shown
+    place: str
+    speed: float
+    measured: float
+    predicted: float | None
+
+    @property
+    def difference(self) -> float | None:
+        """measured − predicted [dB]."""
+        if not self.predicted:
+            return None
+        return level_from_velocity(self.measured) - level_from_velocity(self.predicted)
+
+
+def measured_place(case: Case, shown: Shown) -> tuple[str, float]:
+    """Name and place [m] from the centre of mass of where it was measured."""
+    named_handle = next((handle for handle in case.handles if handle.name == shown.at), None)
+    return ("wheel plane", case.body.wheel) if named_handle is None else (named_handle.name, named_handle.place)
+
+
+def compared(case: Case, level: float | None) -> Compared | None:
+    """[measured_after] against a predicted level [dB] at its place; None without the table."""
+    table = case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    shown = table.shown
+    measured = measured_velocity(shown, case.speed, "measured_after")
+    predicted = None if level is None else velocity_from_level(level)
+    return Compared(shown, measured_place(case, shown)[0], case.speed, measured, predicted)
+
+
+def compared_design(design: Design) -> Compared | None:
+    """Against what the accuracy budget leaves, idle at the rated speed, background included."""
+    case, chosen, possible = design.case, design.autobalancer, design.frequency.balancing_possible
+    table = case.table.measured_after
+    if table is None or table.shown is None:
+        return None
+    budget = accuracy_budget(
+        case, design.imbalance.value, chosen.requirement, chosen.balls, chosen.budget.resting_angles, case.speed
+    )
+    known = possible and math.isfinite(budget.residual)
+    return compared(case, level_where_measured(design, budget.residual if known else None))
+
+
+def level_where_measured(design: Design, moved: float | None) -> float | None:
+    """Level [dB] at the place of [measured_after] of a displacement 0–peak [m] of the wheel; None without either."""
+    case, table = design.case, design.case.table.measured_after
+    if table is None or table.shown is None or not moved:
+        return None
+    there = moved * case.body.transmission(measured_place(case, table.shown)[1], design.autobalancer.mass)
+    return displacement_level(there, case.speed, case.background_level) if there else None
+
+
+@record
+class InstrumentReadings(Record):
+    """One level as instruments show it, all rms; weighted values are null where W_h is not defined."""
+
+    velocity_mm_per_s: Annotated[float, Quantity("velocity", "v")]
+    displacement_um: Annotated[float, Quantity("displacement", "s_v")]
+    acceleration_m_per_s2: Annotated[float, Quantity("acceleration", "a")]
+    weighted_m_per_s2: Annotated[float | None, Quantity("weighted, one axis", "a_h", 3)]
+    total_m_per_s2: Annotated[float | None, Quantity("weighted, three axes", "a_hv", 3)]
+
+    @classmethod
+    def of(cls, level: float | None, speed: float) -> Self | None:
+        """Readings of a level [dB] at a speed [rad/s]; None without a level."""
+        if level is None:
+            return None
+        reading = readings(velocity_from_level(level), speed)
+        return cls(
+            velocity_mm_per_s=from_si(reading.velocity, "mm_per_s"),
+            displacement_um=from_si(reading.displacement, "um"),
+            acceleration_m_per_s2=reading.acceleration,
+            weighted_m_per_s2=reading.weighted,
+            total_m_per_s2=reading.total,
+        )
+
+
+@record
+class HandleLevels(Record):
+    """Levels at one place where the machine is held."""
+
+    optional: ClassVar[frozenset[str]] = frozenset({"level_at_once_db", "shown_before", "shown_after"})
+
+    name: Annotated[str, Quantity("place")]
+    level_before_db: Annotated[float | None, Quantity("level before", "L")]
+    level_after_db: Annotated[float | None, Quantity("level after", "L")]
+    reduction_db: Annotated[float | None, Quantity("reduction", "ΔL", 3)]
+    effective_mass_kg: Annotated[float | None, Quantity("felt mass", "", 4, "imbalance at the wheel over motion here")]
+    level_at_once_db: Annotated[float | None, Quantity("level after, pressed at once", "L")] = None
+    shown_before: InstrumentReadings | None = None
+    shown_after: InstrumentReadings | None = None
+
+    @classmethod
+    def of(cls, place: LevelPlace, speed: float | None = None, hasty: LevelPlace | None = None) -> Self:
+        """Levels of one place; with the speed [rad/s] also as instruments show them.
+
+        `hasty`: the same place, pressed at once.
+        """
+        levels = place.levels
+        return cls(
+            name=place.name,
+            level_before_db=levels.before,
+            level_after_db=levels.after,
+            reduction_db=levels.reduction,
+            effective_mass_kg=place.effective_mass,
+            level_at_once_db=None if hasty is None else hasty.levels.after,
+            shown_before=None if speed is None else InstrumentReadings.of(levels.before, speed),
+            shown_after=None if speed is None else InstrumentReadings.of(levels.after, speed),
+        )
+
+
+@record
+class MeasuredAfterRecord(Record):
+    """Measurement with the autobalancer, idle, beside the prediction for the same place.
+
+    `predicted_loaded_db`: the prediction there under load, in reports of the machine at its workpiece.
+    """
+
+    optional: ClassVar[frozenset[str]] = frozenset({"predicted_loaded_db"})
+
+    place: Annotated[str, Quantity("measured at")]
+    measured: Annotated[str, Quantity("as measured")]
+    measured_level_db: Annotated[float, Quantity("measured", "L")]
+    predicted_level_db: Annotated[float | None, Quantity("predicted", "L")]
+    difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3)]
+    predicted_value: Annotated[float | None, Quantity("predicted, as the instrument shows it")]
+    unit: Annotated[str, Quantity("unit of that value")]
+    predicted_loaded_db: Annotated[float | None, Quantity("predicted under load", "L")] = None
+
+    @classmethod
+    def of(cls, comparison: Compared | None, loaded: float | None = None) -> Self | None:
+        """None without a measured value; `loaded`: level [dB] that is predicted under load."""
+        if comparison is None:
+            return None
+        predicted = comparison.predicted
+        return cls(
+            place=comparison.place,
+            measured=in_words(comparison.shown),
+            measured_level_db=level_from_velocity(comparison.measured),
+            predicted_level_db=level_from_velocity(predicted) if predicted else None,
+            difference_db=comparison.difference,
+            predicted_value=as_shown(comparison.shown, predicted, comparison.speed) if predicted else None,
+            unit=UNITS[comparison.shown.key],
+            predicted_loaded_db=loaded,
+        )

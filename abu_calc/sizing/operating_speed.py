@@ -1,0 +1,198 @@
+"""Check of the working speeds against the motor's torque curve.
+
+Step 1: is balancing possible at these speeds at all?
+"""
+
+from typing import Literal
+
+from abu_calc.formulas.motor import working_speed
+from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
+from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.formula import formula
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.validity import Range
+from abu_calc.sizing.case import Case, working_speeds
+
+Region = Literal["subcritical", "between", "supercritical"]
+
+BALL_SHARE = Range(
+    "mass of one ball over the mass felt at the wheel",
+    0.0,
+    0.5,
+    open_low=True,
+    remedy="Smaller balls, or a heavier machine.",
+    key="autobalancer.ball_diameter_mm",
+)
+
+
+PLACES = 16
+"""Parts of a speed range that are looked at."""
+
+
+@dataclass(frozen=True)
+class FrequencyRegion:
+    """Region of the working speeds [rad/s].
+
+    `least_speed` is the lower end of the zone that the rated speed needs.
+    """
+
+    speed: float
+    natural_frequencies: tuple[float, float]
+    region: Region
+    balancing_possible: bool
+    finite_mass_gap: float
+    least_speed: float
+    between_zone: tuple[float, float] | None
+    check: Check
+
+
+@formula(
+    "How far above the natural frequency lightly damped balls still fail",
+    "(Ω−ω)/Ω > (2m/(J·M))^(1/3)",
+    "1",
+    signs="n",
+    where=(
+        "More damping of the balls narrows the gap. No check rests on it: more balls, and both axes free, need more, "
+        "up to (3nm/(J·M))^(1/3)."
+    ),
+    checked=(BALL_SHARE,),
+    assumed="two balls, one free axis, light damping of balls and support; an estimate where m/M is above 0.1",
+    source="derived from the averaged motion of two opposite balls; confirmed by integration of the full equations",
+    printed="Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient",
+)
+def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> float:
+    """
+    >>> round(finite_mass_gap(0.01673, 5.6, 1.0), 4)
+    0.1815
+    """
+    BALL_SHARE.check(ball_mass / mass)
+    return float((2 * ball_mass / (inertia_factor * mass)) ** (1 / 3))
+
+
+@formula(
+    "Speeds at which light balls balance, a zone between the natural frequencies and all above the larger",
+    "1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0",
+    "rad/s",
+    signs="H_xx H_yy",
+    where=(
+        "That holds for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂. On any support, with its damping: Re[H_xx + H_yy] < "
+        "0: it moves against the imbalance."
+    ),
+    assumed="light balls; what balls of finite mass need, the eigenvalues tell (ABU103)",
+    source="derived by averaging; the upper zone is Kladiev 1996, (7)",
+    printed="the thesis knows only the upper zone",
+)
+def zones(frequencies: tuple[float, float]) -> tuple[tuple[float, float] | None, float]:
+    """
+    >>> zones((300.0, 700.0))[1], zones((300.0, 300.0))[0] is None
+    (700.0, True)
+    """
+    low, high = sorted(frequencies)
+    between = (low, ((low**2 + high**2) / 2) ** 0.5)
+    return (between if low < high else None), high
+
+
+def frequency_region(case: Case, ball_mass: float, added_mass: float) -> FrequencyRegion:
+    """Region of the whole speed range, and whether light balls balance there.
+
+    The mass of the autobalancer is added.
+    """
+    mass = case.body.effective_mass(added_mass)
+    frequencies = (natural_frequency(case.suspension, 0, mass), natural_frequency(case.suspension, 1, mass))
+    between, above = zones(frequencies)
+    low, high = case.speed_range
+    in_between = between is not None and between[0] < low and high < between[1]
+    speeds = {low, case.speed, high, *(low + (high - low) * k / PLACES for k in range(1, PLACES))}
+    possible = (low > above or in_between) and all(_recedes(case, speed, mass) for speed in speeds)
+    region: Region = (
+        "supercritical"
+        if case.speed > max(frequencies)
+        else "between"
+        if case.speed > min(frequencies)
+        else "subcritical"
+    )
+    least = between[0] if in_between and between else above
+    gap = finite_mass_gap(ball_mass, mass, case.inertia_factor)
+    check = _check(possible, in_between, low, least)
+    return FrequencyRegion(case.speed, frequencies, region, possible, gap, least, between, check)
+
+
+def _recedes(case: Case, speed: float, mass: float) -> bool:
+    """True if the support moves against the imbalance on average: Re(1/D_x + 1/D_y) < 0.
+
+    The condition holds for any linear support.
+    """
+    return sum((1 / dynamic_stiffness(case.suspension, axis, speed, mass)).real for axis in (0, 1)) < 0
+
+
+def _check(possible: bool, in_between: bool, low: float, least: float) -> Check:
+    hertz = from_si(least, "hz")
+    if possible:
+        message = "the lowest speed is above the natural frequencies"
+        if in_between:
+            message = "speeds lie between the two natural frequencies: light balls balance there, with little to spare"
+        message += "; necessary, not sufficient: the eigenvalues must agree (ABU103)"
+        remedy = None
+    else:
+        message = "at some speed of the range the support moves with the imbalance: balls go to the heavy side"
+        remedy = (
+            f"Keep all speeds above {hertz:.3g} Hz ({hertz * 60:.0f} rpm) and above what ABU103 asks, or hold the "
+            "machine more softly."
+        )
+    return coded("ABU101", verdict(possible), message, from_si(low, "hz"), hertz, "Hz", remedy, "least")
+
+
+def motor_checks(case: Case) -> tuple[Check, ...]:
+    """Checks of the motor: idling at a working speed of the file, turning under load.
+
+    There is none without a motor.
+
+    A missed working speed is a warning, not a failure: the speeds judged include the idle speed, see
+    `Case.speed_range`.
+    """
+    if case.idle_speed is None:
+        return ()
+    (low, high), idle = case.table.machine.speed_range, from_si(case.idle_speed, "rpm")
+    bound: Literal["least", "most"] = "least" if idle < low else "most"
+    limit = low if bound == "least" else high
+    kept = case.speed_range == working_speeds(case.table)
+    messages, remedies = ["the motor idles at a working speed of the file"], []
+    if not kept:
+        side = "above" if idle > limit else "below"
+        messages = [
+            f"the motor idles {100 * abs(idle / limit - 1):.1f} % {side} the working speeds of the file",
+            "idle levels, stresses and stability are judged at this speed, too",
+        ]
+        remedies = [_remedy(low, high, idle)]
+    loaded = _speed_under_load(case)
+    if loaded is not None:
+        messages.append(f"the cutting torque slows it to {_rpm(loaded)}" if loaded else "the cutting torque stops it")
+    if loaded == 0:
+        remedies.append("Give a motor.stall_torque_N_m above the cutting torque, or reduce grinding.press_force_N.")
+    return (
+        coded("ABU104", verdict(True, kept and loaded != 0), "; ".join(messages), idle, limit, "rpm",
+              " ".join(remedies) or None, bound),
+    )  # fmt: skip
+
+
+def _remedy(low: float, high: float, idle: float) -> str:
+    """Entries of the file [rpm] that agree with the idle speed."""
+    widened = f"[{min(low, idle):.0f}, {max(high, idle):.0f}]"
+    return (
+        f"If machine.speed_rpm is the speed under load, set machine.speed_range_rpm = {widened}. If it is the idle "
+        f"speed, correct motor.no_load_speed_rpm. If the machine is used at {idle:.0f} rpm, set machine.speed_rpm."
+    )
+
+
+def _speed_under_load(case: Case) -> float | None:
+    """Speed [rad/s] at which the motor gives the cutting torque f·N·R_w; None without motor or [grinding]."""
+    motor, contact = case.table.motor, case.contact
+    if motor is None or contact is None:
+        return None
+    torque = contact.cutting_coefficient * contact.press_force * case.wheel_radius
+    return working_speed(motor.stall_torque_N_m, to_si(motor.no_load_speed_rpm, "rpm"), torque)
+
+
+def _rpm(speed: float) -> str:
+    return f"{from_si(speed, 'rpm'):.0f} rpm"

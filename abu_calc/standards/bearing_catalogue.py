@@ -1,0 +1,272 @@
+"""Suffixes behind the basic number of a bearing's designation: seals, clearance, accuracy.
+
+Boundary dimensions of rolling bearings by designation.
+
+Radial internal clearance of deep groove ball bearings, before mounting.
+"""
+
+import re
+from functools import cache
+from typing import Final, Literal, NamedTuple
+
+from abu_calc.foundation.errors import InputError, RangeError
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.standards.tables import csv_rows, unknown
+from abu_calc.standards.tolerance_classes import BearingType, Kind, Seat
+
+# Angular contact bearings and tapered bearings of GOST share these numbers, with A too (30° of some makers).
+_TWO_MEANINGS = re.compile(r"(7[23]\d\d)A?")
+# GOST names end in Cyrillic letters that look Latin.
+_LATIN = str.maketrans("АВС", "ABC")
+
+Series = Literal["light", "medium", "heavy"]
+_BY_DIAMETER: Final[dict[str, Series]] = {"3": "medium", "4": "heavy"}
+
+
+class Dimensions(NamedTuple):
+    """Bore, outside diameter, width and smallest chamfer (per edge) of each ring [m]; `designation` is ISO's."""
+
+    designation: str
+    type: BearingType
+    bore: float
+    outer: float
+    inner_width: float
+    inner_chamfer: float
+    outer_width: float
+    outer_chamfer: float
+
+    @property
+    def deep_groove(self) -> bool:
+        """True if the bearing is a deep groove ball bearing: series 60 … 64."""
+        return self.designation.startswith("6")
+
+    @property
+    def kind(self) -> Kind:
+        """Kind of bearing."""
+        return "tapered" if self.type == "tapered" else "ball" if self.deep_groove else "angular-contact"
+
+    @property
+    def series(self) -> Series:
+        """Series by the diameter series: 3 medium, 4 heavy, all others light.
+
+        Wide light is light too, as the handbooks' k has it.
+
+        >>> bearing("6305").series, bearing("7516").series, bearing("635").series
+        ('medium', 'light', 'medium')
+        """
+        number = self.designation.rstrip("ABC")
+        return _BY_DIAMETER.get(number[2] if self.type == "tapered" else number[1], "light")
+
+
+def bearing(designation: str) -> Dimensions:
+    """The dimensions of a bearing by its basic ISO or GOST designation (6203 = 203, 32216 = 7516 = 7516A).
+
+    Range: series 60, 62, 63, 64, 72 (with B, AC or C), 302, 303, 322 up to bore 100 mm and small sizes of 60, 62;
+    else InputError. 72xx and 73xx, bare or with A, are refused: an angular contact bearing or GOST's tapered one.
+    GOST's older 7506 … 7510 and 7519, wider than 7506A … 7510A and 7519A, are not known.
+    Source: ISO 15:2017, ISO 355:2019; GOST 8338, GOST 831, GOST 27365-87 (names).
+
+    >>> found = bearing("7516")
+    >>> found.designation, found.bore, found.outer, found.inner_width
+    ('32216', 0.08, 0.14, 0.033)
+    """
+    name = "".join(designation.upper().split()).translate(_LATIN)
+    if (double := _TWO_MEANINGS.fullmatch(name)) is not None:
+        number = double[1]
+        raise InputError(
+            "the designation has two meanings",
+            found=designation,
+            allowed=f"30{number[1:]} (tapered, GOST {number}A), or an angular contact bearing by its suffix, {number}B",
+            remedy="Give the one that is meant, or bore_mm, outer_mm, width_mm and chamfer_mm.",
+        )
+    known = _known()
+    if name not in known:
+        remedy = "Give the basic designation without suffixes, or bore_mm, outer_mm, width_mm and chamfer_mm."
+        raise unknown("bearing designation", designation, known, remedy)
+    return _dimensions(known[name])
+
+
+def of_size(bore: float, outer: float, width: float) -> Dimensions | None:
+    """The first tabulated bearing of this bore, outside diameter and inner ring width [m], radial ones first.
+
+    Source: ISO 15:2017, ISO 355:2019.
+
+    >>> of_size(0.080, 0.140, 0.033).designation, of_size(0.017, 0.040, 0.012).designation
+    ('32216', '6203')
+    """
+    wanted = [round(from_si(size, "mm"), 6) for size in (bore, outer, width)]
+    return next((_dimensions(row) for row in csv_rows("bearings") if [*map(float, row[3:6])] == wanted), None)
+
+
+def next_size(designation: str, seat: Seat) -> Dimensions | None:
+    """The bearing of the same series next to one by its ISO name: of smaller bore for a shaft, larger for a housing.
+
+    >>> next_size("6205", "shaft").designation, next_size("6205", "housing").designation
+    ('6204', '6206')
+    """
+    suffix = designation.lstrip("0123456789")
+    series = [
+        row
+        for row in csv_rows("bearings")
+        if row[0][: -2 - len(suffix)] == designation[: -2 - len(suffix)] and row[0].endswith(suffix)
+    ]
+    places = [row[0] for row in series]
+    if designation not in places or len(designation) < 4:
+        return None
+    place = places.index(designation) + (-1 if seat == "shaft" else 1)
+    return _dimensions(series[place]) if 0 <= place < len(series) else None
+
+
+def known_names() -> frozenset[str]:
+    """All names of the table, ISO's and GOST's."""
+    return frozenset(_known())
+
+
+@cache
+def _known() -> dict[str, tuple[str, ...]]:
+    """Row by ISO name and by its one or two GOST names."""
+    return {name: row for row in csv_rows("bearings") for name in (row[0], *row[1].split("/"))}
+
+
+def _dimensions(row: tuple[str, ...]) -> Dimensions:
+    iso, _, kind, *sizes = row
+    bearing_type: BearingType = "tapered" if kind == "tapered" else "radial"
+    return Dimensions(iso, bearing_type, *(to_si(float(size), "mm") for size in sizes))
+
+
+Group = Literal["C2", "CN", "C3", "C4"]
+GROUPS: Final[tuple[Group, ...]] = ("C2", "CN", "C3", "C4")
+"""Clearance groups, from tight to loose."""
+
+
+class ClearanceLimits(NamedTuple):
+    """Smallest and largest radial clearance [m]."""
+
+    smallest: float
+    largest: float
+
+
+def radial_clearance(group: str, bore: float) -> ClearanceLimits:
+    """Radial internal clearance of a group for a bore [m], by the row of the table.
+
+    Range: deep groove ball bearings with cylindrical bore, over 2.5 up to 200 mm (RangeError); C2, CN, C3, C4
+    (InputError). Source: ISO 5753-1:2009; over 100 mm not held against a second print.
+
+    >>> radial_clearance("CN", 0.017)
+    ClearanceLimits(smallest=3e-06, largest=1.8e-05)
+    """
+    rows = _rows()
+    if group not in rows:
+        raise unknown("clearance group", group, rows)
+    millimetres = round(from_si(bore, "mm"), 6)
+    for over, to, smallest, largest in rows[group]:
+        if over < millimetres <= to:
+            return ClearanceLimits(round(to_si(smallest, "um"), 12), round(to_si(largest, "um"), 12))
+    raise RangeError(
+        "bore is outside the table of clearance groups",
+        found=f"{millimetres:g} mm",
+        allowed=f"over {rows[group][0][0]:g} up to {rows[group][-1][1]:g} mm",
+        remedy="Leave internal_clearance out.",
+    )
+
+
+@cache
+def _rows() -> dict[str, list[list[float]]]:
+    rows_by_group: dict[str, list[list[float]]] = {}
+    for group, *row in csv_rows("radial_clearance"):
+        rows_by_group.setdefault(group, []).append([*map(float, row)])
+    return rows_by_group
+
+
+_TOKENS: Final = (
+    (r"P6X", "class"),
+    (r"P([0-6])([2-5])", "class and group"),
+    (r"P([024-6])", "class"),
+    (r"C[2-5]|CN", "group"),
+    (r"2RS[HLR]?[12]?|2R[ZUK]|2Z[ER]?|ZZ[E]?|2NSE?|LLU|LLB|LLH|DDU?|VV|RS[HLR]?[12]?|RZ|Z", "closure"),
+    (r"E?TN[0-9]?H?|TVH|MA|M|JN|J2|J|Q|NR|N|W64|VT[0-9]+[A-Z]?|MT[0-9]+|GJN|WT|S[01]|E|P|Y", "other"),
+)
+_SEPARATORS: Final = " -/.,"
+# Shields and seals of GOST names: 60203, 80203 shields, 160203, 180203 seals.
+_GOST_CLOSED: Final = re.compile(r"(60|80|160|180)(\d{3})$")
+_ROLLERS: Final = re.compile(r"(NUP|NU|NJ|NF|N)(\d)(\d\d)")
+_TYPES: Final = (
+    (re.compile(r"(NUP|NU|NJ|NF|NN|N)\s*\d{3,4}"), "cylindrical roller bearings", "cylindrical"),
+    (re.compile(r"2[0-4][0-9]\d{2}"), "spherical roller bearings", "spherical"),
+    (re.compile(r"(N[AK]|HK|RNA)\s*\d+"), "needle roller bearings", "cylindrical"),
+)
+
+
+class Designation(NamedTuple):
+    """Sizes by the basic number; the clearance group and the accuracy class that the suffixes name (None: none)."""
+
+    size: Dimensions
+    group: str | None
+    accuracy: str | None
+
+
+def read_designation(text: str) -> Designation:
+    """A designation with its suffixes: 6203-2RS, 6203ZZ, 6203-2Z/C3, 180203.
+
+    Seals, shields, cages, snap rings and greases do not change the seats and are passed over.
+    InputError: a number that is not tabulated, a suffix that is not known.
+
+    >>> read_designation("6203-2RS1/C3").group, read_designation("6203ZZ").size.designation
+    ('C3', '6203')
+    """
+    spaced = " ".join(text.upper().split()).translate(str.maketrans("АВС", "ABC"))
+    name = spaced.replace(" ", "")
+    if (closed := _GOST_CLOSED.fullmatch(name)) and closed[2].lstrip("0") in known_names():
+        name = closed[2].lstrip("0")
+    if name in known_names():
+        return Designation(bearing(name), None, None)
+    _refuse_other_types(name, text)
+    for written in (name, spaced):
+        basic = max((prefix for prefix in known_names() if written.startswith(prefix)), key=len, default=None)
+        if basic is not None and not written[len(basic)].isdigit():
+            group, accuracy = _suffixes(written[len(basic) :], text, basic)
+            return Designation(bearing(basic), group, accuracy)
+    return Designation(bearing(text), None, None)  # refused there, with the nearest known
+
+
+def _suffixes(rest: str, text: str, basic: str) -> tuple[str | None, str | None]:
+    group = accuracy = None
+    while rest := rest.lstrip(_SEPARATORS):
+        token = next(((m, what) for pattern, what in _TOKENS if (m := re.match(pattern, rest))), None)
+        if token is None:
+            raise InputError(
+                f"the suffix {rest} of the bearing designation is not known",
+                found=text,
+                remedy=f"The nearest known one is {basic}; seals, C2 … C5 and P6 … P2 may follow it.",
+            )
+        match, what = token
+        rest = rest[match.end() :]
+        if what == "class and group":
+            accuracy, group = match[1], f"C{match[2]}"
+        elif what == "class":
+            accuracy = match[0].removeprefix("P")
+        elif what == "group":
+            group = match[0]
+    return group, accuracy
+
+
+def _refuse_other_types(name: str, text: str) -> None:
+    for pattern, what, kind in _TYPES:
+        if pattern.match(name):
+            raise InputError(
+                f"{what} are not in the table of bearings",
+                found=text,
+                allowed="deep groove and angular contact ball bearings (60 … 64, 72), tapered ones (302, 303, 322)",
+                remedy=f'Give bore_mm, outer_mm, width_mm and bearing_type = "{kind}"{_like(name)}.',
+            )
+
+
+def _like(name: str) -> str:
+    """The sizes of the ball bearing of the same dimension series (ISO 15): NU 208 is as wide as 6208."""
+    rollers = _ROLLERS.match(name)
+    size = f"6{rollers[2]}{rollers[3]}" if rollers else ""
+    if size not in known_names() or not rollers or rollers[2] not in "0234":
+        return ""
+    equivalent = bearing(size)
+    numbers = " × ".join(f"{1e3 * length:g}" for length in (equivalent.bore, equivalent.outer, equivalent.inner_width))
+    return f" (by ISO 15 {numbers} mm, as {size})"

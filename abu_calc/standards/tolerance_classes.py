@@ -1,0 +1,207 @@
+"""Tolerance classes that a bearing maker's catalogue recommends for shafts and housings; basic load ratings.
+
+Limits of size: ISO 286-2 for shafts and housings, ISO 492 for the rings of bearings.
+"""
+
+from functools import cache, lru_cache
+from typing import Final, Literal, NamedTuple
+
+from abu_calc.foundation.errors import RangeError
+from abu_calc.foundation.units import from_si, to_si
+from abu_calc.foundation.validity import Range
+from abu_calc.standards.tables import csv_rows, unknown
+
+Seat = Literal["shaft", "housing"]
+Ring = Literal["inner", "outer"]
+BearingType = Literal["radial", "tapered"]
+_Row = tuple[float, float, float, float]
+
+_FILES = {"shaft": "iso286_shafts", "housing": "iso286_holes"}
+_SIZES = Range("size", 3.0, 500.0, "mm", remedy="The tables hold ISO 286-2 from 3 to 500 mm.")
+
+
+class DeviationLimits(NamedTuple):
+    """Lower and upper limit deviation [m] from the nominal size."""
+
+    lower: float
+    upper: float
+
+    @property
+    def middle(self) -> float:
+        """Deviation [m] of the middle of the field."""
+        return (self.lower + self.upper) / 2
+
+    @property
+    def tolerance(self) -> float:
+        """Width [m] of the field."""
+        return self.upper - self.lower
+
+
+@cache
+def tolerance_classes(seat: Seat) -> tuple[str, ...]:
+    """The tolerance classes that are tabulated for shafts or for housings.
+
+    >>> tolerance_classes("housing")[:4]
+    ('F7', 'G6', 'G7', 'H6')
+    """
+    return tuple(_rows(seat))
+
+
+@lru_cache(maxsize=4096)
+def part_limits(seat: Seat, tolerance_class: str, size: float) -> DeviationLimits:
+    """Limit deviations of a shaft or housing of nominal size [m], by the row of the standard's table.
+
+    Range: 3 … 500 mm (RangeError); a tabulated class (InputError). Source: ISO 286-2:2010.
+
+    >>> part_limits("shaft", "k6", 0.080)
+    DeviationLimits(lower=2e-06, upper=2.1e-05)
+    """
+    rows = _rows(seat)
+    if tolerance_class not in rows:
+        raise unknown(f"tolerance class of a {seat}", tolerance_class, rows)
+    _SIZES.check(_millimetres(size))
+    return _look_up(rows[tolerance_class], size, f"size for {tolerance_class}", "Choose another tolerance class.")
+
+
+def ring_limits(bearing_type: BearingType, ring: Ring, bearing_class: str, size: float) -> DeviationLimits:
+    """Limit deviations of a ring's single-plane mean diameter, bore (inner) or outside (outer), nominal size [m].
+
+    Range: the rows of the table, which are fewer for the finer classes (RangeError); a tabulated class (InputError): 0
+    (Normal), 6, 5, 4, 2, for tapered bearings also 6X. Tapered 6 is GOST's class, not ISO's.
+    Source: ISO 492:2014, GOST 520-2011.
+
+    >>> ring_limits("radial", "outer", "0", 0.140)
+    DeviationLimits(lower=-1.8e-05, upper=0.0)
+    """
+    rows = [row[2:] for row in csv_rows("iso492") if row[:2] == (bearing_type, ring)]
+    classes = tuple(dict.fromkeys(row[0] for row in rows))
+    if bearing_class not in classes:
+        raise unknown(f"accuracy class of a {bearing_type} bearing", bearing_class, classes)
+    class_rows = [_numbers((over, to, "0", lower)) for name, over, to, lower in rows if name == bearing_class]
+    what = f"{'bore' if ring == 'inner' else 'outside diameter'} of a {bearing_type} bearing of class {bearing_class}"
+    return _look_up(class_rows, size, what, "Choose a coarser class, or a bearing in this range.")
+
+
+@cache
+def _rows(seat: Seat) -> dict[str, list[_Row]]:
+    """The rows of each tolerance class, without its name."""
+    rows_by_class: dict[str, list[_Row]] = {}
+    for name, *row in csv_rows(_FILES[seat]):
+        rows_by_class.setdefault(name, []).append(_numbers(tuple(row)))
+    return rows_by_class
+
+
+def _numbers(row: tuple[str, ...]) -> _Row:
+    over, to, upper, lower = map(float, row)
+    return over, to, upper, lower
+
+
+def _millimetres(size: float) -> float:
+    # 80 mm written in metres and back must stay in the row "up to and including 80"
+    return round(from_si(size, "mm"), 6)
+
+
+def _look_up(rows: list[_Row], size: float, what: str, remedy: str) -> DeviationLimits:
+    millimetres = _millimetres(size)
+    for over, to, upper, lower in rows:
+        if over < millimetres <= to:
+            # freed of the noise of binary fractions, so that −15 µm is the number nearest to −15e-6 m
+            return DeviationLimits(round(to_si(lower, "um"), 12), round(to_si(upper, "um"), 12))
+    raise RangeError(
+        f"{what} is outside the table",
+        found=f"{millimetres:g} mm",
+        allowed=f"over {rows[0][0]:g} up to {rows[-1][1]:g} mm",
+        remedy=remedy,
+    )
+
+
+Kind = Literal["ball", "angular-contact", "cylindrical", "tapered", "spherical"]
+KINDS: Final[tuple[Kind, ...]] = ("ball", "angular-contact", "cylindrical", "tapered", "spherical")
+RingLoad = Literal["rotating", "stationary", "indeterminate"]
+
+SOURCE: Final = "SKF General Catalogue 2006"
+NORMAL_RATIO: Final = 0.08
+"""P/C that stands in where the load or C is not known: the table's row for normal loads (over 0.05 up to 0.1)."""
+
+_FINE: Final = frozenset({"5", "4", "2"})
+_FOR_SPLIT: Final = ("G", "H", "JS", "J")
+
+
+class Ratings(NamedTuple):
+    """Basic dynamic and static load rating [N]."""
+
+    dynamic: float
+    static: float
+
+
+class MakerFits(NamedTuple):
+    """The class to write first, then others that serve as well; those for special demands; a remark on them."""
+
+    classes: tuple[str, ...]
+    special: tuple[str, ...]
+    note: str
+
+
+class _MakerRow(NamedTuple):
+    above: float
+    to: float
+    over: float
+    to_mm: float
+    found: MakerFits
+
+
+def load_ratings(designation: str) -> Ratings | None:
+    """Ratings of a bearing by its ISO designation; None where they are not known.
+
+    Source: SKF General Catalogue, 2006. Other makers' differ by some per cent.
+
+    >>> load_ratings("6203")
+    Ratings(dynamic=9950.0, static=4750.0)
+    """
+    return _ratings().get(designation)
+
+
+def maker_fits(
+    seat: Seat, kind: Kind, load: RingLoad, ratio: float, diameter: float, bearing_class: str, split: bool = False
+) -> MakerFits | None:
+    """The classes of a seat by type, kind of load, load ratio P/C and diameter [m]; None where the table has none.
+
+    A shaft under an indeterminate load is as under a rotating one. `bearing_class`: 5, 4 and 2 have rows of their own.
+    `split`: classes tighter than J pinch the ring of a split housing and are left out.
+    Source: SKF General Catalogue, 2006; range: solid steel shafts and cast iron or steel housings up to 500 mm.
+
+    >>> maker_fits("shaft", "ball", "rotating", 0.08, 0.025, "0").classes
+    ('k5',)
+    """
+    size = round(from_si(diameter, "mm"), 6)
+    ball: Kind = "ball" if kind == "angular-contact" else kind
+    asked: RingLoad = "rotating" if seat == "shaft" and load == "indeterminate" else load
+    accuracy = "fine" if bearing_class in _FINE else "normal"
+    for row in _maker_rows().get((seat, accuracy, ball, asked), ()):
+        if row.over < size <= row.to_mm and (row.above < ratio <= row.to or ratio <= row.above == 0):
+            return _for_split(row.found) if split else row.found
+    return None
+
+
+def _for_split(fits: MakerFits) -> MakerFits | None:
+    kept = [name for name in (*fits.classes, *fits.special) if name.rstrip("0123456789") in _FOR_SPLIT]
+    return MakerFits(tuple(kept), (), fits.note) if kept else None
+
+
+@cache
+def _ratings() -> dict[str, Ratings]:
+    rows = csv_rows("load_ratings")
+    return {name: Ratings(to_si(float(C), "kN"), to_si(float(C0), "kN")) for name, C, C0 in rows}
+
+
+@cache
+def _maker_rows() -> dict[tuple[str, str, str, str], list[_MakerRow]]:
+    rows_by_key: dict[tuple[str, str, str, str], list[_MakerRow]] = {}
+    for seat, accuracy, kind, load, *band, classes, note in csv_rows("maker_fits"):
+        above, to, over, to_mm = map(float, band)
+        at_hand, _, special = classes.partition("|")
+        names = tuple(at_hand.split("/")), tuple(filter(None, special.split("/")))
+        row = _MakerRow(above, to, over, to_mm, MakerFits(*names, note))
+        for bearing_kind in KINDS if kind == "any" else (kind,):
+            rows_by_key.setdefault((seat, accuracy, bearing_kind, load), []).append(row)
+    return rows_by_key

@@ -1,1 +1,0 @@
-"""Many machines like one: what is asked, its members, their store, the answers."""

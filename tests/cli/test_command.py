@@ -1,0 +1,390 @@
+"""The commands as their users see them."""
+
+import csv
+import io
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+from hypothesis import given, settings
+
+import abu_calc
+from abu_calc.features.explain.steps import explanation_blocks
+from abu_calc.foundation.interruption import INTERRUPTED
+from abu_calc.reporting.blocks import number
+from abu_calc.simulation import design_scenes as machine
+from abu_calc.simulation import ensemble
+from abu_calc.sizing import size as size_design
+from tests.cli.runner import abu, again, once
+from tests.remembered import recalled
+from tests.sizing.machines import BASE
+from tests.sizing.test_case import machines
+
+PRESETS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")
+KEYS = {
+    "system_mass_kg", "effective_mass_kg", "frequency", "imbalance_g_mm", "required_capacity_g_mm",
+    "required_capacity_limit_g_mm", "required_capacity_compliant_g_mm", "autobalancer", "alternatives",
+    "accuracy_budget", "fits", "swing_arm", "vibration", "vibration_loaded", "simulation",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def designs() -> dict[str, dict]:
+    """The JSON of every preset with an autobalancer."""
+    seen = {name: once("size", name, "--json") for name in PRESETS}
+    assert all(one.status == 0 for one in seen.values()), {name: one.err for name, one in seen.items()}
+    return {name: one.document for name, one in seen.items()}
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_every_preset_passes(designs: dict[str, dict], name: str) -> None:
+    document = designs[name]
+    assert document["status"] == "pass" and all(check["status"] in ("pass", "warn") for check in document["checks"])
+    assert {"ABU101", "ABU103"} <= {check["code"] for check in document["checks"]}
+    result, table = document["result"], tomllib.loads(abu("presets", name).out)
+    assert result.keys() >= KEYS
+    abu_ = result["autobalancer"]
+    assert abu_["mass_fraction"] <= 0.05
+    assert abu_["outer_diameter_mm"] <= table["autobalancer"]["max_outer_diameter_mm"]
+    assert abu_["width_mm"] <= table["autobalancer"]["max_width_mm"]
+    assert "ball_count" not in table["autobalancer"]
+    idle = result["simulation"][0]
+    assert idle["scene"] == "idle" and idle["settling_time_s"] < 1.0 and idle["error_estimate"] <= 0.01
+    assert result["vibration"]["reduction_db"] > 5
+    assert 2 <= len(result["alternatives"]) <= 4 and all(one["why_not"] for one in result["alternatives"])
+    states = document["model"]["scenes"]["idle"]["states"]
+    assert len(states) == 4 + 2 * abu_["ball_count"]
+
+
+def test_envelope_of_the_face_machine(designs: dict[str, dict]) -> None:
+    found = designs["avtovaz-707-370"]["result"]["autobalancer"]
+    assert found["outer_diameter_mm"] <= 68 and found["width_mm"] <= 32
+
+
+def test_levels_of_the_straight_machine_are_as_published(designs: dict[str, dict]) -> None:
+    """Published: 102–103 dB at most with the autobalancer, 111 dB without; read from octaves, so ± 1.5 dB."""
+    result = designs["avtovaz-707-222"]["result"]
+    assert result["vibration"]["level_before_db"] == pytest.approx(111.0)
+    assert result["vibration_loaded"]["steady_level_after_db"] == pytest.approx(102.5, abs=1.5)
+    assert result["vibration"]["level_after_db"] == pytest.approx(100.4, abs=0.5)
+
+
+def test_under_load_the_level_does_not_contradict_the_simulation(designs: dict[str, dict]) -> None:
+    """Wheel and work part, by 49 N of variation on 45 N: bunched balls leave what the simulation of grinding shows, and
+    go on so; settled ones, as one works, leave less.
+    """
+    result = designs["avtovaz-707-222"]["result"]
+    grinding = next(scene for scene in result["simulation"] if scene["scene"] == "grinding")
+    loaded = result["vibration_loaded"]
+    assert loaded["parts"] and loaded["at_once_stays"]
+    assert loaded["level_at_once_db"] == pytest.approx(grinding["level_db"], abs=0.1)
+    assert loaded["level_after_db"] < loaded["level_before_db"] < loaded["level_at_once_db"]
+
+
+@pytest.mark.parametrize(
+    ("name", "count", "diameter", "idle"),
+    [
+        ("avtovaz-707-222", 2, 16.0, True),
+        ("avtovaz-707-222", 4, 16.0, False),
+        ("avtovaz-707-370", 3, 16.0, False),
+        ("avtovaz-707-305", 3, 19.844, False),
+    ],
+)
+def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int, diameter: float, idle: bool) -> None:
+    """Two for idling and four under load on the straight machine; three on the others."""
+    pins = {"autobalancer.ball_count": count, "autobalancer.ball_diameter_mm": diameter}
+    design = size_design(abu_calc.read(name).changed(pins | ({"grinding.contact": "face"} if idle else {})).whole())
+    found = design.autobalancer
+    assert (found.ball_count, found.ball_diameter) == (count, pytest.approx(1e-3 * diameter, abs=1e-6))
+    (capacity,) = (check for check in design.checks if check.code == "ABU201")
+    assert capacity.status == "pass", capacity
+
+
+def test_two_balls_do_not_suffice_under_load() -> None:
+    pins = {"autobalancer.ball_count": 2, "autobalancer.ball_diameter_mm": 16.0}
+    design = size_design(abu_calc.read("avtovaz-707-222").changed(pins).whole())
+    assert {check.code for check in design.checks if check.status == "fail"} >= {"ABU201"}
+    assert design.autobalancer.capacity_ratio < 1.2
+
+
+def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
+    seen = once("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
+                "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
+    document = seen.document
+    failed = {check["code"]: check for check in document["checks"] if check["status"] == "fail"}
+    assert seen.status == 1 and {"ABU101", "ABU701"} <= failed.keys()
+    assert "worse" in failed["ABU701"]["message"]
+    assert document["result"]["vibration"]["level_after_db"] is None  # no number that could not be trusted
+    assert {c["code"] for c in document["checks"] if c["status"] == "not-done"} == {"ABU401", "ABU402"}
+    assert document["result"]["frequency"]["region"] == "subcritical"
+    assert not document["result"]["frequency"]["balancing_possible"]
+
+
+def test_a_machine_in_hands_is_simulated_with_them() -> None:
+    smooth = "autobalancer.rolling_friction_mm=0"  # with friction they stop somewhere in its band
+    seen = abu("size", "avtovaz-707-370", "--set", "suspension.model=hands", "--set", smooth, "--json")
+    idle, grinding = seen.document["result"]["simulation"]
+    assert seen.status == 0 and (idle["scene"], grinding["scene"]) == ("idle", "grinding")
+    # Palms, fingers and skin: more than the two coordinates of the axis.
+    states = seen.document["model"]["scenes"]["idle"]["states"]
+    assert states[:2] == ["x", "y"] and states.index("θ1") > 4
+    # At 97 Hz hands change the amplitude by a few per cent only, and the balls do as well in them as on springs.
+    springs = abu("size", "avtovaz-707-370", "--set", smooth, "--json").document["result"]["simulation"][0]
+    assert idle["axis_amplitude_mm"] == pytest.approx(springs["axis_amplitude_mm"], rel=0.1)
+
+
+def test_all_scenes_a_file_calls_for_are_simulated() -> None:
+    document = abu("size", "swing-arm-grinder", "--set", "grinding.press_force_N=45", "--json").document
+    scenes = [run["scene"] for run in document["result"]["simulation"]]
+    assert scenes == ["idle", "grinding", "swing-arm-idle", "swing-arm-cutting"] == list(document["model"]["scenes"])
+    for run in document["result"]["simulation"]:
+        assert all(effect["included"] for effect in run["effects"])
+        assert run["error_estimate"] <= 0.01
+    assert document["model"]["scenes"]["swing-arm-idle"]["states"][:2] == ["arm_angle", "arm_angle'"]
+
+
+def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
+    """An arm that does not stand at the work: the design stands, its other scenes too."""
+    seen = once("size", "swing-arm-grinder", "--set", "swing_arm.contact_angle_deg=5", "--json")
+    document = seen.document
+    (check,) = [check for check in document["checks"] if check["code"] == "ABU703"]
+    assert seen.status == 1 and check["status"] == "not-done" and "swing-arm-cutting" in check["name"]
+    assert [run["scene"] for run in document["result"]["simulation"]] == ["idle", "swing-arm-idle"]
+
+
+def test_wheel_and_work_that_part_are_a_warning() -> None:
+    """c_n E (2MΩ² − …)/… of 90 µm at 0.49 MN/m is 49 N, more than the press of 45; a true wheel does not bounce."""
+    warnings = once("size", "avtovaz-707-222", "--json").document["warnings"]
+    assert [warning for warning in warnings if warning.startswith("grinding: wheel and work part")]
+    warnings = abu("size", "avtovaz-707-222", "--set", "wheel.runout_mm=0.01", "--json").document["warnings"]
+    assert not [warning for warning in warnings if "wheel and work" in warning]
+
+
+def test_report_reads_like_a_calculation_note() -> None:
+    seen = once("size", "avtovaz-707-222", "--full")
+    lines = seen.out.splitlines()
+    assert seen.status == 0 and max(map(len, lines)) <= 80
+    assert lines[1].strip().startswith("PASS")
+    order = [
+        "Checks",
+        "Warnings",
+        "Design",
+        "Frequencies and capacity",
+        "Defaults used (not in the file)",
+        "Provenance",
+    ]
+    places = [lines.index(title) for title in order]
+    assert places == sorted(places)
+
+
+def test_explain_puts_the_numbers_in() -> None:
+    plain, told = once("size", "swing-arm-grinder", "--full").out, once("size", "swing-arm-grinder", "--explain").out
+    assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
+    assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)
+    for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
+        seen = abu("explain", step)
+        assert seen.status == 0 and "Source:" in seen.out
+
+
+def test_the_numbers_put_in_are_those_of_the_result() -> None:
+    result = recalled("size", abu_calc.read("avtovaz-707-222"))
+    model, shown = result.model, [getattr(block, "text", "") for block in explanation_blocks(result)]
+    assert model.runout_part_g_mm > 0 and model.eccentricity_part_g_mm > 0
+    for kg_m, g_mm in (
+        (model.runout_part_kg_m, model.runout_part_g_mm),
+        (model.eccentricity_part_kg_m, model.eccentricity_part_g_mm),
+    ):
+        assert g_mm == pytest.approx(1e6 * kg_m, rel=1e-12)
+    assert 2 * model.ball_radius_mm == result.autobalancer.ball_diameter_mm
+    parts = " + ".join(map(number, (result.imbalance_g_mm, model.runout_part_g_mm, model.eccentricity_part_g_mm)))
+    summed = f"→ m₀e + M·ε·√{{…}} + M·Δ = {parts} = {number(result.required_capacity_g_mm)} g·mm"
+    assert [line for line in shown if line.startswith(summed)]
+    assert [line for line in shown if line.startswith(f"→ sin β = r/(R−r) = {number(model.ball_radius_mm)}/")]
+
+
+def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:
+    seen = once("size", "avtovaz-707-370", "--json")
+    assert seen.document["abu"]["command"] == "size" and seen.document["abu"]["schema"] == 1
+    assert len(seen.document["input"]["sha256"]) == 64
+    assert "warning" in seen.err
+    assert seen.out.isascii()
+
+
+@pytest.mark.parametrize("suffix", [".json", ".toml", ".csv", ".txt"])
+def test_output_formats(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"design{suffix}"
+    assert again("size", "avtovaz-707-370", "--output", str(path), "--quiet").out == ""
+    text = path.read_text(encoding="utf-8")
+    if suffix == ".json":
+        assert json.loads(text)["result"]["autobalancer"]["ball_count"] == 5
+    elif suffix == ".toml":
+        assert tomllib.loads(text)["result"]["autobalancer"]["ball_count"] == 5
+    elif suffix == ".csv":
+        rows = {row["path"]: row for row in csv.DictReader(io.StringIO(text))}
+        assert rows["autobalancer.ball_count"]["value"] == "5"
+        assert rows["autobalancer.capacity_g_mm"]["unit"] == "g·mm"
+    else:
+        assert text.startswith("AvtoVAZ") and max(map(len, text.splitlines())) <= 80
+    before = path.read_bytes()
+    seen = again("size", "avtovaz-707-222", "--output", str(path))
+    assert seen.status == 2 and "--force" in seen.err and path.read_bytes() == before
+    assert again("size", "avtovaz-707-222", "--output", str(path), "--force", "-q").status == 0
+    assert path.read_bytes() != before and list(tmp_path.iterdir()) == [path]
+
+
+def test_init_writes_what_size_takes(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    assert abu("init", str(file)).status == 0
+    assert abu("validate", str(file)).status == 0
+    assert abu("size", str(file), "--quiet").status == 0
+    assert abu("init", str(file)).status == 2
+    copy = tmp_path / "copy.toml"
+    assert abu("init", "--preset", "msh-230", str(copy)).status == 0
+    assert copy.read_text(encoding="utf-8") == abu("presets", "msh-230").out
+    schema = json.loads(abu("schema").out)
+    jsonschema.Draft4Validator(schema).validate(tomllib.loads(file.read_text(encoding="utf-8")))
+
+
+def test_validate_takes_overrides() -> None:
+    """Of every file it is given, as all commands that read one do."""
+    seen = abu("validate", "msh-230", "swing-arm-grinder", "--set", "wheel.mass_kg=0.5", "--json")
+    assert [one["overrides"] for one in json.loads(seen.out)["result"]["files"]] == [{"wheel.mass_kg": 0.5}] * 2
+    wrong = abu("validate", "msh-230", "--set", "wheel.mass_kg=-1")
+    assert wrong.status == 2 and "--set wheel.mass_kg" in wrong.err
+
+
+def test_validate_tells_every_file(tmp_path: Path) -> None:
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text("[machine]\n", encoding="utf-8")
+    seen = abu("validate", "msh-230", "swing-arm-grinder")
+    assert seen.status == 0 and "msh-230: right" in seen.out
+    seen = abu("validate", "msh-230", str(wrong))
+    assert seen.status == 2 and "wrong.toml" in seen.err
+
+
+def test_presets_say_where_each_value_comes_from() -> None:
+    for preset in json.loads(abu("presets", "--json").out)["result"]["presets"]:
+        text = abu("presets", preset["name"]).out.split("[expected]")[0]
+        for line in text.splitlines():
+            if "=" in line and not line.startswith(("#", "name", "model")):
+                assert "#" in line and ("assumed: " in line or any(c.isdigit() for c in line.split("#")[1]) or
+                                        "worked example" in line), line  # fmt: skip
+
+
+def test_check_fit_of_the_source() -> None:
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--json")
+    shaft, housing, proposed, *others = seen.document["result"]
+    assert seen.status == 0
+    assert shaft["interference_um"] == [2, 36] and housing["interference_um"] == [-58, 0]
+    assert shaft["recommended_fit"] == "m6" == proposed["fit"]
+    assert [seat["fit"] for seat in others] == ["K7", "m6", "M7"]
+    creep = [check["status"] for check in seen.document["checks"] if check["code"] == "ABU601"]
+    assert creep == ["warn", "pass", "pass"]  # k6 does not reach what the ring needs, m6 does
+    options = ("--bore", "80", "--outer", "140", "--width", "33", "--chamfer", "2", "--radial-load-kN", "3",
+               "--series", "light", "--shaft", "m6", "--housing", "M7", "--bearing-class", "0", "--json")  # fmt: skip
+    seen = abu("check-fit", *options)
+    shaft, housing = seen.document["result"]
+    assert seen.status == 0
+    assert shaft["interference_um"] == [11, 45] and housing["interference_um"] == [-18, 40]
+    assert seen.document["input"] is None
+
+
+# verify
+def test_presets_keep_what_they_expect() -> None:
+    seen = again("verify")
+    assert seen.status == 0, seen.out
+
+
+def test_verify_tells_differences_and_update_keeps_comments(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    text = abu("presets", "msh-230").out.replace('"autobalancer.ball_count" = ', '"autobalancer.ball_count" = 1')
+    file.write_text(text, encoding="utf-8")
+    seen = abu("verify", str(file))
+    assert seen.status == 1 and "autobalancer.ball_count" in seen.out
+    assert abu("verify", "--update", str(tmp_path / "machine.toml")).status == 0
+    after = file.read_text(encoding="utf-8")
+    assert after.split("[expected]")[0] == text.split("[expected]")[0]
+    assert '"autobalancer.ball_count" = 5\n' in after
+    (tmp_path / "other.toml").write_text(text.split("[expected]")[0], encoding="utf-8")
+    assert abu("verify", str(tmp_path)).status == 0  # a folder may hold files that expect nothing
+    seen = abu("verify", str(tmp_path / "other.toml"))
+    assert seen.status == 2 and "--update" in seen.err
+
+
+def test_verify_knows_tolerances(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    text = abu("presets", "mmg-3200k-knife-shaft").out.split("[expected]")[0]
+    expected = '[expected]\n"fits.0.hoop_stress_MPa" = 80.0\n"fits.0.interference_um" = [2.0, 36.0]\n'
+    file.write_text(text + expected, encoding="utf-8")
+    assert abu("verify", str(file)).status == 1  # it is 78.0
+    file.write_text(text + expected + '[expected.tolerance]\n"fits.0.hoop_stress_MPa" = 0.05\n', encoding="utf-8")
+    assert abu("verify", str(file)).status == 0
+    file.write_text(text + expected + '"fits.0.no_such_key" = 1\n', encoding="utf-8")
+    assert abu("verify", str(file)).status == 1
+
+
+# What must hold whatever happens
+@given(machines())
+@settings(max_examples=2, deadline=None, derandomize=True)
+def test_exit_status_agrees_with_the_checks(changes: dict) -> None:
+    """Random machines through the whole command, simulation included; of few balls, which compile sooner."""
+    tables = {name: dict(table) for name, table in BASE.items()}
+    tables["autobalancer"]["ball_count"] = 3
+    for path, value in changes.items():
+        table, _, key = path.partition("__")
+        tables.setdefault(table, {}).update({key: value} if key else value)
+    options = [f"{table}.{key}={json.dumps(value)}" for table, keys in tables.items() for key, value in keys.items()]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(machine, "WORK", 1_000)  # what takes more is a check not done, an answer too
+        patch.setattr(ensemble, "WORK", 100)
+        seen = abu("size", "msh-230", "--json", *(word for option in options for word in ("--set", option)))
+    document = seen.document
+    assert seen.status in (0, 1, 2, 3) and "bug" not in seen.err
+    if seen.status in (0, 1):
+        passed = all(check["status"] == "pass" for check in document["checks"])
+        assert (seen.status == 0) is passed is (document["status"] == "pass")
+        if passed:
+            abu_ = document["result"]["autobalancer"]
+            assert abu_["capacity_g_mm"] >= document["result"]["required_capacity_g_mm"]
+    else:
+        assert document["error"]["message"]
+
+
+def test_a_crash_is_a_bug_with_status_3(monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash(*_: object) -> None:
+        raise ZeroDivisionError("by design")
+
+    monkeypatch.delenv("ABU_DEBUG", raising=False)
+    monkeypatch.setattr("abu_calc.features.design.study.size_design", crash)
+    seen = abu("size", "msh-230", "--json")
+    assert seen.status == 3 and seen.document["error"]["kind"] == "bug" and "Traceback" not in seen.err
+
+
+def test_an_interruption_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("abu_calc.features.design.study.size_design", interrupt)
+    output = tmp_path / "design.json"
+    seen = abu("size", "msh-230", "--output", str(output))
+    assert seen.status == INTERRUPTED and "Interrupted" in seen.err and not output.exists()
+
+
+def test_entries_replaced_are_shown_as_a_file_would_have_them() -> None:
+    grinding = '{contact="compliant", press_force_N=30, contact_stiffness_N_per_m=1e5}'
+    seen = abu("effects", "msh-230", "--set", f"grinding={grinding}", "--set", "wheel.mass_kg=0.512345678", "--full")
+    assert seen.out.split("With these entries replaced:\n")[1].splitlines() == [
+        '    grinding.contact = "compliant"',
+        "    grinding.press_force_N = 30",
+        "    grinding.contact_stiffness_N_per_m = 100000.0",
+        "    wheel.mass_kg = 0.512345678",
+    ]
+
+
+def test_an_array_of_tables_replaced_is_shown_by_its_elements() -> None:
+    bearing = '[{designation="6203", shaft_fit="k6", housing_fit="H7"}]'
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"bearing={bearing}", "--full")
+    assert '    bearing[0].shaft_fit = "k6"\n' in seen.out and "{" not in seen.out

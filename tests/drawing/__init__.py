@@ -1,1 +1,0 @@
-"""Drawings: geometry, DXF, SVG, characters."""

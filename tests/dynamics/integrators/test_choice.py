@@ -1,0 +1,164 @@
+"""Which integrator is chosen, and why."""
+
+import importlib.util
+import warnings
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.dynamics.effect import Effect
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.equations.assemble import Equations, assemble
+from abu_calc.dynamics.integrators import scipy_solvers as scipy_
+from abu_calc.dynamics.integrators.choice import choose, loop_method, verifiers
+from abu_calc.dynamics.integrators.compiled import code
+from abu_calc.dynamics.integrators.run import TooMuchWorkError, work
+from abu_calc.dynamics.integrators.work_estimates import RUNS, counts
+from abu_calc.foundation.errors import InputError
+from tests.dynamics.scenes import coupled_scene, straight_grinder, with_effects
+
+FRICTION = DryRollingFrictionEffect(8e-6, 0.008)
+
+
+@pytest.fixture
+def unloaded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As in a process that has run nothing."""
+    monkeypatch.setattr(code, "_codes", {})
+
+
+@pytest.fixture
+def without_compiler(monkeypatch: pytest.MonkeyPatch, unloaded: None) -> None:
+    """As where no wheel of it exists."""
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+
+
+def smooth(duration: float) -> Equations:
+    return assemble(replace(straight_grinder(), duration=duration))
+
+
+def switching(duration: float) -> Equations:
+    return assemble(with_effects(replace(straight_grinder(), duration=duration), GravityEffect(), FRICTION))
+
+
+def test_methods_follow_the_scene_and_the_tolerance():
+    """Smooth: order 8. With events: order 5, but for tight tolerances."""
+    assert {loop_method(smooth(1.0), 10.0**-k) for k in range(2, 13)} == {"dop853"}
+    assert [loop_method(switching(1.0), 10.0**-k) for k in range(2, 9)] == ["rk45"] * 4 + ["dop853"] * 3
+
+
+def test_each_run_has_the_method_of_its_own_tolerance():
+    """One choice serves runs at several tolerances."""
+    chosen = choose(switching(0.2), "plain", 1e-4)
+    assert chosen.name == "plain-rk45"
+    names = [chosen.integrate(switching(0.2), tolerance, [0.2], 10**6).integrator for tolerance in (1e-4, 1e-7)]
+    assert names == ["plain-rk45", "plain-dop853"]
+
+
+@pytest.mark.usefixtures("unloaded")
+@pytest.mark.parametrize("scene", [smooth, switching])
+def test_long_runs_are_compiled_and_short_ones_are_not(scene):
+    short, long = (choose(scene(duration), "auto", 1e-4) for duration in (0.02, 20.0))
+    assert long.name.startswith("compiled-") and short.name.startswith("plain-")
+    assert "before compiled code would be loaded" in short.why
+    assert ("switches" in long.why) is (scene is switching)
+
+
+def test_what_is_loaded_is_used_for_short_runs_too():
+    assert choose(switching(20.0), "auto", 1e-4).name == "compiled-rk45"
+    assert choose(switching(0.02), "auto", 1e-4).name == "compiled-rk45"
+
+
+@pytest.mark.usefixtures("unloaded")
+def test_one_waits_for_compiled_code_with_a_word():
+    waits: list[str] = []
+    choose(switching(20.0), "auto", 1e-4, waits.append)
+    assert len(waits) == 1 and "loading compiled code" in waits[0]
+    choose(switching(20.0), "auto", 1e-4, waits.append)
+    assert len(waits) == 1
+
+
+@pytest.mark.usefixtures("without_compiler")
+@pytest.mark.parametrize("scene", [smooth, switching])
+def test_without_a_compiler_the_loop_is_plain_and_says_so(scene):
+    with pytest.warns(RuntimeWarning, match="some ten times faster, with the same numbers, but llvmlite"):
+        chosen = choose(scene(20.0), "auto", 1e-4)
+    assert chosen.name == "plain-" + loop_method(scene(20.0), 1e-4)
+    assert "llvmlite is not installed" in chosen.why
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert choose(scene(0.02), "auto", 1e-4).name.startswith("plain-")  # as with it: nothing to say
+    with pytest.warns(RuntimeWarning), pytest.raises(InputError, match="llvmlite is not installed"):
+        choose(scene(20.0), "compiled", 1e-4)
+
+
+def test_what_cannot_be_traced_goes_to_scipy(monkeypatch):
+    monkeypatch.setattr(GravityEffect, "traceable", False)
+    chosen = choose(switching(20.0), "auto", 1e-6)
+    assert chosen.name == "scipy-dop853"
+    assert "cannot trace the effect gravity" in chosen.why
+    for wanted in ("plain", "compiled"):
+        with pytest.raises(InputError, match="gravity"):
+            choose(switching(20.0), wanted, 1e-6)
+
+
+def stiff(drag: float, *effects: Effect) -> Equations:
+    """Motion of the balls against their race dies out in a small part of a revolution."""
+    scene = straight_grinder()
+    return assemble(with_effects(replace(scene, races=(replace(scene.races[0], drag=drag),)), *effects))
+
+
+def test_stiff_equations_go_to_radau():
+    for wanted in ("auto", "scipy"):
+        assert choose(stiff(1e7), wanted, 1e-6).name == "scipy-radau"
+    assert choose(stiff(1e7), "plain", 1e-6).name == "plain-dop853"
+
+
+def test_stiff_equations_whose_events_keep_steps_short_go_to_the_loop():
+    """An implicit method would begin anew at each event; where motion dies out faster still, it is quicker anyhow."""
+    effects = GravityEffect(), FRICTION
+    names = [choose(stiff(drag, *effects), "auto", 1e-4).name for drag in (2e5, 1e7)]
+    assert names == ["compiled-rk45", "scipy-radau"]
+    assert choose(stiff(2e5, *effects), "scipy", 1e-4).name == "scipy-radau"
+
+
+def test_what_is_asked_for_is_taken():
+    assert choose(smooth(20.0), "scipy", 1e-6).name == "scipy-dop853"
+    with pytest.raises(InputError, match=r"unknown integrator .*auto, scipy, plain, compiled"):
+        choose(smooth(20.0), "Heyoka", 1e-6)
+
+
+def test_an_integrator_of_earlier_versions_is_refused_with_what_replaces_it():
+    with pytest.raises(InputError, match=r"not an integrator of this version[\s\S]*Use auto or compiled"):
+        choose(smooth(20.0), "heyoka", 1e-6)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-8])
+def test_the_counted_work_is_near_the_truth(tolerance):
+    """A factor of two either way: it decides between a third of a second and an hour."""
+    equations = assemble(straight_grinder())
+    counted = scipy_.integrate(equations, tolerance, [equations.scene.duration]).evaluations
+    assert 0.5 < counts(equations, tolerance).scipy / RUNS / counted < 2
+
+
+def test_two_kinds_of_integrators_verify_each_other():
+    for equations, names in (
+        (smooth(1.0), ("scipy-lsoda", "compiled-dop853")),
+        (switching(1.0), ("compiled-rk45", "scipy-dop853")),
+    ):
+        assert tuple(name for name, _ in verifiers(equations, 0.01)) == names
+
+
+def test_the_same_work_is_allowed_to_all():
+    """Whoever does it."""
+    equations, times = switching(0.5), [0.5]
+    for name in ("scipy", "plain", "compiled"):
+        chosen = choose(equations, name, 1e-4)
+        run = chosen.integrate(equations, 1e-4, times, chosen.evaluations(100_000))
+        assert chosen.evaluations(chosen.work(run)) >= work(run, chosen.event)
+        with pytest.raises(TooMuchWorkError):
+            chosen.integrate(equations, 1e-4, times, chosen.evaluations(chosen.work(run) // 4))
+
+
+def test_short_scenes_have_integrators_by_name():
+    assert choose(assemble(coupled_scene()), "compiled", 1e-6).name == "compiled-dop853"

@@ -1,0 +1,106 @@
+"""The price list of a scene: what is measured, chosen, skipped and refused."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.features.accuracy import price_list as module
+from abu_calc.features.accuracy.price_list import PricePoint, ReferenceRun, cheapest, study
+from abu_calc.features.accuracy.study import MeasuredPoint
+from abu_calc.features.accuracy.view import picture
+from abu_calc.foundation.errors import InputError, NotTrustworthyError
+from abu_calc.simulation.effect_selection import Ledger
+from tests.dynamics.scenes import dimensionless
+
+
+def quiet(_: str) -> None:
+    """No progress."""
+
+
+TOLD: list[str] = []
+"""Of the study below."""
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """Timed once, and not at the tightest: that takes implicit methods longer than all the rest."""
+    scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 20.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "REPEATS", 1)
+        patch.setattr(module, "TOLERANCES", module.TOLERANCES[:-1])
+        return study(scene, Ledger(scene, ()), "amplitude", 0.01, 3600.0, TOLD.append)
+
+
+def test_every_rung_and_integrator_is_measured(measured):
+    assert not measured.skipped
+    kinds = {(point.rung, point.integrator) for point in measured.points}
+    assert {("closed-form", None), ("envelope", "scipy-lsoda")} <= kinds
+    assert {("equations", f"scipy-{name}") for name in ("dop853", "rk45", "lsoda", "radau", "bdf")} <= kinds
+
+
+def test_errors_fall_with_the_tolerance(measured):
+    """From 1e-3 to 1e-8 of every integrator by three orders or more, or to where the reference ends."""
+    for name in {point.integrator for point in measured.points if point.rung == "equations"}:
+        errors = {point.tolerance: point.error for point in measured.points
+                  if point.integrator == name and point.rung == "equations"}  # fmt: skip
+        assert errors[1e-8] <= max(1e-3 * errors[1e-3], 3 * measured.reference.disagreement, 1e-9), name
+
+
+def test_the_choice_is_the_quickest_that_suffices(measured):
+    chosen = measured.chosen
+    assert chosen.error + measured.reference.disagreement <= 0.01
+    for point in measured.points:
+        assert point.error is None or point.error > 0.009 or point.wall_s >= chosen.wall_s
+
+
+def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
+    vague = replace(measured.reference, disagreement=0.02)
+    assert cheapest(list(measured.points), 0.01, vague) is None
+
+
+def test_the_picture_stays_within_eighty_columns(measured):
+    lines = picture(tuple(map(MeasuredPoint.of, measured.points)))
+    assert max(map(len, lines)) <= 80
+    assert any("D" in line for line in lines)
+
+
+def test_each_decade_stands_once_in_the_picture():
+    """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
+    points = tuple(
+        MeasuredPoint.of(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
+        for k in range(10)
+    )
+    labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
+    decades = [int(label.removeprefix("1e")) for label in labels if label]
+    assert decades == list(range(0, -10, -1))
+
+
+def test_a_picture_of_nothing():
+    nothing = MeasuredPoint.of(PricePoint("closed-form", None, None, None, 0, 0, None, None))
+    assert picture((nothing,)) == ["nothing to draw"]
+
+
+def test_no_time_is_told_beforehand():
+    scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
+    with pytest.raises(NotTrustworthyError, match="the reference alone takes"):
+        study(scene, Ledger(scene, ()), "amplitude", 0.01, 1e-6, quiet)
+
+
+def test_a_reference_that_two_methods_do_not_share_is_none(monkeypatch):
+    scene = dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (1.5, -1.7), 60.0)
+    monkeypatch.setitem(module.QUANTITIES, "amplitude", lambda *_: math.inf)
+    with pytest.raises(NotTrustworthyError, match="no reference"):
+        study(scene, Ledger(scene, ()), "amplitude", 0.01, 60.0, quiet)
+
+
+def test_unknown_quantities_are_refused(measured):
+    with pytest.raises(InputError, match="known quantities"):
+        study(measured.reference.response, Ledger(None, ()), "beauty", 0.01, 1.0, quiet)
+    assert isinstance(measured.reference, ReferenceRun)
+
+
+def test_each_method_tells_how_many_are_done(measured):
+    shares = [one.share for one in TOLD[1:]]
+    assert TOLD[0] == "reference" and len(shares) == len(measured.points)
+    assert shares[0] == 0 and shares == sorted(set(shares)) and shares[-1] == pytest.approx(1 - 1 / len(shares))

@@ -1,0 +1,352 @@
+"""What readings say of two planes, held against a rig simulated in other coordinates, and against published numbers."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import abu_calc
+from abu_calc.features.balancing.errors import Deviations, changes, placing, radial
+from abu_calc.features.balancing.formulas import (
+    RollOnRig,
+    condition_number,
+    displacement,
+    imbalances,
+    influence,
+    kernels,
+    natural_frequencies,
+    printed_answer,
+    support_damping,
+)
+from abu_calc.features.balancing.two_planes import Balancing, RunOnRig, Solution, TrialMass, method_of, solved
+from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, Simulated, Workshop, shown, trial, turned, written
+
+ROLL = RollOnRig(18, 21, 3e5, 3.6e5, 0, 64, 9.5, 0.15, 0.52, 0.61, 0.2)
+OMEGA = 100 * math.pi
+RADII = (0.12, 0.15)
+NO_ERRORS = Deviations(*[0.0] * 11)
+QUANTITIES = ("displacement", "velocity", "acceleration")
+
+
+def run_of(shop: Workshop, *weights: TrialMass) -> RunOnRig:
+    (A, alpha), (B, beta) = shop.read()
+    scale = 1e-3 if shop.quantity != "acceleration" else 1.0
+    return RunOnRig(
+        shop.speed, shop.quantity, (A * scale, B * scale), (math.radians(alpha), math.radians(beta)),
+        math.radians(shop.sensor_deg), weights,
+    )  # fmt: skip
+
+
+def grams(solution: Solution) -> list[tuple[float, float]]:
+    return [(1e3 * abs(Q) / R, -math.degrees(np.angle(Q)) % 360)
+            for Q, R in zip(solution.imbalance, RADII, strict=True)]  # fmt: skip
+
+
+def answer(shop: Workshop, roll: RollOnRig = ROLL) -> list[tuple[float, float]]:
+    return grams(solved(Balancing(roll, (run_of(shop),)), "rig data"))
+
+
+# Published and derived numbers
+
+
+def test_golden_numbers_of_the_test_rig() -> None:
+    shop = Workshop()
+    (A, alpha), (B, beta) = shop.read()
+    assert (A, alpha, B, beta) == pytest.approx((0.038109, 18.7489, 0.031642, 152.7485), rel=2e-5)
+    assert shop.rig.natural_hz() == pytest.approx([12.5422, 17.3499], rel=1e-5)
+    (k11, k12), (k21, k22) = kernels(ROLL, OMEGA)
+    X = [1e-3 * A * np.exp(-1j * np.radians(alpha)), 1e-3 * B * np.exp(-1j * np.radians(beta))]
+    S, G = k11 * X[0] + k12 * X[1], k21 * X[0] + k22 * X[1]
+    assert (S.real, -S.imag, G.real, -G.imag) == pytest.approx(
+        (-5.007365e-4, -1.283497e-3, -1.169295e-3, 9.524891e-5), rel=1e-5
+    )
+    assert answer(shop) == [pytest.approx((12.0, 205.0), rel=1e-9), pytest.approx((7.0, 320.0), rel=1e-9)]
+
+
+@pytest.mark.parametrize(("hz", "errors", "left"), [(50.0, (0.003, 0.51), 104.9), (21.0, (0.025, 3.31), 15.8)])
+def test_golden_numbers_of_a_damped_rig_taken_for_undamped(hz: float, errors: tuple[float, float], left: float) -> None:
+    """1 % of damping: errors below these, and 1/105 and 1/16 of the vibration left after one correction."""
+    damped = Simulated(damping=support_damping(replace(ROLL, damping_ratio=0.01)))
+    shop = Workshop(damped, speed_rpm=60 * hz)
+    found = answer(shop)
+    for (mass, angle), true_mass, true_angle in zip(found, shop.masses, shop.angles, strict=True):
+        assert abs(mass / true_mass - 1) < errors[0] and abs(turned(angle, true_angle)) < errors[1]
+    after = shop
+    for plane, (mass, angle) in enumerate(found):
+        after = after.put_on(plane, mass, angle + 180)
+    assert min(np.abs(shop.motion()) / np.abs(after.motion())) == pytest.approx(left, rel=0.01)
+
+
+def test_with_its_damping_the_rig_tells_all() -> None:
+    roll = replace(ROLL, damping_ratio=0.03)
+    shop = Workshop(Simulated(damping=support_damping(roll)), speed_rpm=1100.0)
+    assert answer(shop, roll) == [pytest.approx((12.0, 205.0), rel=1e-9), pytest.approx((7.0, 320.0), rel=1e-9)]
+
+
+# Every quadrant
+
+
+ANGLES = (0.0, 1e-7, 30.0, 90.0, 135.0, 180.0, 205.0, 270.0, 300.0, 359.9999999)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("left", ANGLES)
+def test_every_quadrant_and_degenerate_angle(quantity: str, left: float) -> None:
+    for right in ANGLES:
+        for masses in ((12.0, 7.0), (0.0, 7.0), (12.0, 0.0)):
+            shop = Workshop(quantity=quantity, masses=masses, angles=(left, right), sensor_deg=37.0)
+            for (mass, angle), true, at in zip(answer(shop), masses, shop.angles, strict=True):
+                assert mass == pytest.approx(true, abs=1e-9)
+                assert true == 0 or abs(turned(angle, at)) < 1e-6
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize(("left", "right"), [(0.0, 90.0), (180.0, 270.0), (100.0, 200.0), (300.0, 30.0)])
+def test_the_command_finds_them(tmp_path: Path, quantity: str, left: float, right: float) -> None:
+    shop = Workshop(quantity=quantity, angles=(left, right), sensor_deg=-60.0)
+    result = abu_calc.balance(written(tmp_path, RIG, ROTOR, shop.run()))
+    for one, mass, at in ((result.left, 12.0, left), (result.right, 7.0, right)):
+        assert one.mass_g == pytest.approx(mass, rel=1e-9)
+        assert 0 <= one.angle_deg < 360 and abs(turned(one.angle_deg, at)) < 1e-6
+        assert one.remove_at_deg == one.angle_deg
+        assert 0 <= one.add_at_deg < 360 and abs(turned(one.add_at_deg, at + 180)) < 1e-6
+
+
+def test_a_roll_at_rest_has_nothing_to_correct(tmp_path: Path) -> None:
+    result = abu_calc.balance(written(tmp_path, RIG, ROTOR, Workshop(masses=(0.0, 0.0)).run()))
+    assert (result.left.mass_g, result.right.mass_g) == (0.0, 0.0)
+    assert result.status == "pass" and result.left.angle_uncertainty_deg == 180
+
+
+positive = st.floats(0.2, 5.0)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(
+    st.tuples(*[positive] * 10), st.floats(0, 0.2), st.floats(1.5, 8.0), st.tuples(*[st.floats(0.01, 50)] * 2),
+    st.tuples(*[st.floats(0, 360)] * 2), st.sampled_from(QUANTITIES), st.floats(-180, 180),
+)  # fmt: skip
+def test_any_rig_gives_back_what_it_was_made_of(factors, ratio, over, masses, angles, quantity, sensor) -> None:
+    values = dict(zip(["M1", "M2", "C1", "C2", "M3", "J3", "a", "b", "c", "d"], factors, strict=True))
+    base = vars(Simulated())
+    values = {key: value * base[key] for key, value in values.items()}
+    roll = RollOnRig(**values, damping_ratio=ratio)
+    rig = Simulated(**values, damping=support_damping(roll))
+    assert [w / math.tau for w in natural_frequencies(roll)] == pytest.approx(rig.natural_hz(), rel=1e-9)
+    speed = over * natural_frequencies(roll)[1]
+    shop = Workshop(rig, masses, angles, speed * 30 / math.pi, quantity, sensor)
+    found = answer(shop, roll)
+    room = 1e-9 * condition_number(influence(roll, speed)) * max(masses)
+    for (mass, angle), true, at in zip(found, masses, angles, strict=True):
+        assert abs(mass * np.exp(1j * math.radians(angle)) - true * np.exp(1j * math.radians(at))) < room
+
+
+def test_the_condition_number_is_that_of_the_matrix() -> None:
+    for hz in (5.0, 13.0, 21.0, 50.0):
+        matrix = influence(ROLL, math.tau * hz)
+        assert condition_number(matrix) == pytest.approx(np.linalg.cond(np.array(matrix)), rel=1e-9)
+    assert condition_number(((1, 1), (1, 1))) == math.inf
+
+
+# The printed formula
+
+
+def test_the_printed_formula_with_accelerations_points_to_the_wrong_side(tmp_path: Path) -> None:
+    shop = Workshop(quantity="acceleration")
+    result = abu_calc.balance(written(tmp_path, RIG, ROTOR, shop.run()))
+    for one, at in ((result.left, 205.0), (result.right, 320.0)):
+        assert one.printed_mass_g is not None and one.printed_angle_deg is not None
+        points = one.printed_angle_deg + (180 if one.printed_mass_g < 0 else 0)
+        assert abs(turned(points, at + 180)) < 1e-6  # metal would go on the wrong side
+        assert abs(one.printed_mass_g) == pytest.approx(OMEGA**2 * one.mass_g, rel=1e-9)
+        assert abs(turned(one.angle_deg, at)) < 1e-6
+    assert pytest.approx(98696, abs=0.5) == OMEGA**2
+    (said,) = [line for line in result.warnings if "as printed" in line]
+    assert "wrong side" in said and "25.0° on the left" in said and "140.0° on the right" in said
+
+
+def test_the_printed_formula_taken_at_its_word_doubles_the_vibration() -> None:
+    """Carried out on the simulated rig, the masses brought back to scale: twice the vibration instead of none."""
+    shop = Workshop(quantity="acceleration")
+    run = run_of(shop)
+    worse = shop
+    for plane, (mass, angle) in enumerate(printed_answer(ROLL, OMEGA, run.readings, RADII)):
+        worse = worse.put_on(plane, -1e3 * mass / OMEGA**2, math.degrees(angle))
+    assert np.abs(worse.motion()) == pytest.approx(2 * np.abs(shop.motion()), rel=1e-9)
+
+
+def test_the_printed_arctan_loses_the_quadrant() -> None:
+    shop = Workshop(masses=(10.0, 7.0), angles=(200.0, 90.0))
+    (mass, angle), (_, other) = printed_answer(ROLL, OMEGA, run_of(shop).readings, RADII)
+    assert (1e3 * mass, math.degrees(angle)) == pytest.approx((-10.0, 20.0), rel=1e-9)
+    assert abs(math.degrees(other)) == pytest.approx(90.0, abs=1e-6)
+    (_, none), _ = printed_answer(ROLL, OMEGA, (0j, 0j), RADII)
+    assert math.isnan(none)
+
+
+# Noise and errors
+
+
+def test_two_runs_bring_a_damped_noisy_rig_below_a_tenth_in_99_of_100_seeds() -> None:
+    damped = Simulated(damping=support_damping(replace(ROLL, damping_ratio=0.02)))
+    good = 0
+    for seed in range(100):
+        rng = np.random.default_rng(seed)
+        shop = first = Workshop(
+            damped, tuple(rng.uniform(2, 20, 2)), tuple(rng.uniform(0, 360, 2)), rng.uniform(1500, 3600),
+            QUANTITIES[seed % 3], rng.uniform(-180, 180), 0.01, rng,
+        )  # fmt: skip
+        for _ in range(2):
+            for plane, (mass, angle) in enumerate(answer(shop)):
+                shop = shop.put_on(plane, mass, angle + 180)
+        good += bool(np.all(np.abs(shop.motion()) < 0.1 * np.abs(first.motion()).max()))
+    assert good >= 99
+
+
+SIGMA = Deviations(0.01, math.radians(1), 0.001, 0.02, 0.02, 0.0, 0.005, 0.02, 0.001, 0.01, math.radians(1))
+
+
+def spoilt(roll: RollOnRig, rng: np.random.Generator) -> RollOnRig:
+    """The rig's data, each off by its error."""
+    n = iter(rng.standard_normal(20))
+    relative = {"M1": 0.02, "M2": 0.02, "C1": 0.02, "C2": 0.02, "M3": 0.005, "J3": 0.02}
+    moved = {key: getattr(roll, key) * (1 + s * next(n)) for key, s in relative.items()}
+    return replace(roll, **moved, **{key: getattr(roll, key) + 0.001 * next(n) for key in "abcd"})
+
+
+@pytest.mark.parametrize("rpm", [1300.0, 3000.0])
+def test_uncertainties_are_the_scatter_of_spoilt_readings_and_rigs(rpm: float) -> None:
+    shop = Workshop(speed_rpm=rpm)
+    case = Balancing(ROLL, (run_of(shop),))
+    by = changes(case, "rig data", SIGMA)
+    Q = solved(case, "rig data").imbalance
+    rng, found = np.random.default_rng(5), []
+    for _ in range(2000):
+        run = case.runs[0]
+        run = replace(
+            run, speed=run.speed * (1 + 0.001 * rng.standard_normal()),
+            amplitudes=tuple(a * (1 + 0.01 * rng.standard_normal()) for a in run.amplitudes),
+            phases=tuple(p + math.radians(1) * rng.standard_normal() for p in run.phases),
+        )  # fmt: skip
+        found.append(solved(Balancing(spoilt(ROLL, rng), (run,)), "rig data").imbalance)
+    for plane in (0, 1):
+        values = np.array([pair[plane] for pair in found])
+        sizes = np.std(np.abs(values))
+        angles = np.std(np.angle(values / Q[plane]))
+        deltas = [change.imbalance[plane] for change in by]
+        assert radial(Q[plane], deltas) == pytest.approx(sizes, rel=0.08)
+        across = math.sqrt(sum((d / Q[plane]).imag ** 2 for d in deltas))
+        assert across == pytest.approx(angles, rel=0.08)
+
+
+def test_the_verification_run_is_as_predicted(tmp_path: Path) -> None:
+    """Rigs that differ from the file, readings and corrections off by their errors: rms, and twice it as a bound."""
+    said = RIG + "damping_ratio = 0.0\n"
+    errors = "[errors]\ndamping_ratio = 0.0\n"
+    shop = Workshop()
+    result = abu_calc.balance(written(tmp_path, said, ROTOR, shop.run(), errors))
+    (told,) = result.residual_check.verification
+    rng, after = np.random.default_rng(7), []
+    for _ in range(400):
+        true = spoilt(ROLL, rng)
+        rig = Simulated(**{key: getattr(true, key) for key in ["M1", "M2", "C1", "C2", "M3", "J3", "a", "b", "c", "d"]})
+        real = Workshop(rig)
+        run = run_of(real)
+        run = replace(
+            run, amplitudes=tuple(a * (1 + 0.01 * rng.standard_normal()) for a in run.amplitudes),
+            phases=tuple(p + math.radians(1) * rng.standard_normal() for p in run.phases),
+            speed=run.speed * (1 + 0.001 * rng.standard_normal()),
+        )  # fmt: skip
+        for plane, (mass, angle) in enumerate(grams(solved(Balancing(ROLL, (run,)), "rig data"))):
+            put, at = mass * (1 + 0.01 * rng.standard_normal()), angle + 180 + rng.standard_normal()
+            real = real.put_on(plane, put, at)
+        after.append(1e3 * np.abs(real.motion()))
+    rms = np.sqrt(np.mean(np.square(after), axis=0))
+    assert (told.left_expected, told.right_expected) == pytest.approx(tuple(rms), rel=0.12)
+    most = np.array([told.left_at_most, told.right_at_most])
+    assert np.mean(np.array(after) > most, axis=0).max() < 0.07
+
+
+def test_several_runs_are_averaged_as_vectors(tmp_path: Path) -> None:
+    one, other = Workshop(masses=(10.0, 5.0), angles=(10.0, 80.0)), Workshop(masses=(12.0, 5.0), angles=(350.0, 100.0))
+    result = abu_calc.balance(written(tmp_path, RIG, ROTOR, one.run(), other.run()))
+    mean = (one.vectors() + other.vectors()) / 2
+    assert (result.left.mass_g, result.right.mass_g) == pytest.approx(tuple(np.abs(mean)), rel=1e-9)
+    assert abs(turned(result.left.angle_deg, -np.degrees(np.angle(mean[0])))) < 1e-9
+    assert next(check for check in result.checks if check.code == "ABU1006").status in ("warn", "fail")
+    again = abu_calc.balance(written(tmp_path, RIG, ROTOR, one.run(), one.run()))
+    assert next(check for check in again.checks if check.code == "ABU1006").status == "pass"
+
+
+# Trial masses
+
+
+def test_influence_coefficients_recover_the_rig(tmp_path: Path) -> None:
+    """No data of the rig; damped, near a natural frequency, sensors 50° off: mass, angle, and the coefficients."""
+    rig = Simulated(damping=(300.0, 500.0))
+    shop = Workshop(rig, speed_rpm=1150.0, quantity="velocity", sensor_deg=50.0)
+    runs = [shop.run(), *(shop.put_on(k, 15.0, 70.0).run(trial(k, 15.0, 70.0)) for k in (0, 1))]
+    result = abu_calc.balance(written(tmp_path, BARE_ROTOR, *runs))
+    assert result.method == "trial masses"
+    assert (result.left.mass_g, result.left.angle_deg) == pytest.approx((12.0, 205.0), rel=1e-9)
+    assert (result.right.mass_g, result.right.angle_deg) == pytest.approx((7.0, 320.0), rel=1e-9)
+    for plane, radius in enumerate(rig.radii):
+        masses = [1.0 * (k == plane) for k in (0, 1)]
+        moved = rig.motion(shop.speed, masses, (0.0, 0.0)) * 1e6 / (1e3 * radius)
+        found = [complex(*row[plane]) for row in result.influence_coefficients]
+        assert found == pytest.approx(list(moved), rel=1e-9)
+
+
+def test_trial_masses_go_before_data_of_the_rig_and_tell_where_these_are_wrong(tmp_path: Path) -> None:
+    shop = Workshop(Simulated(C1=2e5, M3=50.0), speed_rpm=1400.0)
+    runs = [shop.run(), *(shop.put_on(k, 10.0, 0.0).run(trial(k, 10.0, 0.0)) for k in (0, 1))]
+    result = abu_calc.balance(written(tmp_path, RIG, ROTOR, *runs))
+    assert result.method == "trial masses" and result.left.mass_g == pytest.approx(12.0, rel=1e-9)
+    assert any("differ by" in line for line in result.warnings)
+    wrong = abu_calc.balance(written(tmp_path, RIG, ROTOR, shop.run()))
+    assert abs(wrong.left.mass_g / 12.0 - 1) > 0.05
+
+
+def test_too_few_trials_are_taken_into_account_by_the_rigs_data(tmp_path: Path) -> None:
+    shop = Workshop()
+    both = 'trial = [{ plane = "left", mass_g = 8.0, angle_deg = 30.0, radius_mm = 60.0 }, { plane = "right", mass_g = -3.0, angle_deg = 200.0 }]'  # noqa: E501
+    spoiled = shop.put_on(0, 4.0, 30.0).put_on(1, -3.0, 200.0)
+    result = abu_calc.balance(written(tmp_path, RIG, ROTOR, spoiled.run(both)))
+    assert result.method == "rig data"
+    assert (result.left.mass_g, result.right.mass_g) == pytest.approx((12.0, 7.0), rel=1e-9)
+    assert any("do not suffice" in line for line in result.warnings)
+
+
+def test_influence_coefficients_bring_noise_down_too() -> None:
+    shop = Workshop(Simulated(damping=(200.0, 200.0)), noise=0.01)
+    runs = [run_of(shop)]
+    for k in (0, 1):
+        mass = 10.0
+        runs.append(run_of(shop.put_on(k, mass, 0.0), TrialMass(k, 1e-3 * mass, RADII[k], 0.0)))
+    case = Balancing(None, tuple(runs))
+    assert method_of(case) == "trial masses"
+    after = shop
+    for plane, (mass, angle) in enumerate(grams(solved(case, "trial masses"))):
+        after = after.put_on(plane, mass, angle + 180)
+    assert np.all(np.abs(after.motion()) < 0.1 * np.abs(shop.motion()))
+
+
+def test_without_errors_nothing_is_unsure() -> None:
+    case = Balancing(ROLL, (run_of(Workshop()),))
+    assert all(abs(one) == 0 for change in changes(case, "rig data", NO_ERRORS) for one in change.imbalance)
+    assert all(abs(one) == 0 for pair in placing((1j, 1.0), NO_ERRORS) for one in pair)
+
+
+def test_readings_are_derivatives_of_the_displacement() -> None:
+    motion = np.array([1e-5 * np.exp(1j), 2e-5 * np.exp(-2j)])
+    for quantity in QUANTITIES:
+        scale = 1.0 if quantity == "acceleration" else 1e-3
+        for (amplitude, phase), true in zip(shown(motion, quantity, 80.0), motion, strict=True):
+            assert displacement(quantity, amplitude * scale, math.radians(phase), 80.0) == pytest.approx(
+                true, rel=1e-12
+            )
+    assert imbalances(ROLL, OMEGA, (0j, 0j)) == (0j, 0j)

@@ -1,0 +1,245 @@
+"""Every report on one screen: 48 lines of 80 columns, nothing that matters left out in silence."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import abu_calc
+from abu_calc.features.design.screen import ShownSpread, _table, size_screen
+from abu_calc.features.design.study import SizeResult
+from abu_calc.features.seats.study import CheckFitResult
+from abu_calc.features.seats.view import check_fit_screen
+from abu_calc.foundation.checks import Check, Grade
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.reporting.parts import check_blocks, reasons
+from abu_calc.reporting.screen import cut
+from abu_calc.reporting.text import as_text, height
+from tests.cli.runner import Seen, abu, once
+from tests.cli.test_command import PRESETS
+from tests.inputs.scenes import ARM, PLANAR, SCENE, TILTING
+from tests.remembered import recalled
+
+GRADES: tuple[Grade, ...] = ("pass", "warn", "fail", "not-done")
+COMMANDS = [
+    *((command, name) for name in PRESETS for command in ("size", "simulate", "stability", "effects")),
+    ("check-fit", "mmg-3200k-knife-shaft"),
+    ("verify", "msh-230"),
+]
+STIFF = ("--set", "suspension.natural_frequencies_hz=[130.0, 130.0]", "--set", "suspension.damping_ratios=[0.05, 0.05]")
+
+
+@pytest.fixture(autouse=True)
+def terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+@pytest.fixture(scope="module")
+def sized() -> SizeResult:
+    return recalled("size", abu_calc.read("msh-230"))
+
+
+@pytest.fixture(scope="module")
+def seats() -> CheckFitResult:
+    return abu_calc.check_fit(abu_calc.read("mmg-3200k-knife-shaft"))
+
+
+def fits(seen: Seen) -> bool:
+    return len(seen.out.splitlines()) <= 48 and seen.width <= 80 and "Traceback" not in seen.err
+
+
+def flat(text: str) -> str:
+    return " ".join(text.split())
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+def test_presets(command: tuple[str, ...]) -> None:
+    seen = once(*command)
+    assert fits(seen) and seen.out.strip()
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("size", "avtovaz-707-370", *STIFF),
+        ("size", "avtovaz-707-222", "--set", "autobalancer.max_outer_diameter_mm=40"),
+        ("simulate", "avtovaz-707-222", "--scene", "grinding"),
+        ("simulate", "swing-arm-grinder", "--scene", "swing-arm-cutting"),
+        ("stability", "swing-arm-grinder", "--scene", "swing-arm-idle", "--speeds", "100:9000"),
+        ("accuracy", "msh-230", "--budget", "0.5"),
+    ],
+    ids=" ".join,
+)
+def test_other_reports(arguments: tuple[str, ...]) -> None:
+    assert fits(once(*arguments))
+
+
+@pytest.mark.parametrize(
+    ("text", "duration"),
+    [(SCENE, "20"), (PLANAR, ""), (TILTING, "0.2"), (ARM, "0.5")],
+    ids=("bare", "all", "tilt", "arm"),
+)
+def test_scene_files(tmp_path: Path, text: str, duration: str) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(text, encoding="utf-8")
+    assert fits(abu("stability", str(file))) and fits(abu("effects", str(file)))
+    if duration:  # the other is chaotic
+        assert fits(abu("simulate", str(file), "--duration", duration))
+
+
+def test_what_failed_stands_there_with_its_remedy() -> None:
+    arguments = ("size", "avtovaz-707-370", *STIFF)
+    document, lines = once(*arguments, "--json").document, once(*arguments).out
+    bad = [check for check in document["checks"] if check["status"] != "pass"]
+    assert {check["status"] for check in bad} == {"fail", "not-done"}
+    assert re.search(r"FAIL: \d of \d\d checks failed, 2 not done, \d warnings", flat(lines))
+    for check in bad:
+        assert check["code"] in lines and check["message"] in flat(lines)
+        assert check["remedy"] is None or check["remedy"] in flat(lines)
+    passed = re.findall(r"\d{3}", lines.split("Passed: ")[1].split(".")[0])
+    assert [f"ABU{code}" for code in passed] == sorted(one["code"] for one in document["checks"] if one not in bad)
+
+
+def test_the_three_numbers_are_those_of_the_result(sized: SizeResult) -> None:
+    text = as_text(size_screen(sized))
+    level, settling, mass = (re.findall(rf"^ *{name}.*$", text, re.MULTILINE)[0] for name in ("idle", "settl", "mass"))
+    vibration, many = sized.vibration, sized.ensemble
+    assert many is not None and many.level_db.worst and vibration.level_after_db and many.settling_time_s.typical
+    numbers = [float(each) for each in re.findall(r"\d+\.\d|\d+", level)]
+    worst = max(many.level_db.worst, vibration.level_after_db)
+    assert numbers == pytest.approx([vibration.level_before_db, many.level_db.typical, worst, 109], abs=0.051)
+    assert float(settling.split()[2]) == pytest.approx(many.settling_time_s.typical, rel=0.05)
+    assert float(mass.split()[3]) == pytest.approx(sized.autobalancer.mass_g, rel=0.005)
+
+
+def test_the_worst_of_many_stands_beside_the_typical(sized: SizeResult) -> None:
+    lines = as_text([_table(sized, ShownSpread(100.0, 103.3), ShownSpread(0.25, 0.9))]).splitlines()
+    assert lines[0].split() == ["without", "with", "worst", "limit"]
+    assert "100.0 dB  103.3 dB  at most 109 dB" in lines[1] and "0.25 s    0.90 s  at most 1 s" in lines[2]
+
+
+def test_balls_that_do_not_balance_have_no_settling_time() -> None:
+    lines = once("size", "avtovaz-707-370", *STIFF).out.splitlines()
+    (settling,) = [line for line in lines if line.startswith("  settling time")]
+    assert settling.split()[2] == "none"
+
+
+def test_nothing_judged_is_no_pass(tmp_path: Path) -> None:
+    """A scene given outright, and one under load, have no limits to pass."""
+    file = tmp_path / "scene.toml"
+    file.write_text(SCENE, encoding="utf-8")
+    for arguments in ((str(file), "--duration", "20"), ("avtovaz-707-222", "--scene", "grinding")):
+        seen = once("simulate", *arguments)
+        assert seen.status == 0 and "PASS" not in seen.out and "no limits for this scene" in seen.out
+    assert "PASS" in once("simulate", "avtovaz-707-222").out.splitlines()[1]
+
+
+def test_amplitude_without_balls_is_told_to_be_off_the_work() -> None:
+    """It is of the imbalance alone; that of the wheel pressed, 41.5 µm by `abu grinding`, is another."""
+    seen = " ".join(once("simulate", "avtovaz-707-222", "--scene", "grinding").out.split())
+    assert "0.0402 mm without balls and off the work;" in seen and seen.count("without balls") == 1
+    assert "off the work" not in once("simulate", "avtovaz-707-222").out
+
+
+def test_settling_after_a_run_up_is_shown_as_it_is_judged() -> None:
+    seen = once("simulate", "msh-230", "--scene", "run-up", "--set", "run_up.time_s=1.5")
+    (line,) = [line for line in seen.out.splitlines() if "from full speed" in line]
+    assert seen.status == 0 and 0 < float(line.split()[4]) < 1 and "at most 1 s" in line
+
+
+# grades
+def graded(status: Grade, number: int = 1) -> Check:
+    remedy = None if status == "pass" else f"Remedy {number} of many, long enough to be broken into two lines or more."
+    return Check("ABU401", f"thing {number}", status, f"reason {number}", 1.0, 2.0, "dB", remedy)
+
+
+def test_grades_differ_without_color(sized: SizeResult) -> None:
+    """In the words of the verdict, of the reason and of the table."""
+    bare = replace(sized, warnings=())
+    verdicts, told, tables = [], [], []
+    for grade in GRADES:
+        lines = as_text(size_screen(replace(bare, checks=(graded(grade),)))).splitlines()
+        verdicts.append(lines[1].strip())
+        told.append([line.split(" ABU")[0].strip() for line in lines if "ABU401 thing" in line])
+        tables.append(as_text(check_blocks([graded(grade)])).splitlines()[2].split(" ABU")[0].strip())
+    assert verdicts == ["PASS", "PASS with 1 warning", "FAIL: 1 of 1 check failed", "NOT DONE: 1 of 1 check not done"]
+    assert told == [[], ["WARN"], ["FAIL"], ["NOT DONE"]] and tables == ["pass", "WARN", "FAIL", "NOT DONE"]
+
+
+def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None:
+    result = replace(sized, checks=(*sized.checks, graded("warn")), warnings=("One.",))
+    text = as_text(size_screen(result))
+    assert result.status == "pass" and "PASS with 2 warnings" in text
+    assert "WARN ABU401 thing 1 (1.000 dB, at most 2.000): reason 1. Remedy: Remedy 1 of many" in flat(text)
+
+
+# room
+def test_a_value_beyond_its_limit_is_not_shown_as_the_limit() -> None:
+    def told(value: float) -> str:
+        return "".join(as_text(reasons([Check("ABU401", "level", "fail", "told", value, 109.0, "dB")])))
+
+    assert "(109.03 dB, at most 109.00)" in told(109.0312)
+    assert "(112.0 dB, at most 109.0)" in told(112.04)
+    assert "(109.0 dB, at most 109.0)" in told(109.0)
+
+
+@pytest.mark.parametrize(("bad", "warned"), [(0, 0), (0, 60), (5, 7), (14, 0), (60, 60)])
+def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFitResult, bad: int, warned: int) -> None:
+    checks = tuple(graded(GRADES[1 + number % 3], number) for number in range(bad))
+    warnings = tuple(f"Warning {number} " + "of some words " * (number % 12) for number in range(warned))
+    for screen, result in ((size_screen, sized), (check_fit_screen, replace(seats, seats=seats.seats * 20))):
+        blocks = screen(replace(result, checks=checks, warnings=warnings))  # type: ignore[operator, arg-type]
+        text = as_text(blocks)
+        assert height(blocks) <= 48
+        for told, all_of, name in ((r"reason \d+\.", bad, "check"), (r"! Warning", warned, "warning")):
+            counted = re.search(rf"And (\d+) more {name}s?{' .ABU401.' if name == 'check' else ''}: --full", text)
+            assert len(re.findall(told, flat(text))) + int(counted[1] if counted else 0) == all_of
+            assert counted is None or int(counted[1]) > 0
+
+
+@pytest.mark.parametrize("room", range(1, 30))
+def test_tables_are_cut_to_the_room_there_is(room: int) -> None:
+    rows = tuple((str(number), "x") for number in range(12))
+    blocks: list[Block] = [
+        Paragraph("first"),
+        Heading("Table"),
+        Grid(("a", "b"), rows),
+        Heading("End"),
+        Paragraph("last"),
+    ]
+    shown = cut(blocks, room)
+    text = as_text(shown)
+    assert height(shown) <= room and not isinstance(shown[-1], Heading)
+    whole = room >= height(blocks)
+    assert ("--full" in text) is not whole
+    counted = re.search(r"And (\d+) more row", text)
+    if counted:
+        assert len(re.findall(r"x$", text, re.MULTILINE)) + int(counted[1]) == 12
+
+
+def test_files_and_full_have_the_whole_report(tmp_path: Path) -> None:
+    path = tmp_path / "report.txt"
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--full", "--output", str(path))
+    assert path.read_text(encoding="utf-8") == seen.out and "For the drawing" in seen.out
+    assert "--full" in once("check-fit", "mmg-3200k-knife-shaft").out
+
+
+def test_a_number_stays_with_its_unit() -> None:
+    for width in range(20, 60):
+        text = as_text([Paragraph("settled in 0.142 s, at 5800 rpm and 109 dB; 20 starts, 4.3 % of 5 kg")], width)
+        assert not re.search(r"\d\n +(s|rpm|dB|%|kg)\b", text) and flat(text).startswith(
+            "settled in 0.142 s, at 5800 rpm"
+        )
+
+
+def test_what_shortens_the_balls_way(sized: SizeResult) -> None:
+    """Each start at each drag, the slower of two sides; below the optimum decay is h₀/2J, J = 7/5."""
+    many = sized.ensemble
+    assert many is not None
+    times = {(one.start, round(one.drag_per_s, 6)): one.settling_time_s for one in many.settling_by_start}
+    assert {start for start, _ in times} == {"bunched", "behind", "spread", "standstill", "run-up in 1 s"}
+    assert {drag for _, drag in times} == {5.0, 15.0, 45.0} and len(times) == 15
+    assert max(time for time in times.values() if time is not None) == many.settling_time_s.worst
+    assert (sized.autobalancer.optimum_drag_per_s or 0) > 15
+    assert sized.autobalancer.slowest_decay_per_s == pytest.approx(15 / (2 * 7 / 5), rel=1e-9)

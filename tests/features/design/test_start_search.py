@@ -1,0 +1,145 @@
+"""Starts that nobody listed: they cover the race, they find what the listed ones miss, and each can be repeated."""
+
+import math
+import shlex
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+import abu_calc
+from abu_calc.features.design.start_search import (
+    PLACES,
+    SPREADS,
+    SearchResult,
+    designed,
+    exceeded,
+    neighbours,
+    search,
+    with_searched,
+)
+from abu_calc.foundation.checks import Check
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.simulation.ensemble_results import StartOutcome
+from abu_calc.simulation.scene_of_design import contact_half_angle
+from abu_calc.sizing import size
+from abu_calc.sizing.design import Design
+from tests.cli.runner import abu
+
+DESIGNED = 2 * PLACES + SPREADS + SPREADS // 3
+"""How many there are."""
+
+MACHINES = Path(__file__).parents[2] / "machines"
+
+
+def design(name: str) -> Design:
+    """Of a preset or a machine of the tests."""
+    file = MACHINES / f"{name}.toml"
+    return size(read_machine(str(file) if file.exists() else name).whole("size"))
+
+
+@pytest.mark.parametrize("name", ["avtovaz-707-222", "swing-arm-grinder", "late-run-up-hands"])
+def test_designed_starts_cover_the_race_without_overlap(name: str) -> None:
+    """Bunches all round, every other one in a run-up, the race off to both sides of each kind."""
+    found = design(name)
+    starts, half = list(designed(found)), contact_half_angle(found)
+    assert len(set(starts)) == len(starts) == DESIGNED
+    for start in starts:
+        angles = sorted(start.angles)
+        gaps = [b - a for a, b in pairwise([*angles, angles[0] + math.tau])]
+        assert min(gaps) > 2 * half * (1 - 1e-9)
+    middles = sorted(start.angles[0] for start in starts[: 2 * PLACES : 2])
+    assert max(b - a for a, b in pairwise(middles)) < math.tau / PLACES + 1e-9
+    for kind in (False, True):
+        assert len({start.eccentricity for start in starts if bool(start.run_up) is kind}) == 2
+
+
+def test_neighbours_are_near_and_other() -> None:
+    found = design("late-run-up-hands")
+    for start in designed(found):
+        near = list(neighbours(start))
+        assert start not in near and len(set(near)) == len(near) >= 4
+        assert all(other.drag == start.drag for other in near)
+
+
+def test_the_search_is_the_same_whatever_the_workers() -> None:
+    found = design("avtovaz-707-305")
+    alone, together = search(found, 0.01), search(found, 0.01, workers=3)
+    assert alone == together and len(alone.outcomes) >= DESIGNED
+
+
+@pytest.mark.parametrize("name", ["late-bunched-elsewhere", "late-run-up-hands"])
+def test_what_the_listed_starts_miss_warns_and_can_be_repeated(name: str) -> None:
+    """By the very options that the check prints, with the very time it says."""
+    file = str(MACHINES / f"{name}.toml")
+    (check,) = (check for check in abu_calc.size(abu_calc.read(file)).checks if check.code == "ABU702")
+    assert check.status == "warn" and check.remedy
+    time = float(check.message.rsplit("in ", 1)[1].removesuffix(" s"))
+    again = abu("simulate", file, *shlex.split(check.remedy.split("abu simulate FILE ")[1]), "--json").document
+    assert again["result"]["settling_time_s"] == pytest.approx(time, rel=0.02)
+
+
+def outcome(time: float, level: float = 90.0, imbalance: float = 1.0, slip: float = 0.0) -> StartOutcome:
+    """Of a start of the preset, allowed 2."""
+    member = next(designed(design("avtovaz-707-222")))
+    return StartOutcome(member, time, 0.0, level, slip, imbalance, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("code", "bad"),
+    [
+        ("ABU401", outcome(0.1, level=120.0)),
+        ("ABU701", outcome(0.1, imbalance=3.0)),
+        ("ABU702", outcome(1.1)),
+        ("ABU702", outcome(math.inf)),
+        ("ABU704", outcome(0.1, slip=0.5)),
+    ],
+)
+def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
+    """A pass becomes a warning; what failed or was not done stays, and what breaks nothing changes nothing."""
+    found, good = design("avtovaz-707-222"), outcome(0.1)
+    for status in ("pass", "warn", "fail", "not-done"):
+        check = Check(code, "", status, "as listed", 1.0, 2.0, "s", None)
+        assert with_searched(check, SearchResult((good,)), found) == check == with_searched(check, None, found)
+        told = with_searched(check, SearchResult((good, bad)), found)
+        if status in ("fail", "not-done"):
+            assert told == check
+        else:
+            assert told.status == "warn" and told.message.startswith("as listed; 1 of 2 further starts")
+            assert told.remedy and "--set start.angles_deg=[" in told.remedy
+    passed = Check(code, "", "pass", "as listed", 1.0, 2.0, "s", None)
+    assert with_searched(passed, SearchResult((good,), lost=1), found).status == "warn"
+    assert with_searched(passed, SearchResult((good,), lost=1, hurried=True), found).status == "not-done"
+    other = Check("ABU201", "", "pass", "capacity", 1.0, 2.0, "s", None)
+    assert with_searched(other, SearchResult((bad,)), found) == other
+
+
+def test_a_long_tail_of_settling_times_warns_before_one_is_too_late() -> None:
+    """Balls that linger leave as e^{λt}: of 40 times with that tail the rare ones are foreseen within 25 %."""
+    found, check = design("avtovaz-707-222"), Check("ABU702", "", "pass", "as listed", 0.2, 1.0, "s", None)
+    quiet = SearchResult(tuple(outcome(0.1 + 0.01 * k) for k in range(24)))
+    assert with_searched(check, quiet, found) == check
+    lingering = SearchResult(quiet.outcomes[:20], listed=tuple(outcome(time) for time in (0.5, 0.6, 0.7, 0.9)))
+    told = with_searched(check, lingering, found)
+    assert told.status == "warn" and "one of 1000 takes" in told.message and told.remedy
+    times = [0.1 - 0.2 * math.log(1 - (k + 0.5) / 40) for k in range(40)]
+    assert exceeded(times, 1e-3) == pytest.approx(0.1 + 0.2 * math.log(1000), rel=0.25)
+    assert exceeded([*times, math.inf], 1e-3) == math.inf and exceeded([], 1e-3) == 0.0
+
+
+def test_machines_that_were_undone_for_work_are_judged() -> None:
+    found = abu_calc.size(abu_calc.read(str(MACHINES / "not-evaluated-for-work.toml")))
+    assert not [check.code for check in found.checks if check.status in ("not-done", "fail")]
+
+
+def test_a_file_places_balls() -> None:
+    """As many as there are; `abu simulate` starts there, `abu size` from there, too."""
+    machine = abu_calc.read("avtovaz-707-222").changed({"start.angles_deg": [10.0, 100.0, 190.0, 280.0]})
+    assert "start.angles_deg" in abu_calc.simulate(machine).start
+    starts = [row.start for row in abu_calc.size(machine).ensemble.settling_by_start]  # type: ignore[union-attr]
+    assert "placed" in starts
+    wrong = abu_calc.read("avtovaz-707-222").changed({"start.angles_deg": [10.0, 100.0]})
+    with pytest.raises(abu_calc.InputError, match=r"2 angles.*4, as many as the design has balls"):
+        abu_calc.simulate(wrong)
+    with pytest.raises(abu_calc.InputError, match=r"no table \[start\]"):
+        abu_calc.simulate(abu_calc.read("avtovaz-707-222"), start="placed")

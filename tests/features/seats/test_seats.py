@@ -1,0 +1,244 @@
+"""The worked example, judged; what is not known; what is recommended."""
+
+import itertools
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from abu_calc.features.seats.seats import seat_bearing
+from abu_calc.foundation.checks import overall
+from abu_calc.foundation.errors import InputError, RangeError
+from abu_calc.standards.tolerance_classes import tolerance_classes
+from tests.features.seats.samples import by_designation, seats, table
+
+SHAFTS, HOUSINGS = tolerance_classes("shaft"), tolerance_classes("housing")
+
+
+def um(metres: float) -> float:
+    return round(1e6 * metres, 6)
+
+
+def span(interval) -> list[float]:
+    return [um(interval.smallest), um(interval.largest)]
+
+
+def check(fit, number: int):
+    return fit.checks[number]
+
+
+@pytest.mark.parametrize(
+    ("fit", "interference", "status"),
+    [
+        ("j6", [-7, 27], "warn"),
+        ("h6", [-19, 15], "fail"),
+        ("k6", [2, 36], "warn"),
+        ("m6", [11, 45], "pass"),
+        ("n6", [20, 54], "pass"),
+    ],
+)
+def test_shaft_of_the_example(fit, interference, status):
+    shaft = seats(shaft_fit=fit).shaft
+    assert span(shaft.interference) == interference
+    assert [um(shaft.ring_limits.lower), um(shaft.ring_limits.upper)] == [-15, 0]
+    assert check(shaft, 0).status == status
+    assert check(shaft, 0).code == "ABU601"
+    assert shaft.recommended_fit == "m6"
+
+
+def test_both_criteria_are_named_and_the_larger_counts():
+    shaft = seats().shaft
+    assert um(shaft.required_interference) == pytest.approx(6.8224, abs=1e-4)  # 0.08·√(80·3000/33)
+    assert "F_r/B" in shaft.required_by
+    assert "3.77 µm by 13·F_r·k_B/b_s (Afanasiev 2015), 6.82 µm by" in shaft.notes[0]
+    assert (check(shaft, 0).value, check(shaft, 0).limit) == (2.0, pytest.approx(6.8224, abs=1e-4))
+    assert check(shaft, 0).remedy == "m6 passes."
+
+
+def test_the_source_governs_where_its_interference_is_larger():
+    shaft = seats(radial_load_kN=20.0, shaft_fit="p6").shaft
+    assert 1e6 * shaft.required_interference == pytest.approx(13 * 20 * 2.8 / 29, rel=1e-9)
+    assert "Afanasiev" in shaft.required_by
+
+
+@pytest.mark.parametrize(
+    ("fit", "interference", "probability"),
+    [("K7", [-30, 28], 0.554), ("M7", [-18, 40], 0.066), ("H7", [-58, 0], 0.99996)],
+)
+def test_housing_of_the_example(fit, interference, probability):
+    """The probabilities are published to three digits, the last to five."""
+    housing = seats(housing_fit=fit).housing
+    assert span(housing.interference) == interference
+    assert housing.clearance_probability == pytest.approx(probability, abs=5e-4 if probability < 0.9 else 5e-6)
+    assert check(housing, 0).status == "pass"
+    assert check(housing, 1).status == "pass"
+
+
+def test_a_tight_fit_of_a_stationary_ring_is_called_conservative():
+    housing = seats(housing_fit="M7").housing
+    assert "conservative" in check(housing, 0).message
+    assert housing.recommended_fit == "H7"
+    assert "conservative" not in check(seats(housing_fit="K7").housing, 0).message
+    assert [seats(housing_fit=name).housing.recommended_fit for name in ("K7", "H6", "J7", "G7")] == [
+        "H7", "H6", "J7", "H7",
+    ]  # fmt: skip
+
+
+def test_stress_of_the_example():
+    """Published 98 MPa at 45 µm, printed without decimals; 184.6 µm for 400 MPa with d/d₁ = 0.826."""
+    shaft = seats(shaft_fit="m6").shaft
+    assert shaft.hoop_stress == pytest.approx(98e6, abs=0.7e6)
+    assert um(400e6 / shaft.hoop_stress * shaft.interference.largest) == pytest.approx(184.6, abs=0.1)
+    assert (um(shaft.permitted_interference), shaft.permitted_by[:6]) == (80, "d/1000")
+
+
+def test_two_bearings_of_12_kn():
+    """R = 6 kN each: N'min 7.53 µm, which m6 with 11 µm still passes."""
+    shaft = seats(radial_load_kN=6.0, shaft_fit="m6").shaft
+    assert "7.53 µm by 13·F_r·k_B/b_s" in shaft.notes[0]
+    assert um(shaft.required_interference) == pytest.approx(9.6483, abs=1e-4)  # 0.08·√(80·6000/33)
+    assert check(shaft, 0).status == "pass"
+
+
+def test_load_intensity_of_the_example():
+    shaft, housing = seats().seats
+    assert 1e-3 * shaft.load_intensity == pytest.approx(186.2, abs=0.05)
+    assert "advise js6 (unverified advice)" in shaft.notes[2]
+    assert "advise K7 (unverified advice)" in housing.notes[1]
+
+
+def test_a_designation_brings_its_sizes_and_type():
+    found = seat_bearing(by_designation("7516"))
+    assert found.bearing.type == "tapered"
+    assert span(found.housing.interference) == [-32, 28]  # the ring of a tapered bearing is 0/−20
+    assert found.shaft.load_intensity == pytest.approx(1.8 * 3000 / 0.028)
+    given = seat_bearing(by_designation("7516", chamfer_mm=2.0))
+    assert given.shaft.load_intensity == pytest.approx(1.8 * 3000 / 0.029)
+    assert given.housing.load_intensity == pytest.approx(1.8 * 3000 / 0.024)  # the cup is 28 mm wide
+
+
+def test_losses_count_only_where_given():
+    plain = seats(shaft_fit="m6")
+    rough = seats(shaft_fit="m6", shaft_rz_um=4.0, housing_rz_um=6.3)
+    assert um(rough.shaft.required_interference - plain.shaft.required_interference) == pytest.approx(1.6)
+    assert um(rough.housing.required_interference - plain.housing.required_interference) == pytest.approx(2.52)
+    hot = seats(shaft_fit="m6", ring_temperature_difference_K=10.0, speed_rpm=3000.0)
+    assert [loss.name for loss in hot.shaft.losses] == ["temperature", "centrifugal growth"]
+    assert hot.shaft.losses[0].value == pytest.approx(9.6e-6)
+    assert hot.housing.losses == ()
+    assert check(hot.shaft, 0).status == "warn"
+    assert "temperature 9.6 µm" in check(hot.shaft, 0).message
+
+
+@pytest.mark.parametrize(("missing", "said"), [("radial_load_kN", "no radial load"), ("chamfer_mm", "no chamfer")])
+def test_what_is_not_known_is_not_done(missing, said):
+    found = seats(**{missing: None, "width_mm": 33.5})  # no tabulated bearing has these sizes
+    shaft = found.shaft
+    assert (shaft.required_interference, shaft.required_by) == (None, None)
+    assert shaft.recommended_fit == "k5" and "is not known: k5 is SKF" in " ".join(shaft.notes)
+    assert shaft.load_intensity is None
+    assert check(shaft, 0).status == "not-done"
+    assert said in check(shaft, 0).message
+    assert missing in check(shaft, 0).remedy
+    assert span(shaft.interference) == [2, 36]
+    assert overall(found.checks) == "not-done"
+
+
+def test_a_rotating_outer_ring_must_grip():
+    housing = seats(housing_fit="M7", outer_ring_load="rotating").housing
+    assert check(housing, 0).status == "warn"
+    assert check(housing, 0).limit == pytest.approx(9.0252, abs=1e-4)  # 0.08·√(140·3000/33)
+    assert housing.recommended_fit == "P7"
+    assert seats(outer_ring_load="indeterminate").housing.checks[0].status == "fail"
+
+
+def test_a_stationary_inner_ring_need_not():
+    shaft = seats(shaft_fit="g6", inner_ring_load="stationary").shaft
+    assert check(shaft, 0).status == "pass"
+    assert shaft.recommended_fit == "g6"
+    assert seats(shaft_fit="k6", inner_ring_load="stationary").shaft.recommended_fit == "h6"
+
+
+def test_too_tight_a_seat_fails():
+    fit = by_designation("6000", shaft_fit="r6", radial_load_kN=0.1)
+    shaft = seat_bearing(fit).shaft
+    assert (um(shaft.interference.largest), um(shaft.permitted_interference)) == (36, 10)
+    assert (check(shaft, 1).code, check(shaft, 1).status) == ("ABU602", "fail")
+    assert "400 MPa of the ring (Lamé)" in check(shaft, 1).message
+
+
+def test_no_class_is_recommended_when_none_will_do():
+    shaft = seats(radial_load_kN=500.0).shaft
+    assert shaft.recommended_fit is None
+    assert "No tabulated class" in check(shaft, 0).remedy
+
+
+def test_a_grade_without_a_passing_class_gives_way_to_the_usual_one():
+    assert seats(shaft_fit="h7").shaft.recommended_fit == "m6"
+
+
+@settings(derandomize=True, deadline=None, max_examples=60)
+@given(
+    size=st.sampled_from(["608", "6203", "6000", "6310", "6216", "30206", "32216"]),
+    shaft=st.sampled_from(SHAFTS),
+    housing=st.sampled_from(HOUSINGS),
+    load=st.floats(0.0, 5.0),
+    inner=st.sampled_from(["rotating", "stationary", "indeterminate"]),
+    outer=st.sampled_from(["rotating", "stationary", "indeterminate"]),
+)
+def test_the_recommended_fit_passes_its_own_checks(size, shaft, housing, load, inner, outer):
+    given = {"radial_load_kN": load, "inner_ring_load": inner, "outer_ring_load": outer}
+    found = seat_bearing(by_designation(size, shaft_fit=shaft, housing_fit=housing, **given))
+    for fit, key in ((found.shaft, "shaft_fit"), (found.housing, "housing_fit")):
+        assume(fit.recommended_fit is not None)
+        classes = {"shaft_fit": shaft, "housing_fit": housing, key: fit.recommended_fit}
+        again = seat_bearing(by_designation(size, **classes, **given))
+        judged = again.shaft if key == "shaft_fit" else again.housing
+        assert overall(judged.checks) == "pass"
+        assert judged.recommended_fit == fit.recommended_fit
+
+
+@settings(derandomize=True, deadline=None, max_examples=25)
+@given(bore=st.floats(10.5, 300.0), field=st.sampled_from(["shaft 5", "shaft 6", "housing 6", "housing 7"]))
+def test_a_tighter_field_never_lowers_the_interference(bore, field):
+    seat, grade = field.split()
+    letters = ["g", "h", "js", "k", "m", "n", "p"]
+    names = [(letter if seat == "shaft" else letter.upper()) + grade for letter in letters]
+    sizes = {"bore_mm": bore, "outer_mm": bore + 50.0, "width_mm": 20.0}
+    found = [getattr(seats(**{f"{seat}_fit": name}, **sizes), seat) for name in names]
+    for looser, tighter in itertools.pairwise(found):
+        assert looser.interference.smallest <= tighter.interference.smallest
+        assert looser.interference.largest <= tighter.interference.largest
+        assert looser.clearance_probability >= tighter.clearance_probability
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"shaft_fit": "x6"}, "tolerance class of a shaft"),
+        ({"housing_fit": "k6"}, "tolerance class of a housing"),
+        ({"bearing_class": "7"}, "accuracy class"),
+        ({"designation": "6216", "width_mm": 33.0}, "width_mm contradicts"),
+        ({"bore_mm": None}, "size of the bearing"),
+        ({"outer_mm": 70.0}, "outside diameter must be above bearing bore"),
+        ({"chamfer_mm": 16.5}, "above two chamfers"),
+        ({"chamfer_mm": -1.0}, "above two chamfers"),
+        ({"shaft_bore_mm": 80.0}, "above shaft bore"),
+        ({"housing_outer_mm": 130.0}, "housing diameter must be above"),
+        ({"housing_outer_mm": 200.0, "housing_material": "wood"}, "unknown material"),
+    ],
+)
+def test_wrong_inputs_are_refused(changes, said):
+    with pytest.raises(InputError, match=said):
+        seat_bearing(table(**changes))
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("radial_load_kN", -1.0), ("radial_load_kN", float("nan")), ("shaft_rz_um", float("inf")),
+     ("ring_temperature_difference_K", -501.0), ("speed_rpm", float("nan")), ("bore_mm", float("nan")),
+     ("bore_mm", 2.0), ("width_mm", 0.0), ("width_mm", float("inf"))],
+)  # fmt: skip
+def test_values_out_of_range_are_refused(key, value):
+    with pytest.raises(RangeError):
+        seats(**{key: value})

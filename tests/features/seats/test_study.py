@@ -1,0 +1,49 @@
+"""The study of bearing seats, as Python scripts call it."""
+
+import dataclasses
+
+import pytest
+
+from abu_calc.features.seats.study import check_fit
+from abu_calc.foundation.errors import InputError
+from abu_calc.inputs.read_machine import read_machine
+from tests.cli.runner import abu
+
+PRESET = "mmg-3200k-knife-shaft"
+
+
+def test_the_study_answers_what_the_command_prints():
+    result, document = check_fit(read_machine(PRESET)), abu("check-fit", PRESET, "--json").document
+    assert result.to_dict() == document["result"]
+    assert [dataclasses.asdict(check) for check in result.checks] == document["checks"]
+    assert result.status == document["status"] and list(result.warnings) == document["warnings"]
+    assert result.provenance.input == document["input"]
+    assert [seat.seat for seat in result.seats] == ["shaft", "housing"] * 3
+
+
+def test_a_changed_machine_is_judged_anew():
+    machine = read_machine(PRESET)
+    before = check_fit(machine)
+    after = check_fit(machine.changed({"bearing[0].shaft_fit": "m6"}))
+    creep = [next(check.status for check in one.checks if check.code == "ABU601") for one in (before, after)]
+    assert creep == ["warn", "pass"]
+    assert before.seats[0].recommended_fit == "m6" == after.seats[0].fit
+    assert after.provenance.overrides == (("bearing[0].shaft_fit", "m6"),)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        after.seats[0].fit = "k6"  # type: ignore[misc]
+
+
+def test_only_defaults_of_the_bearings_are_told(tmp_path):
+    file = tmp_path / "seats.toml"
+    file.write_text("[machine]\nname = 'm'\n[[bearing]]\ndesignation = '6203'\n", encoding="utf-8")
+    machine = read_machine(str(file))
+    assert ("limits.settling_time_s", 1.0) in machine.defaults_used
+    keys = [key for key, _ in check_fit(machine).provenance.defaults]
+    assert "bearing[0].inner_ring_load" in keys and all(key.startswith("bearing[") for key in keys)
+
+
+def test_a_machine_without_bearings_is_refused():
+    with pytest.raises(InputError, match="no bearings") as raised:
+        check_fit(read_machine("avtovaz-707-222"))
+    assert raised.value.place.file == "avtovaz-707-222" and raised.value.place.key == "bearing"
+    assert raised.value.remedy == "Add a table [[bearing]]."

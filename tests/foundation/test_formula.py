@@ -1,0 +1,123 @@
+"""Formulas and check codes are data: registered, shown, checked as they say, whatever Python does to docstrings."""
+
+import importlib
+import inspect
+import os
+import pkgutil
+import re
+import subprocess
+import sys
+from operator import attrgetter
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import abu_calc
+from abu_calc.features.explain.steps import STEPS
+from abu_calc.features.seats.joint import PERMITTED_RING_STRESS
+from abu_calc.formulas.motion import SETTLED
+from abu_calc.foundation.checks import CHECK_CODES
+from abu_calc.foundation.formula import REGISTERED, Formula, formula_of
+from abu_calc.foundation.validity import Range
+from tests.cli.runner import abu
+
+PACKAGE = Path(abu_calc.__file__).parent
+ROOMS = ("standards", "formulas", "fits", "sizing")
+KEYS = [key for step in STEPS.values() for key in step.keys]
+FORMULAS = [formula_of(key) for key in KEYS]
+
+
+def _computing() -> dict[str, Any]:
+    """What computes each formula that is registered anywhere, by key; those of heavy rooms are data alone."""
+    for room in ROOMS:
+        for path in (PACKAGE / room).glob("*.py"):
+            importlib.import_module(f"abu_calc.{room}.{path.stem}")
+    found = {}
+    for key in REGISTERED:
+        module, _, name = key.partition(":")
+        if module != "formulas.motion":
+            found[key] = attrgetter(name)(importlib.import_module(f"abu_calc.{module}"))
+    return found
+
+
+COMPUTING = _computing()
+
+
+def test_every_registered_formula_is_shown_by_a_step() -> None:
+    assert len(COMPUTING) > 60
+    assert COMPUTING.keys() <= set(KEYS)
+    assert len(KEYS) == len(set(KEYS))
+
+
+@pytest.mark.parametrize("one", FORMULAS, ids=lambda one: one.key)
+def test_a_formula_says_what_it_gives_and_is_helped_with(one: Formula) -> None:
+    assert one.gives
+    assert not one.gives.endswith(".")
+    assert "\n    " in one.where or not re.search(r"\s\s", one.where)
+    if one.key in COMPUTING:
+        assert inspect.getdoc(COMPUTING[one.key]).startswith(one.paragraphs[0])
+
+
+@pytest.mark.parametrize("one", [one for one in FORMULAS if one.key in COMPUTING], ids=lambda one: one.key)
+def test_ranges_said_to_be_checked_are_checked(one: Formula) -> None:
+    """The module of the formula refuses what is outside each of its ranges, by the very object that is shown."""
+    module = inspect.getmodule(COMPUTING[one.key])
+    for limits in one.checked:
+        if isinstance(limits, Range):
+            (name,) = [name for name, value in vars(module).items() if value is limits]
+            assert f"{name}.check(" in inspect.getsource(module)
+
+
+def test_formulas_are_there_without_docstrings() -> None:
+    done = subprocess.run(
+        [sys.executable, "-OO", "-m", "abu_calc", "explain", "capacity"],
+        cwd=PACKAGE.parent, env=os.environ | {"PYTHONIOENCODING": "utf-8"},
+        capture_output=True, text=True, encoding="utf-8", check=True,
+    )  # fmt: skip
+    assert "√{[(1−ω_x²/Ω²)²" in done.stdout
+    assert done.stdout.split() == abu("explain", "capacity").out.split()
+
+
+def _used_codes() -> dict[str, set[str]]:
+    """Every code in the source, with the names given beside it."""
+    found: dict[str, set[str]] = {}
+    for info in pkgutil.walk_packages([str(PACKAGE)], "abu_calc."):
+        path = PACKAGE.parent / (info.name.replace(".", "/") + ".py")
+        if path.exists() and path.stem != "check_codes":
+            text = path.read_text(encoding="utf-8")
+            for code in re.findall(r'"(ABU\d+)"', text):
+                found.setdefault(code, set()).update(re.findall(rf'"{code}",\s+"([a-z][^"]*)"', text))
+    return found
+
+
+def test_every_code_has_an_entry_and_its_name_agrees() -> None:
+    used = _used_codes()
+    assert used.keys() == CHECK_CODES.keys()
+    for code, names in used.items():
+        assert names - {"not-done", "fail", "pass", "warn"} <= {CHECK_CODES[code].name}
+    assert len({one.name for one in CHECK_CODES.values()}) == len(CHECK_CODES)
+
+
+@pytest.mark.parametrize("code", CHECK_CODES)
+def test_a_code_is_explained(code: str) -> None:
+    one = CHECK_CODES[code]
+    assert not one.step or one.step in STEPS
+    shown = abu("explain", code.lower())
+    assert shown.status == 0
+    for part in (one.name, one.asks, one.fails, one.remedy, *(formula_of(key).for_users[0] for key in one.formulas)):
+        assert " ".join(part.split()) in " ".join(shown.out.split())
+
+
+def test_codes_are_listed_and_given_as_data() -> None:
+    listed = abu("explain", "--json").document["result"]
+    assert listed["checks"]["ABU203"] == "mass of the autobalancer"
+    told = abu("explain", "ABU203", "--json").document["result"]
+    assert (told["check"], told["step"]) == ("ABU203", "balls")
+    assert "did you mean" in abu("explain", "ABU2O3").err.lower()
+
+
+def test_limits_in_the_words_of_check_codes_are_those_of_the_code() -> None:
+    """Codes stand below everything, so their sentences cannot ask for the constants."""
+    assert all(f"{PERMITTED_RING_STRESS / 1e6:g} MPa" in CHECK_CODES[code].fails for code in ("ABU602", "ABU612"))
+    assert SETTLED == 0.1 and "a tenth of the imbalance" in CHECK_CODES["ABU701"].fails

@@ -1,0 +1,39 @@
+"""Descriptions of keys are made of their fields: bounds and defaults stand once."""
+
+import importlib
+from collections.abc import Iterator
+
+from abu_calc.foundation.validity import bounded
+from abu_calc.inputs.reading.table import Table
+
+UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt")}
+"""Bounds that another key draws closer."""
+
+
+def _tables(above: type[Table] = Table) -> Iterator[type[Table]]:
+    for name in ("machine", "scene", "readings"):
+        importlib.import_module(f"abu_calc.inputs.{name}")
+    for table in above.__subclasses__():
+        if table.__module__.startswith("abu_calc."):
+            yield table
+            yield from _tables(table)
+
+
+def test_every_number_says_the_bounds_and_the_default_that_hold() -> None:
+    seen = 0
+    for table in _tables():
+        for key, field in table.model_fields.items():
+            text = field.description or ""
+            assert "{" not in text
+            bounds = {name: value for one in field.metadata for name, value in vars_of(one)}
+            for name, value in bounds.items():
+                assert bounded(value) in text or (table.__name__, key, name) in UNSAID, (table, key, text)
+            if bounds and field.default is not None and not field.is_required():
+                assert f"Default: {bounded(field.default)}" in text, (table, key, text)
+            seen += bool(bounds)
+    assert seen > 80
+
+
+def vars_of(limit: object) -> list[tuple[str, float]]:
+    """Bounds of a number that a constraint sets."""
+    return [(name, getattr(limit, name)) for name in ("ge", "gt", "le") if getattr(limit, name, None) is not None]

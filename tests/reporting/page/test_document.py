@@ -1,0 +1,237 @@
+"""The HTML page: one file, well formed, the same numbers as the JSON document, nothing in names that acts."""
+
+import json
+import math
+import re
+import shlex
+from collections.abc import Iterator
+from itertools import chain, pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot
+from abu_calc.reporting.page.chart_svg import bars, plot
+from tests.cli.runner import abu, once
+from tests.reporting.page.pages import ALSO, COMMANDS, PAGES
+from tests.reporting.page.reader import read
+
+MOVING = ("motion", "settling", "level", "run-up", "orbit")
+"""Figures of motions begin so."""
+NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w])")
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_page_is_well_formed_and_asks_no_network(name: str, written: Any) -> None:
+    text, document, _ = written(name)
+    page = read(text)
+    assert page.faults == []
+    assert not re.search(r"https?:|//\w", re.sub(r"<script>.*?</script>", "", text, flags=re.DOTALL))
+    assert not any(key in ("src", "srcset", "background") for _, attributes in page.tags for key in attributes)
+    ids = [attributes["id"] for _, attributes in page.tags if "id" in attributes]
+    links = [attributes["href"] for tag, attributes in page.tags if tag == "a"]
+    assert len(ids) == len(set(ids))
+    assert {str(link).removeprefix("#") for link in links} <= set(ids)
+    assert len(text.encode()) < 2_000_000
+    title = next(words for tag, words in page.texts if tag == "title")
+    assert title.startswith({"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}[document["status"]])
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_each_number_in_tables_is_one_of_the_document(name: str, written: Any) -> None:
+    text, document, _ = written(name)
+    cells = read(text).cells
+    found = [token for cell in cells for token in NUMBER.findall(cell)]
+    assert len(found) > 10 or _nothing_measured(document)
+    assert _unknown(found, name, document) == []
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_each_number_that_a_figure_tells_is_one_of_the_document(name: str, written: Any) -> None:
+    """But of motions: their samples are in no document."""
+    text, document, _ = written(name)
+    told = re.findall(r'<desc id="chart-([\w-]+)-d">(.*?)</desc>', text)
+    assert told or name == "compare-seats" or _nothing_measured(document)
+    found = [token for which, words in told if not which.startswith(MOVING) for token in NUMBER.findall(words)]
+    assert _unknown(found, name, document, rounded=True) == []
+
+
+def _nothing_measured(document: dict[str, Any]) -> bool:
+    """What a busy computer measures within a budget may be nothing."""
+    return document["abu"]["command"] == "accuracy" and not document["result"]["points"]
+
+
+def _unknown(found: list[str], name: str, document: dict[str, Any], *, rounded: bool = False) -> list[str]:
+    """Those that are neither a number of the document nor stand in its words."""
+    held = [
+        one
+        for each in (document, *(once(*of, "--json").document for of in ALSO.get(name, ())))
+        for one in _leaves(each)
+    ]
+    numbers = [float(one) for one in held if isinstance(one, (int, float)) and not isinstance(one, bool)]
+    # Of a complex number tables have the angle, the document its parts.
+    numbers += [math.degrees(math.atan2(after, before)) for before, after in pairwise(numbers)]
+    words = " ".join(one for one in held if isinstance(one, str))
+    return [one for one in found if not _known(one, numbers, rounded=rounded) and one not in words]
+
+
+def _known(token: str, numbers: list[float], *, rounded: bool) -> bool:
+    """Whether a number of the document, as it is or in hundredths, is this one to the digits shown.
+
+    `rounded`: to three digits, as figures have it, where it is larger.
+    """
+    value, digits = float(token), len(token.partition("e")[0].partition(".")[2])
+    room = max(0.5 * 10.0**-digits, (5e-3 if rounded else 0.5e-3) * abs(value) if not digits else 0) * 1.000001
+    if "e" in token:
+        room *= 10.0 ** int(token.partition("e")[2])
+    parts = 1.0, 100.0, 1000.0, 1e6
+    return any(abs(abs(one) * part - abs(value)) <= room for one in numbers for part in parts)
+
+
+def _leaves(value: Any) -> Iterator[Any]:
+    if isinstance(value, dict):
+        yield from chain.from_iterable(map(_leaves, value.values()))
+    elif isinstance(value, list):
+        yield len(value)
+        yield from chain.from_iterable(map(_leaves, value))
+    else:
+        yield value
+
+
+def test_size_has_its_figures_with_captions_and_alternatives(written: Any) -> None:
+    text, document, _ = written("size")
+    page = read(text)
+    starts = next(attributes for _, attributes in page.tags if attributes.get("id") == "motion-start")
+    assert starts["aria-label"] == "Start"
+    assert "worst: " in text and "typical: " in text
+    figures = [attributes for tag, attributes in page.tags if tag == "svg"]
+    assert len(figures) >= 6
+    ids = {attributes["id"]: tag for tag, attributes in page.tags if "id" in attributes}
+    for one in figures:
+        assert one["role"] == "img"
+        assert [ids[name] for name in str(one["aria-labelledby"]).split()] == ["title", "desc"]
+    captions = sum(tag == "figcaption" for tag, _ in page.tags)
+    assert captions == sum(tag == "figure" for tag, _ in page.tags) >= len(figures)
+    told = " ".join(words for tag, words in page.texts if tag in ("desc", "text"))
+    for line in document["result"]["drawing"]:
+        assert line["cost_db"] is None or f"{line['cost_db']:.1f} dB" in told
+    assert f"{document['result']['measured_after']['measured_level_db']:.1f} dB" in told
+
+
+def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
+    text, document, _ = written("size")
+    words = " ".join(data for _, data in read(text).texts)
+    assert "Calculation note" in words
+    assert "Range:" in words
+    assert "Source:" in words
+    assert document["input"]["sha256"] in words
+    assert "autobalancer.capacity_margin = 1.3" in words
+
+
+@pytest.mark.parametrize("name", ["size", "simulate", "stability", "check-fit"])
+def test_command_on_the_page_gives_the_same_result(name: str, written: Any) -> None:
+    text, document, _ = written(name)
+    command = next(words for tag, words in read(text).texts if tag == "pre" and words.startswith("abu "))
+    again = shlex.split(command)
+    assert again == ["abu", *COMMANDS[name]]
+    if name == "check-fit":
+        assert abu(*again[1:], "--json").document["result"] == document["result"]
+
+
+HOSTILE = "</title></pre><script>alert(1)</script>&\"'<b>\x1b[31m\u202e"
+
+
+def test_nothing_in_a_name_acts(tmp_path: Path) -> None:
+    target = tmp_path / "fit.html"
+    seen = abu("check-fit", "mmg-3200k-knife-shaft", "--set", f"machine.name={json.dumps(HOSTILE)}", "-o", str(target))
+    assert seen.status == 0, seen.err
+    text = target.read_text(encoding="utf-8")
+    page = read(text)
+    assert page.faults == []
+    assert "alert(1)" in text
+    assert not {tag for tag, _ in page.tags} & {"script", "b"}
+    assert not set("\x1b\u202e") & set(text)
+
+
+def test_options_of_a_command_stand_on_its_page(tmp_path: Path) -> None:
+    target = tmp_path / "my page.html"
+    asked = ("stability", "avtovaz-707-222", "--speeds", "1000:6000", "--crossings")
+    assert abu(*asked, "-o", str(target), "--quiet", "--no-color").status in (0, 1)
+    command = next(words for tag, words in read(target.read_text("utf-8")).texts if tag == "pre")
+    assert shlex.split(command) == ["abu", *asked]
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.0, 23.2), (98.0, 111.0), (-3e-7, 5e-7), (1.0, 1e6), (0.0, 1.0)])
+def test_ticks_are_round_within_the_axis_and_evenly_spaced(low: float, high: float) -> None:
+    ticks = Axis("x [mm]", low, high).ticks
+    steps = {round((after - before) / (high - low), 9) for before, after in pairwise(ticks)}
+    assert 3 <= len(ticks) <= 12
+    assert len(steps) == 1
+    assert low - 1e-9 * (high - low) <= ticks[0] <= ticks[-1] <= high * (1 + 1e-9)
+
+
+def test_points_and_limits_stand_where_the_ticks_say() -> None:
+    axes = Axis("speed [rpm]", 0, 100), Axis("level [dB]", 0, 50)
+    page = read(plot("a", Plot("A", "told", *axes, (), [MarkedPoint(40, 20)], (20.0, "limit 20 dB"))))
+    circle = next(attributes for tag, attributes in page.tags if tag == "circle")
+    ticks = [attributes for tag, attributes in page.tags if tag == "text"]
+    words = [words for tag, words in page.texts if tag == "text"]
+    at = dict(reversed(list(zip(words, ticks, strict=True))))
+    up = dict(zip(words, ticks, strict=True))
+    assert float(str(circle["cx"])) == pytest.approx(float(str(at["40"]["x"])), abs=0.1)
+    assert f"M52.0 {circle['cy']}" in next(str(a["d"]) for tag, a in page.tags if a.get("class") == "limit")
+    assert float(str(up["20"]["y"])) - 4 == pytest.approx(float(str(circle["cy"])), abs=0.1)
+
+
+def test_several_lines_have_a_legend_that_stays_inside_the_chart() -> None:
+    names = ["idle", "loaded", "loaded, another place", "with a name that takes most of the width of a chart"]
+    lines = [Curve([(0, k), (1, k + 1)], name, k) for k, name in enumerate(names, 1)] + [
+        Curve([(0, 0), (1, 1)], "idle", 1)
+    ]
+    axes = Axis("time [s]", 0, 1), Axis("level [dB]", 0, 5)
+    page = read(plot("a", Plot("A", "told", *axes, lines)))
+    high = float(str(page.tags[0][1]["viewbox"]).split()[-1])
+    places = [attributes for tag, attributes in page.tags if tag == "text"]
+    words = [words for tag, words in page.texts if tag == "text"]
+    assert [word for word in words if word in names] == names
+    at = [(float(str(a["x"])), float(str(a["y"])), w) for a, w in zip(places, words, strict=True) if w in names]
+    assert all(x + 5.5 * len(name) < 420 and y < high for x, y, name in at)
+    for one, after in pairwise(at):
+        assert after[1] > one[1] or after[0] > one[0] + 5.5 * len(one[2]) + 20
+    alone = read(plot("a", Plot("A", "told", *axes, lines[:1])))
+    assert "idle" not in [words for tag, words in alone.texts if tag == "text"]
+
+
+def test_lengths_of_bars_are_as_their_values() -> None:
+    rows = [Bar("a", 1.0, "1"), Bar("b", 3.0, "3"), Bar("c", -1.0, "-1")]
+    page = read(bars("a", Bars("A", "told", Axis("x [dB]", -1.0, 3.0), rows)))
+    wide = [(float(str(a["x"])), float(str(a["width"]))) for tag, a in page.tags if tag == "rect"]
+    assert wide[1][1] == pytest.approx(3 * wide[0][1], abs=0.3)
+    assert wide[2][0] + wide[2][1] == pytest.approx(wide[0][0], abs=0.2)
+
+
+def _luminance(colour: str) -> float:
+    def part(value: float) -> float:
+        return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+    digits = colour if len(colour) == 6 else "".join(2 * one for one in colour)
+    red, green, blue = (part(int(digits[k : k + 2], 16) / 255) for k in (0, 2, 4))
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def test_colours_have_the_contrast_that_wcag_asks_for() -> None:
+    """4.5 for text, 3 for what figures draw (WCAG 2.2, 1.4.3 and 1.4.11), in every theme."""
+    css = (Path(__file__).parents[3] / "abu_calc/report/page/page.css").read_text("utf-8")
+    themes = [
+        dict(re.findall(r"--([\w]+): #([0-9a-f]{3,6})\b", block))
+        for block in re.findall(r":root \{(.*?)\}", css, re.DOTALL)
+    ]
+    assert len(themes) == 3
+    for theme in themes:
+        colours = themes[0] | theme
+        for name, wanted in {"ink": 7, "soft": 4.5, "link": 4.5, "pass": 4.5, "warn": 4.5, "fail": 4.5, "undone": 4.5,
+                             "c1": 3, "c2": 3, "c3": 3, "c4": 3}.items():  # fmt: skip
+            for ground in ("paper", "shade"):
+                light, dark = sorted((_luminance(colours[name]), _luminance(colours[ground])), reverse=True)
+                assert (light + 0.05) / (dark + 0.05) >= wanted, (name, ground, colours[name])

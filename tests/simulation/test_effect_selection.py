@@ -1,0 +1,172 @@
+"""Which effects are simulated, and whether what is left out changes as little as it promises."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
+from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.scene import Race, Scene
+from abu_calc.dynamics.supports.planar import planar
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.simulation.effect_selection import SHARE, audit, chosen
+from abu_calc.simulation.nonconvergence import amplitude, angles, difference, settling
+from abu_calc.simulation.simulate import simulate
+from abu_calc.simulation.subject import subject_of
+
+VERY_UNLIKE = ("avtovaz-707-222", "swing-arm-grinder")
+OTHERS = ("avtovaz-707-305", "avtovaz-707-370", "msh-230")
+"""Hand grinders too."""
+
+
+@dataclass(frozen=True)
+class Weighed(Effect):
+    """An effect that does nothing, of a weight that is given."""
+
+    named: str
+    known: float | None
+
+    kind: ClassVar[Kind] = "conservative"
+
+    @property
+    def name(self) -> str:  # type: ignore[override]
+        return self.named
+
+    def weight(self, scene: Scene) -> EffectInfluence:
+        return EffectInfluence(self.known, "by decree")
+
+
+def scene(*effects: Effect, speed: float = 300.0) -> Scene:
+    """Two balls on a machine of some kilograms, far above its suspension, that settles well within the run."""
+    race = Race(0.025, (0.012, 0.012), 30.0, 1.4, (1.0, 2.0), (0.0, 0.0))
+    support = planar(5.0, (1200.0, 1200.0), (80.0, 80.0))
+    return Scene("test", support, speed, 3e-4, 0.0, (race,), 3.0, (0.0, 0.0), (0.0, 0.0), effects=effects)
+
+
+weights = st.lists(st.one_of(st.none(), st.floats(0, 0.1)), max_size=8)
+
+
+@given(weights, st.floats(1e-4, 0.5))
+@settings(max_examples=200, deadline=None, derandomize=True)
+def test_what_is_left_out_weighs_no_more_than_its_share(known: list[float | None], accuracy: float) -> None:
+    effects = tuple(Weighed(f"e{k}", value) for k, value in enumerate(known))
+    ledger = chosen(scene(*effects), accuracy)
+    out = [entry.weight for entry in ledger.entries if not entry.included]
+    assert None not in out and ledger.promise == sum(out) <= SHARE * accuracy
+    assert ledger.scene.effects == tuple(e for e, entry in zip(effects, ledger.entries, strict=True) if entry.included)
+    # The lightest go first, and as many as there is room for.
+    inside = [entry.weight for entry in ledger.entries if entry.included and entry.weight is not None]
+    if inside:
+        assert max(out, default=0.0) <= min(inside) and sum(out) + min(inside) > SHARE * accuracy
+
+
+def test_what_is_asked_for_by_name() -> None:
+    full = scene(Weighed("light", 1e-9), Weighed("heavy", 5.0), Weighed("unknown", None))
+    ledger = chosen(full, 0.01, wanted=("light",), unwanted=("heavy", "unknown"))
+    assert [(entry.name, entry.included) for entry in ledger.entries] == [
+        ("light", True), ("heavy", False), ("unknown", False),
+    ]  # fmt: skip
+    assert ledger.promise == 5.0 and all("by decree" in entry.why for entry in ledger.entries)
+
+
+def test_what_is_left_out_for_being_light_takes_its_part_of_the_accuracy() -> None:
+    """Not what was asked out: that is not held against the accuracy."""
+    full = scene(Weighed("light", 1e-3), Weighed("lighter", 5e-4), Weighed("heavy", 5.0), Weighed("unlike", 1e-4))
+    ledger = chosen(full, 0.01, wanted=("lighter",), unwanted=("heavy", "unlike"))
+    assert ledger.spared == 1e-3 and ledger.promise == pytest.approx(5.0011)
+
+
+# whether weights are honest
+@pytest.mark.parametrize("speed", [300.0, *(pytest.param(one, marks=pytest.mark.slow) for one in (600.0, 1500.0))])
+def test_gravity_weighs_what_it_changes(speed: float) -> None:
+    """Balls swing by a = g/(J R_p Ω²) once per turn; the axis, at 2Ω, by up to Σ m R_p a/2 over M.
+
+    The balls stand at ± 120°, where their e^{2iθ} add up to half. The push-off of a ball at rest, a Ω J/h₀, is undone
+    here, since two balls have but one place to rest; in settling it is felt.
+    """
+    full = scene(GravityEffect(), speed=speed)
+    with_, without = simulate(full, 0.001), simulate(scene(speed=speed), 0.001)
+    weight = GravityEffect().weight(full).value
+    true = difference(full, without.response, with_.response)
+    assert weight is not None and weight / 3 < true < 3 * weight
+    assert amplitude(full, without.response, with_.response) == pytest.approx(weight / 2, rel=0.3)
+
+
+def test_among_four_balls_gravity_shifts_where_they_stay() -> None:
+    race = Race(0.025, (0.012,) * 4, 15.0, 1.4, (1.0, 1.5, 2.0, 2.5), (0.0,) * 4)
+    full = replace(scene(GravityEffect(), speed=600.0), races=(race,))
+    with_, without = simulate(full, 0.001), simulate(replace(full, effects=()), 0.001)
+    swing, weight = 9.80665 / (1.4 * 0.025 * 600**2), GravityEffect().weight(full).value
+    true = angles(full, without.response, with_.response)
+    assert weight is not None and 3 * swing < true < weight
+
+
+def test_gravity_weighs_no_less_beside_a_friction_that_holds_nothing() -> None:
+    """What it shakes loose comes on top of its own pull."""
+    own = GravityEffect().weight(scene(GravityEffect())).value
+    assert own is not None
+    for lever, more in ((1e-12, False), (1e-6, True)):
+        weight = GravityEffect().weight(scene(GravityEffect(), DryRollingFrictionEffect(lever, 0.003))).value
+        assert weight is not None and (weight > own if more else weight == own)
+
+
+@pytest.mark.parametrize("magnitude", [1e-8, 1e-7, 5e-7])
+def test_race_eccentricity_weighs_what_it_changes(magnitude: float) -> None:
+    """The axis whirls with Δ, below 1 % of A₀ of 55 µm; with it the balls stand elsewhere by M Δ/(m R_p sin θ)."""
+    effect = RaceEccentricityEffect(magnitude, 0.5)
+    full = scene(effect)
+    with_, without = simulate(full, 1e-3), simulate(scene(), 1e-3)
+    weight = effect.weight(full).value
+    true = amplitude(full, without.response, with_.response)
+    assert weight is not None and weight == pytest.approx(true, rel=0.1)
+    assert max(true, angles(full, without.response, with_.response)) < 3 * weight
+
+
+@pytest.mark.parametrize("name", [*VERY_UNLIKE, *(pytest.param(one, marks=pytest.mark.slow) for one in OTHERS)])
+def test_what_is_left_out_of_a_machine_changes_no_more_than_promised(name: str) -> None:
+    """Idle, friction aside: at an accuracy that lets something pass, and with everything that can be weighed out."""
+    full = subject_of(read_machine(name), "idle").scene
+    smooth = tuple(effect for effect in full.effects if effect.name in ("gravity", "race_eccentricity"))
+    full = replace(full, effects=smooth)
+    names = [effect.name for effect in smooth]
+    for unwanted in ((), *((one,) for one in names)):
+        ledger = chosen(full, 0.5, unwanted=unwanted)
+        told = audit(full, ledger, simulate(ledger.scene, 0.01), 0.01, 10**7)
+        assert told.difference <= 3 * told.promise, (told, unwanted)
+        if not unwanted:
+            assert told.difference <= 0.5
+
+
+# differences
+@dataclass(frozen=True)
+class Said:
+    axis_amplitude: float = 1e-5
+    velocity_rms: float = 1e-3
+    settling_time: float | None = 0.5
+    ball_angles: tuple[float, ...] = (1.0, 2.0)
+
+
+def test_differences() -> None:
+    one = scene()
+    assert difference(one, Said(), Said()) == 0
+    assert amplitude(one, Said(1.1e-5), Said()) == pytest.approx(0.1)
+    # Nothing is small against 1 % of A₀, m₀e/(M + …) by hand without balls: 3e-4 · 9e4/(5 · 9e4 − 1200) m.
+    least = 0.01 * 3e-4 * 9e4 / abs(complex(1200 - 5 * 9e4, 80 * 300))
+    assert amplitude(one, Said(1e-9), Said(0.0)) == pytest.approx(1e-9 / least)
+    assert settling(one, Said(settling_time=0.6), Said()) == pytest.approx(0.2)
+    assert settling(one, Said(settling_time=None), Said()) == math.inf
+    assert settling(one, Said(settling_time=None), Said(settling_time=None)) == 0
+    # Alike balls may change places and go round.
+    assert angles(one, Said(ball_angles=(2.0 + 2 * math.pi, 1.0)), Said()) == pytest.approx(0, abs=1e-12)
+    assert angles(one, Said(ball_angles=(1.0, 2.3)), Said()) == pytest.approx(0.3)
+
+
+def test_unlike_balls_do_not_change_places() -> None:
+    race = Race(0.025, (0.012, 0.013), 15.0, 1.4, (1.0, 2.0), (0.0, 0.0))
+    assert angles(replace(scene(), races=(race,)), Said(ball_angles=(2.0, 1.0)), Said()) == pytest.approx(1.0)

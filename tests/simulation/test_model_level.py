@@ -1,0 +1,184 @@
+"""Closed form, envelope and equations agree as far as they claim; the envelope costs a tenth."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from abu_calc.dynamics.averaging import envelope as envelope_module
+from abu_calc.dynamics.averaging.envelope import averages, envelope, not_averaged
+from abu_calc.dynamics.effects.ball_contact import BallContactEffect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.equations.assemble import assemble
+from abu_calc.dynamics.integrators import scipy_solvers as scipy_
+from abu_calc.dynamics.supports.planar import planar
+from abu_calc.dynamics.supports.tilting import tilting
+from abu_calc.foundation.errors import InputError
+from abu_calc.simulation.model_level import averaged, closed_form, offer
+from abu_calc.simulation.nonconvergence import QUANTITIES, difference
+from abu_calc.simulation.response import evaluate, needed_times
+from abu_calc.simulation.simulate import simulate
+from tests.dynamics.scenes import dimensionless, straight_grinder
+
+
+def integrated(scene, tolerance=1e-6):
+    return evaluate(scene, scipy_.integrate(assemble(scene), tolerance, needed_times(scene)))
+
+
+def test_envelope_follows_the_equations_of_a_grinder():
+    """The balls' rate is 58 against 607 rad/s, so a few hundredths for where four balls find their places."""
+    scene = replace(straight_grinder(), effects=(RaceEccentricityEffect(1e-5, 0.4),))
+    slow, full = averaged(scene, 1e-6), integrated(scene)
+    for quantity, most in (("amplitude", 0.01), ("level", 0.01), ("settling", 0.01), ("angles", 0.05)):
+        assert QUANTITIES[quantity](scene, slow, full) < most, quantity
+
+
+def test_gravity_gives_the_balls_a_mean_speed_at_the_start():
+    """Without it their places would be a tenth off."""
+    scene = replace(straight_grinder(), effects=(RaceEccentricityEffect(1e-5, 0.4), GravityEffect()))
+    slow, full = averaged(scene, 1e-6), integrated(scene)
+    assert QUANTITIES["angles"](scene, slow, full) < 0.05
+    kicks = [averages(replace(scene, effects=effects)).kick for effects in (scene.effects, scene.effects[:1])]
+    np.testing.assert_allclose(kicks[0] - kicks[1], 9.80665 * np.sin(scene.start_angles) / 607.3746 / 0.023 / 1.4)
+
+
+def test_each_order_of_the_envelope_leaves_the_next_power_of_slowness():
+    """Balls of a share μ of the rotor's mass move at a rate √μ; so the orders leave √μ and μ, by regression.
+
+    The drag follows the rate, so that all of these scenes are one in the time of the balls, however fast they are.
+    """
+    shares, errors = np.geomspace(1e-4, 6.4e-3, 4), {1: [], 2: []}
+    for share in shares:
+        rate = 3 * math.sqrt(share)
+        scene = dimensionless(3.0, share / 4, 0.3 * share, 0.3, rate, (0.4, 0.6, 0.8, 1.0), 12 / rate)
+        full = integrated(scene, 1e-9)
+        for order, found in errors.items():
+            found.append(QUANTITIES["angles"](scene, averaged(scene, 1e-9, order), full))
+    slopes = {order: np.polyfit(np.log(shares), np.log(found), 1)[0] for order, found in errors.items()}
+    assert slopes[1] == pytest.approx(0.5, abs=0.15)
+    assert slopes[2] == pytest.approx(1.0, abs=0.15)
+
+
+def test_envelope_costs_a_tenth():
+    """Of evaluations, at tolerances that do for one per cent, and each is cheaper."""
+    scene = straight_grinder()
+    run = scipy_.integrate(assemble(scene), 2e-4, needed_times(scene))
+    assert 10 * averaged(scene, 1e-4).evaluations < run.evaluations
+
+
+LIGHT = dimensionless(3.0, 2e-4, 1e-4, 0.3, 0.04, (0.4, 1.0), 400.0)
+
+
+def test_the_cheapest_rung_that_is_accurate_enough_is_taken():
+    """Light balls: the envelope for a per cent, the equations for more, or where they are asked for."""
+    slow, full = simulate(LIGHT, 0.02), simulate(LIGHT, 1e-5)
+    assert (slow.rung, full.rung) == ("envelope", "equations")
+    assert difference(LIGHT, slow.response, full.response) <= slow.error_estimate <= 0.02
+    assert slow.cost.evaluations < full.cost.evaluations / 10
+    assert full.offered.error > 1e-5 and "estimated" in full.offered.why
+    assert slow.trajectory.y.shape == full.trajectory.y.shape
+    for asked in ({"integrator": "scipy"}, {"sample_times": (1.0,)}):
+        assert simulate(LIGHT, 0.02, **asked).rung == "equations"
+
+
+def test_the_motion_of_the_envelope_is_that_of_the_equations():
+    """Support and balls through the whole run, the free motion of the support at the start among it."""
+    slow, full = simulate(LIGHT, 0.02), simulate(LIGHT, 1e-6, integrator="scipy")
+    scales = np.array(assemble(LIGHT).scales)[:, None]
+    assert np.abs((slow.trajectory.y - full.trajectory.y) / scales).max() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"effects": (GravityEffect(),)}, "gravity"),
+        ({"effects": (BallContactEffect(0.1, 0.5),)}, "ball_contact"),
+        ({"races": (replace(LIGHT.races[0], start_speeds=(-3.0, -3.0)),)}, "estimated"),
+        ({"races": (replace(LIGHT.races[0], ball_masses=(0.02, 0.02)),)}, "estimated"),
+        ({"support": planar(1.0, (1.0, 1.0), (0.0, 0.0))}, "estimated"),
+    ],
+)
+def test_the_envelope_is_not_taken_where_it_does_not_hold(change, reason):
+    """The last is a support that never forgets its start."""
+    found = offer(replace(LIGHT, **change), 0.02, needed_times(LIGHT))
+    assert found.trajectory is None and reason in found.why
+    assert found.error is None or found.error > 0.02
+
+
+def test_an_envelope_that_is_lost_leaves_the_equations(monkeypatch):
+    monkeypatch.setattr(envelope_module, "MOST_STEPS", 1)
+    found = offer(LIGHT, 0.02, needed_times(LIGHT))
+    assert found.trajectory is None and "lost" in found.why
+    assert simulate(LIGHT, 0.02).rung == "equations"
+
+
+def test_a_resonance_that_nothing_damps_is_not_averaged():
+    mass = 1 + 2 * 2e-4
+    scene = replace(LIGHT, speed=1.0, support=planar(1.0, (mass, mass), (0.0, 0.0)))
+    assert "nearest natural frequency" in (not_averaged(scene) or "")
+
+
+def test_closed_form_of_two_balls():
+    """cos θ* = −m₀e/(2mR_p); nothing is left; e^{−λt} with the slower root of J s² + h₀ s + κ(1 − |cos 2θ*|) = 0."""
+    scene = dimensionless(3.0, 0.002, 0.001, 0.3, 0.05, (1.4, -1.4), 2000.0)
+    told = closed_form(scene)
+    place = math.acos(-0.25)
+    assert sorted(told.ball_angles) == pytest.approx([-place, place])
+    assert told.axis_amplitude == 0
+    mass, k = 1 + 2 * 0.002, 1.0
+    forward = (1 / complex(k - 9 * mass, 3 * 0.6)).real
+    kappa = -0.002 * 81 * forward * (1 - abs(math.cos(2 * place)))
+    slowest = min(-np.roots([1.0, 0.05, kappa]).real)
+    start = abs(0.001 + 2 * 0.002 * math.cos(1.4))
+    assert told.settling_time == pytest.approx(math.log(start / 1e-4) / slowest, rel=1e-9)
+
+
+def test_offset_races_keep_the_axis_whirling():
+    scene = replace(
+        dimensionless(3.0, 0.01, 0.01, 0.3, 0.05, (2.0, -2.2), 2000.0), effects=(RaceEccentricityEffect(0.002),)
+    )
+    assert closed_form(scene).axis_amplitude == pytest.approx(0.002)
+    assert averaged(scene, 1e-8).axis_amplitude == pytest.approx(0.002, rel=1e-6)
+    assert integrated(scene).axis_amplitude == pytest.approx(0.002, rel=1e-2)
+
+
+def test_whirl_of_the_envelope_is_the_steady_response():
+    """Balls held in their places are more imbalance: the response of the support with their mass, by hand."""
+    scene = dimensionless(3.0, 0.01, 0.02, 0.3, 0.05, (0.4, 1.0), 10.0)
+    total = 0.02 + 0.01 * (np.exp(0.4j) + np.exp(1j))
+    w = total * 9 / complex(1 - 9 * 1.02, 3 * 0.6)
+    assert averages(scene).whirl(np.array((0.4, 1.0)))[0] == pytest.approx(w, rel=1e-12)
+
+
+def test_balls_of_two_planes_are_averaged_apart():
+    """On a support that tilts without coupling two like races share alike."""
+    support = tilting(1.0, 0.1, 0.05, (0.2, -0.2), ((0.5, 0.5),) * 2, ((0.1, 0.1),) * 2)
+    base = dimensionless(3.0, 0.005, 0.004, 0.1, 0.05, (1.5, -1.7), 400.0)
+    races = tuple(replace(base.races[0], plane_offset=z) for z in (0.1, -0.1))
+    scene = replace(base, support=support, races=races, start_position=(0.0,) * 4, start_velocity=(0.0,) * 4)
+    slow = envelope(scene, 1e-8, np.linspace(0, 400, 101))
+    np.testing.assert_allclose(slow.theta[:2], slow.theta[2:], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"effects": (BallContactEffect(0.1, 0.5),)}, "ball_contact cannot be averaged"),
+        ({"speed": 1.02}, "nearest natural frequency"),
+    ],
+)
+def test_averages_say_where_they_do_not_hold(change, reason):
+    scene = replace(dimensionless(3.0, 0.01, 0.02, 0.3, 0.05, (0.4, 1.0), 10.0), **change)
+    assert reason in (not_averaged(scene) or "")
+    for rung in (lambda: averaged(scene, 1e-4), lambda: closed_form(scene)):
+        with pytest.raises(InputError):
+            rung()
+
+
+def test_closed_form_is_for_balls_that_balance():
+    with pytest.raises(InputError, match="can balance"):
+        closed_form(dimensionless(3.0, 0.01, 0.05, 0.3, 0.05, (0.4, 1.0), 10.0))
+    with pytest.raises(InputError, match="does not come to rest"):
+        closed_form(dimensionless(0.5, 0.0001, 0.0001, 0.3, 0.05, (0.4, 1.0), 20.0))
