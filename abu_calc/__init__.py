@@ -40,30 +40,81 @@ if TYPE_CHECKING:
     from abu_calc.inputs.scene import SceneDescription, read_scene
 
 _ROOMS: Final = {
-    "checks": ("Check",),
     "dynamics.race": ("Race",),
     "dynamics.scene": ("Scene",),
     "dynamics.supports.planar": ("planar",),
-    "errors": ("AbuError", "InputError", "NotTrustworthyError", "OutputError", "RangeError"),
-    "spec.read": ("Machine", "read"),
-    "spec.read_readings": ("Readings", "read_readings"),
-    "spec.read_scene": ("SceneDescription", "read_scene"),
-    "spec.read_recording": ("read_recording",),
-    "spec.recording": ("Recording",),
-    "studies.accuracy": ("AccuracyResult", "accuracy"),
-    "studies.balance": ("BalanceResult", "balance"),
-    "studies.check_fit": ("CheckFitResult", "check_fit"),
-    "studies.compare": ("CompareResult", "compare"),
-    "studies.effects": ("EffectsResult", "effects"),
-    "studies.factory": ("FactoryResult", "factory"),
-    "studies.levels": ("LevelsResult", "levels"),
-    "studies.grinding": ("GrindingResult", "grinding"),
-    "studies.simulate": ("SimulateResult", "simulate"),
-    "studies.size": ("SizeResult", "size"),
-    "studies.stability": ("StabilityResult", "stability"),
-    "studies.sweep": ("sweep",),
-    "studies.sweeping.result": ("SweepResult",),
-    "studies.verify": ("VerifyResult", "verify"),
+    "features.accuracy.study": (
+        "AccuracyResult",
+        "accuracy",
+    ),
+    "features.balancing.read": (
+        "Readings",
+        "read_readings",
+    ),
+    "features.balancing.study": (
+        "BalanceResult",
+        "balance",
+    ),
+    "features.compare.study": (
+        "CompareResult",
+        "compare",
+    ),
+    "features.design.study": (
+        "SizeResult",
+        "size",
+    ),
+    "features.effects.study": (
+        "EffectsResult",
+        "effects",
+    ),
+    "features.factory.study": (
+        "FactoryResult",
+        "factory",
+    ),
+    "features.grinding.study": (
+        "GrindingResult",
+        "grinding",
+    ),
+    "features.levels.study": (
+        "LevelsResult",
+        "levels",
+    ),
+    "features.seats.study": (
+        "CheckFitResult",
+        "check_fit",
+    ),
+    "features.simulate.study": (
+        "SimulateResult",
+        "simulate",
+    ),
+    "features.stability.study": (
+        "StabilityResult",
+        "stability",
+    ),
+    "features.sweep.result": ("SweepResult",),
+    "features.sweep.study": ("sweep",),
+    "features.verify.study": (
+        "VerifyResult",
+        "verify",
+    ),
+    "foundation.checks": ("Check",),
+    "foundation.errors": (
+        "AbuError",
+        "InputError",
+        "NotTrustworthyError",
+        "OutputError",
+        "RangeError",
+    ),
+    "inputs.read_machine": (
+        "Machine",
+        "read",
+    ),
+    "inputs.recording": ("Recording",),
+    "inputs.recording_files": ("read_recording",),
+    "inputs.scene": (
+        "SceneDescription",
+        "read_scene",
+    ),
 }
 """Module of each public name."""
 

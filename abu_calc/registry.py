@@ -1,20 +1,19 @@
-"""The figures of a result, whichever study it comes from.
+"""The features of abu-calc: one entry registers a command, its result and its figures.
 
-Names of figures by command: what can be asked for before anything is computed, and when a result has it.
+Modules are named here and imported when they are needed, so that a command loads its own feature alone.
 """
 
 import importlib
 import re
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from abu_calc.foundation.errors import InputError, Place
-from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.charts.matplotlib_draw import drawn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawn
 
+    from abu_calc.reporting.charts.figure import Extras, Figure
     from abu_calc.simulation.result import Result
 
 
@@ -31,71 +30,159 @@ class Known(NamedTuple):
         return re.fullmatch(pattern, name) is not None
 
 
+class Feature(NamedTuple):
+    """One command with all that belongs to it; modules are paths below `abu_calc.features`.
+
+    `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
+    "module:class"; `makes_figures`: function from a result to its figures as "module:function"; `figures`: their names;
+    `computes`: whether it loads libraries of numbers.
+    """
+
+    name: str
+    command: str
+    results: tuple[str, ...] = ()
+    makes_figures: str = ""
+    figures: tuple[Known, ...] = ()
+    computes: bool = True
+
+
+def imported(path: str) -> Any:
+    """Object of a path "module:name" below `abu_calc.features`."""
+    module, _, name = path.partition(":")
+    return getattr(importlib.import_module(f"abu_calc.features.{module}"), name)
+
+
 SETTLES: Final = "the run was simulated, and held from its beginning"
 RUNS_UP: Final = "the rotor runs up in it"
 SEVERAL: Final = "more than one machine has the number"
 
-KNOWN: Final[dict[str, tuple[Known, ...]]] = {
-    "size": (
-        Known("section", "", True), Known("face", "", True),
-        Known("arm", "the machine has a [swing_arm]", True), Known("seats-N", "the machine has such a bearing", True),
-        Known("levels", "a level is known at a place"),
-        Known("speeds", "the machine has a range of speeds at which balls balance"),
-        Known("budget", "something keeps the balls from balancing to nothing"), Known("motion", SETTLES),
-        Known("settling", SETTLES), Known("level", SETTLES),
-        Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
-        Known("run-up", "a start that runs up was simulated"), Known("candidates", "there are runners-up"),
-        Known("costs", "the drawing's tolerances cost something"),
+FEATURES: Final[tuple[Feature, ...]] = (
+    Feature(
+        "size", "design.command", ("design.study:SizeResult",), "design.figures:size_extras",
+        figures=(
+            Known("section", "", True), Known("face", "", True),
+            Known("arm", "the machine has a [swing_arm]", True), Known("seats-N", "the machine has such a bearing", True),
+            Known("levels", "a level is known at a place"),
+            Known("speeds", "the machine has a range of speeds at which balls balance"),
+            Known("budget", "something keeps the balls from balancing to nothing"), Known("motion", SETTLES),
+            Known("settling", SETTLES), Known("level", SETTLES),
+            Known("level-loaded", "the machine grinds, and that was simulated from its beginning"),
+            Known("run-up", "a start that runs up was simulated"), Known("candidates", "there are runners-up"),
+            Known("costs", "the drawing's tolerances cost something"),
+        ),
     ),
-    "simulate": (
-        Known("motion", SETTLES + ", with balls"), Known("settling", SETTLES + ", with balls"), Known("level", SETTLES),
-        Known("run-up", RUNS_UP),
+    Feature(
+        "check-fit", "seats.command", ("seats.study:CheckFitResult",), "seats.figures:check_fit_figures",
+        figures=(
+            Known("seats-N", "there is such a bearing", True), Known("zones-N", "there is such a bearing", True),
+            Known("interference-N", "there is such a bearing"),
+            Known("clearance-N", "there is such a bearing, of a type whose clearance is in a table"),
+        ),
+        computes=False,
     ),
-    "check-fit": (
-        Known("seats-N", "there is such a bearing", True), Known("zones-N", "there is such a bearing", True),
-        Known("interference-N", "there is such a bearing"),
-        Known("clearance-N", "there is such a bearing, of a type whose clearance is in a table"),
+    Feature(
+        "simulate", "simulate.command", ("simulate.study:SimulateResult",), "simulate.view:simulate_extras",
+        figures=(
+            Known("motion", SETTLES + ", with balls"), Known("settling", SETTLES + ", with balls"), Known("level", SETTLES),
+            Known("run-up", RUNS_UP),
+        ),
     ),
-    "grinding": (
-        Known("levels", "a level at work is known"), Known("orbit"), Known("orbit-simulated", "it was simulated"),
-        Known("hodograph", "the wheel runs out"), Known("response", "amplitudes over the speeds are known"),
-        Known("force", "forces over the speeds are known"), Known("reaction", "the force round the wheel is known"),
-        Known("wear", "wear is known"), Known("wear-imbalance", "wear is known"),
+    Feature(
+        "stability", "stability.command", ("stability.study:StabilityResult",), "stability.view:stability_extras",
+        figures=(
+            Known("growth", "growth rates over more than one speed are known"), Known("eigenvalues", "there are such"),
+            Known("multipliers", "the support is not isotropic"),
+        ),
     ),
-    "stability": (
-        Known("growth", "growth rates over more than one speed are known"), Known("eigenvalues", "there are such"),
-        Known("multipliers", "the support is not isotropic"),
+    Feature(
+        "grinding", "grinding.command", ("grinding.study:GrindingResult",), "grinding.figures:grinding_extras",
+        figures=(
+            Known("levels", "a level at work is known"), Known("orbit"), Known("orbit-simulated", "it was simulated"),
+            Known("hodograph", "the wheel runs out"), Known("response", "amplitudes over the speeds are known"),
+            Known("force", "forces over the speeds are known"), Known("reaction", "the force round the wheel is known"),
+            Known("wear", "wear is known"), Known("wear-imbalance", "wear is known"),
+        ),
     ),
-    "accuracy": (Known("precision", "a way to compute gave an error"),),
-    "balance": (
-        Known("planes", "", True), Known("residual", "there is imbalance"),
-        Known("verification-N", "the readings have so many speeds and quantities"),
-        Known("uncertainty", "the readings say how far off they may be"),
+    Feature(
+        "balance", "balancing.command", ("balancing.study:BalanceResult",), "balancing.figures:balance_extras",
+        figures=(
+            Known("planes", "", True), Known("residual", "there is imbalance"),
+            Known("verification-N", "the readings have so many speeds and quantities"),
+            Known("uncertainty", "the readings say how far off they may be"),
+        ),
     ),
-    "compare": tuple(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
-    "sweep": (
-        Known("shares"), Known("basins", "starts of several kinds were drawn"),
-        Known("percentiles-QUANTITY", "two of its percentiles are known"),
-        Known("decides-QUANTITY", "its variance is split"), Known("tighten", "prices are known"),
-        Known("loosen", "prices are known"), Known("cells", "it went over two keys with --grid"),
-        Known("cells-meets", "it went over two keys with --grid, with several members in a cell"),
-        Known("cells-level", "it went over two keys with --grid"),
+    Feature(
+        "effects", "effects.command", ("effects.study:EffectsResult", "effects.study:KnownEffectsResult"),
     ),
-}  # fmt: skip
-"""Figures of the commands that have some.
+    Feature(
+        "accuracy", "accuracy.command", ("accuracy.study:AccuracyResult",), "accuracy.view:accuracy_extras",
+        figures=(Known("precision", "a way to compute gave an error"),),
+    ),
+    Feature(
+        "sweep", "sweep.command", ("sweep.result:SweepResult",), "sweep.figures:sweep_extras",
+        figures=(
+            Known("shares"), Known("basins", "starts of several kinds were drawn"),
+            Known("percentiles-QUANTITY", "two of its percentiles are known"),
+            Known("decides-QUANTITY", "its variance is split"), Known("tighten", "prices are known"),
+            Known("loosen", "prices are known"), Known("cells", "it went over two keys with --grid"),
+            Known("cells-meets", "it went over two keys with --grid, with several members in a cell"),
+            Known("cells-level", "it went over two keys with --grid"),
+        ),
+    ),
+    Feature(
+        "levels", "levels.command", ("levels.study:LevelsResult",),
+    ),
+    Feature(
+        "factory", "factory.command", ("factory.study:FactoryResult",),
+    ),
+    Feature(
+        "compare", "compare.command", ("compare.study:CompareResult",), "compare.view:compare_extras",
+        figures=tuple(Known(name, SEVERAL) for name in ("levels", "residual", "mass", "settling")),
+    ),
+    Feature(
+        "verify", "verify.command", ("verify.study:VerifyResult",),
+    ),
+    Feature(
+        "validate", "files.validate", (),
+        computes=False,
+    ),
+    Feature(
+        "init", "files.init", (),
+        computes=False,
+    ),
+    Feature(
+        "presets", "files.presets", (),
+        computes=False,
+    ),
+    Feature(
+        "schema", "files.schema", (),
+        computes=False,
+    ),
+    Feature(
+        "explain", "explain.command", (),
+        computes=False,
+    ),
+)  # fmt: skip
+"""Features in the order of the help.
 
-A name without a condition stands in every result of its command.
+A figure without a condition stands in every result of its command.
 """
+
+BY_NAME: Final = {feature.name: feature for feature in FEATURES}
 
 
 def names_of(command: str) -> str:
     """All figure names of a command, as help texts list them."""
-    return ", ".join(entry.name for entry in KNOWN[command])
+    return ", ".join(entry.name for entry in BY_NAME[command].figures)
+
+
+def _figures(command: str) -> tuple[Known, ...]:
+    return BY_NAME[command].figures if command in BY_NAME else ()
 
 
 def known(command: str, name: str) -> Known:
     """Figure that a name stands for; raises InputError for one that no result of the command has."""
-    entry = next((candidate for candidate in KNOWN.get(command, ()) if candidate.fits(name)), None)
+    entry = next((candidate for candidate in _figures(command) if candidate.fits(name)), None)
     if entry is None:
         raise InputError("no such figure", place=Place(key="--figure"), found=name, allowed=names_of(command))
     return entry
@@ -103,33 +190,18 @@ def known(command: str, name: str) -> Known:
 
 def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     """The error about a name that this result does not have, with the reason."""
-    when = next((entry.when for entry in KNOWN.get(command, ()) if entry.fits(name)), "")
+    when = next((entry.when for entry in _figures(command) if entry.fits(name)), "")
     reason = f"; one is there where {when}" if when else ""
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
 
 
-MAKERS: Final = {
-    "accuracy": "accuracy_extras",
-    "balance": "balance_extras",
-    "check-fit": "check_fit_figures",
-    "compare": "compare_extras",
-    "grinding": "grinding_extras",
-    "simulate": "simulate_extras",
-    "size": "size_extras",
-    "stability": "stability_extras",
-    "sweep": "sweep_extras",
-}
-"""Functions that make the figures, by command, each in the module of its command's name."""
-
-
-def figures_of(result: "Result") -> tuple[Figure, ...]:
+def figures_of(result: "Result") -> "tuple[Figure, ...]":
     """All figures of a result; none if its command shows none."""
-    maker = MAKERS.get(result.command)
-    if maker is None:
+    maker = BY_NAME[result.command].makes_figures if result.command in BY_NAME else ""
+    if not maker:
         return ()
-    module = importlib.import_module(f"abu_calc.reporting.charts.{result.command.replace('-', '_')}")
-    made: Extras | Iterable[Figure] = getattr(module, maker)(result)
-    return made.figures if isinstance(made, Extras) else tuple(made)
+    made: Extras | Iterable[Figure] = imported(maker)(result)
+    return tuple(getattr(made, "figures", made))
 
 
 def names(result: "Result") -> tuple[str, ...]:
@@ -139,10 +211,12 @@ def names(result: "Result") -> tuple[str, ...]:
 
 def figure(result: "Result", name: str) -> "Drawn":
     """One of them, drawn; raises InputError for a name that it does not have."""
+    from abu_calc.reporting.charts.matplotlib_draw import drawn
+
     return drawn(named(result.command, figures_of(result), name))
 
 
-def named(command: str, figures: Iterable[Figure], name: str) -> Figure:
+def named(command: str, figures: "Iterable[Figure]", name: str) -> "Figure":
     """Figure of a name; raises InputError if there is none."""
     there = {entry.name: entry for entry in figures}
     if name not in there:

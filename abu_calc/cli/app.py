@@ -1,6 +1,5 @@
 """The command line: parse, run one command, render its outcome, end with its exit status."""
 
-import importlib
 import os
 import sys
 import warnings
@@ -12,6 +11,7 @@ from abu_calc.cli.output import fail
 from abu_calc.cli.streams import make_safe
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place, escaped, shortened
 from abu_calc.foundation.interruption import INTERRUPTED, EndedBySignal, leave_signals, raise_pending, status_of
+from abu_calc.registry import BY_NAME, FEATURES, imported
 from abu_calc.version import __version__
 
 FIRST_STEPS: Final = """\
@@ -38,29 +38,10 @@ MEANINGS: Final = {
 }
 """Meaning of each exit status."""
 
-COMMANDS = (
-    "size",
-    "check-fit",
-    "simulate",
-    "stability",
-    "grinding",
-    "balance",
-    "effects",
-    "accuracy",
-    "sweep",
-    "levels",
-    "factory",
-    "compare",
-    "verify",
-    "validate",
-    "init",
-    "presets",
-    "schema",
-    "explain",
-)
-"""Commands in the order of the help; each has its module."""
+COMMANDS = tuple(feature.name for feature in FEATURES)
+"""Names of the commands in the order of the help."""
 
-NUMERIC: Final = frozenset(COMMANDS) - {"check-fit", "validate", "init", "presets", "schema", "explain"}
+NUMERIC: Final = frozenset(feature.name for feature in FEATURES if feature.computes)
 """Commands that load libraries of numbers."""
 NEEDED_MB: Final = 760
 """Address space that these libraries reserve, most of which they never use: 700 MB on two processors."""
@@ -79,7 +60,7 @@ def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     )
     for name in names:
-        importlib.import_module(f"abu_calc.cli.{name.replace('-', '_')}").register(app)
+        imported(f"{BY_NAME[name].command}:register")(app)
     app.callback()(_main)
     return app
 

@@ -14,7 +14,7 @@ import typer
 
 from abu_calc.foundation.errors import AbuError, InputError, OutputError, Place, escaped, escaped_lines, shortened
 from abu_calc.foundation.interruption import EndedBySignal, status_of
-from abu_calc.registry import KNOWN, known, names_of
+from abu_calc.registry import BY_NAME, known, names_of
 from abu_calc.reporting.outcome import Outcome, document, error_document, to_json
 
 OPTION: Final = "--figure"
@@ -23,7 +23,7 @@ PLACE: Final = Place(key=OPTION)
 
 def figure_option(command: str) -> inspect.Parameter | None:
     """The option, with the names that a command knows; None for commands without figures."""
-    if command not in KNOWN:
+    if command not in BY_NAME or not BY_NAME[command].figures:
         return None
     help_ = f"Also write one figure as FILE.svg, .png or .pdf; repeatable. NAME: {names_of(command)}."
     option = typer.Option(OPTION, metavar="NAME=FILE", help=help_)

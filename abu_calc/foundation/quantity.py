@@ -45,6 +45,8 @@ class Record:
     """Fields that are no entries of the result."""
     optional: ClassVar[frozenset[str]] = frozenset()
     """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
+    schema_title: ClassVar[str] = ""
+    """Name in the JSON Schema of results if it is not that of the class."""
 
     def __init__(self, **values: object) -> None:
         known = _fields(type(self))
@@ -74,6 +76,11 @@ class Record:
     def __repr__(self) -> str:
         values = (f"{field.name}={getattr(self, field.name)!r}" for field in fields(self) if field.repr)
         return f"{type(self).__name__}({', '.join(values)})"
+
+    @classmethod
+    def title_in_schema(cls) -> str:
+        """Name of the record among the definitions of the JSON Schema of results."""
+        return cls.__dict__.get("schema_title") or cls.__name__
 
     @classmethod
     def entries(cls) -> tuple[str, ...]:

@@ -82,6 +82,8 @@ def level_where_measured(design: Design, moved: float | None) -> float | None:
 class InstrumentReadings(Record):
     """One level as instruments show it, all rms; weighted values are null where W_h is not defined."""
 
+    schema_title: ClassVar[str] = "Readings"
+
     velocity_mm_per_s: Annotated[float, Quantity("velocity", "v")]
     displacement_um: Annotated[float, Quantity("displacement", "s_v")]
     acceleration_m_per_s2: Annotated[float, Quantity("acceleration", "a")]
@@ -143,6 +145,8 @@ class MeasuredAfterRecord(Record):
 
     `predicted_loaded_db`: the prediction there under load, in reports of the machine at its workpiece.
     """
+
+    schema_title: ClassVar[str] = "MeasuredAfter"
 
     optional: ClassVar[frozenset[str]] = frozenset({"predicted_loaded_db"})
 

@@ -101,6 +101,8 @@ class Frequency(Record):
 class AutobalancerRecord(Record):
     """One candidate."""
 
+    schema_title: ClassVar[str] = "Autobalancer"
+
     ball_count: Annotated[int, Quantity("number of balls", "n")]
     ball_diameter_mm: Annotated[float, Quantity("ball diameter", "2r", 5)]
     ball_mass_g: Annotated[float, Quantity("mass of one ball", "m")]

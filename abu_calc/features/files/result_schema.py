@@ -4,30 +4,15 @@ import types
 from collections.abc import Mapping
 from typing import Annotated, Any, Final, Literal, Union, get_args, get_origin, get_type_hints
 
-from abu_calc.features.accuracy.study import AccuracyResult
-from abu_calc.features.balancing.study import BalanceResult
-from abu_calc.features.compare.study import CompareResult
-from abu_calc.features.design.study import SizeResult
-from abu_calc.features.effects.study import EffectsResult, KnownEffectsResult
-from abu_calc.features.factory.study import FactoryResult
-from abu_calc.features.grinding.study import GrindingResult
-from abu_calc.features.levels.study import LevelsResult
-from abu_calc.features.seats.study import CheckFitResult
-from abu_calc.features.simulate.study import SimulateResult
-from abu_calc.features.stability.study import StabilityResult
-from abu_calc.features.sweep.result import SweepResult
-from abu_calc.features.verify.study import VerifyResult
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.foundation.quantity import Quantity, Record, hints, quantities
 from abu_calc.foundation.units import unit_of
+from abu_calc.registry import FEATURES, imported
 from abu_calc.simulation.result import Result
 
 DRAFT: Final = "https://json-schema.org/draft/2020-12/schema"
 
-RESULTS: Final[tuple[type[Result], ...]] = (
-    SizeResult, CheckFitResult, SimulateResult, StabilityResult, GrindingResult, EffectsResult, KnownEffectsResult,
-    AccuracyResult, BalanceResult, LevelsResult, FactoryResult, SweepResult, CompareResult, VerifyResult,
-)  # fmt: skip
+RESULTS: Final[tuple[type[Result], ...]] = tuple(imported(result) for feature in FEATURES for result in feature.results)
 
 SIMPLE: Final = {int: "integer", float: "number", str: "string", bool: "boolean", type(None): "null"}
 
@@ -88,20 +73,21 @@ def _model(kind: type[Result]) -> Any:
 
 def _record(kind: type[Record], definitions: dict[str, Schema]) -> Schema:
     """A reference to the definition of a record."""
-    if kind.__name__ not in definitions:
-        definitions[kind.__name__] = {}  # known from here on, should it hold itself
+    title = kind.title_in_schema()
+    if title not in definitions:
+        definitions[title] = {}  # known from here on, should it hold itself
         names, labelled = kind.entries(), quantities(kind)
         properties = {name: _type(hints(kind)[name], definitions) for name in names}
         for name in names:
             if name in labelled:
                 properties[name] = {"description": _description(name, labelled[name]), **properties[name]}
-        definitions[kind.__name__] = {
+        definitions[title] = {
             "type": "object",
             "description": (kind.__doc__ or "").split("\n\n")[0],
             "properties": properties,
             "required": [name for name in names if name not in kind.optional],
         }
-    return {"$ref": f"#/$defs/{kind.__name__}"}
+    return {"$ref": f"#/$defs/{title}"}
 
 
 def _description(name: str, quantity: Quantity) -> str:

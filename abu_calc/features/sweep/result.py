@@ -57,6 +57,8 @@ class Basin(Record):
 class LimitShare(Record):
     """Share of all samples; one without an answer counts as not met."""
 
+    schema_title: ClassVar[str] = "Share"
+
     share: Annotated[float, Quantity("share", "", 4, "", percent=True)]
     confidence_interval: Annotated[
         tuple[float, float], Quantity("95 % confidence", "", 4, "Clopper and Pearson 1934", percent=True)

@@ -1,7 +1,7 @@
 """A swing arm, as results hold it: bounds over all contact angles, what to change, its forced motion and its tongue."""
 
 import math
-from typing import TYPE_CHECKING, Annotated, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
@@ -34,6 +34,8 @@ class SwingArmRecord(Record):
     `changes`: tried changes with which all checks pass. The arm as given stands beside its bounds. None: the
     arm does not stand, or the value is beyond the range of a formula.
     """
+
+    schema_title: ClassVar[str] = "SwingArm"
 
     advice: Annotated[str, Quantity("what to change")]
     changes: tuple[ArmChange, ...]

@@ -27,21 +27,22 @@ class Kind:
     def call(self, which: str, *arguments: Any) -> Any:
         """Calls one of its functions, its module imported for it."""
         module, _, function = getattr(self, which).partition(":")
-        return getattr(importlib.import_module(f"abu_calc.inputs.{module}"), function)(*arguments)
+        return getattr(importlib.import_module(f"abu_calc.{module}"), function)(*arguments)
 
 
 KINDS: Final = (
     Kind(
         "machine", "a machine", ("machine",), "size",
-        "read:machine_from", "template:template", "schema:machine_schema",
+        "inputs.read_machine:machine_from", "inputs.reading.template:template", "inputs.reading.schema:machine_schema",
     ),
     Kind(
         "scene", "a scene", ("scene",), "simulate",
-        "read_scene:scene_from", "template:scene_template", "schema:scene_schema",
+        "inputs.scene:scene_from", "inputs.reading.template:scene_template", "inputs.reading.schema:scene_schema",
     ),
     Kind(
         "readings", "readings of a rig", ("rig", "rotor", "run"), "balance",
-        "read_readings:readings_from", "template:readings_template", "schema:readings_schema",
+        "features.balancing.read:readings_from", "features.balancing.read:readings_template",
+        "features.balancing.read:readings_schema",
     ),
 )  # fmt: skip
 """A file that has tables of several is of the first of them, one that has none is a machine's."""

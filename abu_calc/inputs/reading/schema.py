@@ -4,7 +4,6 @@ from typing import Any, Final
 
 from pydantic.json_schema import models_json_schema
 
-from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.inputs.machine import BearingFile, MachineFile
 from abu_calc.inputs.reading.table import Table
 from abu_calc.inputs.scene import SceneFile
@@ -20,20 +19,15 @@ _DROPPED: Final = ("title", "examples", "$defs")
 def machine_schema() -> dict[str, Any]:
     """The schema of machine files: a machine whole, or bearings alone."""
     kinds = [{"$ref": f"#/definitions/{name}"} for name in (MACHINE, BearingFile.__name__)]
-    return _schema("machine", MachineFile, BearingFile) | {"anyOf": kinds}
+    return schema_of("machine", MachineFile, BearingFile) | {"anyOf": kinds}
 
 
 def scene_schema() -> dict[str, Any]:
     """The schema of scene files."""
-    return _schema("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}
+    return schema_of("scene", SceneFile) | {"allOf": [{"$ref": f"#/definitions/{SceneFile.__name__}"}]}
 
 
-def readings_schema() -> dict[str, Any]:
-    """The schema of files of readings."""
-    return _schema("readings", ReadingsFile) | {"allOf": [{"$ref": f"#/definitions/{ReadingsFile.__name__}"}]}
-
-
-def _schema(kind: str, *models: type[Table]) -> dict[str, Any]:
+def schema_of(kind: str, *models: type[Table]) -> dict[str, Any]:
     """Head and definitions of the schema of a kind of file."""
     _, schema = models_json_schema([(model, "validation") for model in models])
     bodies = {MACHINE if name == MachineFile.__name__ else name: body for name, body in schema["$defs"].items()}

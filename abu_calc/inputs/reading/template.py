@@ -5,7 +5,6 @@ from typing import Final
 
 from pydantic.fields import FieldInfo
 
-from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.table import Table, is_array, subtable
 from abu_calc.inputs.reading.text import key_path, shown
@@ -23,20 +22,16 @@ def template() -> str:
 
     Required keys carry example values, keys with a default carry it, all others are commented out.
     """
-    return _text("machine", MachineFile)
+    return template_of("machine", MachineFile)
 
 
 def scene_template() -> str:
     """The text of a complete scene file, likewise."""
-    return _text("scene", SceneFile)
+    return template_of("scene", SceneFile)
 
 
-def readings_template() -> str:
-    """The text of a complete file of readings, likewise."""
-    return _text("readings", ReadingsFile)
-
-
-def _text(kind: str, model: type[Table]) -> str:
+def template_of(kind: str, model: type[Table]) -> str:
+    """Text of a complete file of a kind, made from its model."""
     return "\n".join([*_comment(HEAD.format(kind=kind)), *_tables(model, (), live=True)]) + "\n"
 
 
