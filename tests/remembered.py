@@ -15,7 +15,15 @@ import pytest
 
 from abu_calc.inputs.reading.document import FileReading
 
-STUDIES = ("effects", "grinding", "levels", "simulate", "size", "stability")
+STUDIES = {
+    "effects": "effects",
+    "grinding": "grinding",
+    "levels": "levels",
+    "simulate": "simulate",
+    "size": "design",
+    "stability": "stability",
+}
+"""Folders of the studies that tests share, by their commands."""
 NO_MATTER = {"progress", "workers"}
 """Arguments that change nothing in a result."""
 
@@ -34,14 +42,16 @@ def remembered() -> Iterator[None]:
     """A study of the same file, entries and arguments is not made anew; for tests that patch nothing of it."""
     with pytest.MonkeyPatch.context() as patch:
         for name in STUDIES:
-            module = importlib.import_module(f"abu_calc.studies.{name}")
+            module = importlib.import_module(f"abu_calc.features.{STUDIES[name]}.study")
             patch.setattr(module, name, partial(_recalled, getattr(module, name)))
         yield
 
 
 def recalled(name: str, reading: FileReading, *arguments: Any, **named: Any) -> Any:
     """What the study of this name returns, for tests of what is made of it."""
-    return _recalled(getattr(importlib.import_module(f"abu_calc.studies.{name}"), name), reading, *arguments, **named)
+    return _recalled(
+        getattr(importlib.import_module(f"abu_calc.features.{STUDIES[name]}.study"), name), reading, *arguments, **named
+    )
 
 
 def _recalled(study: Callable[..., Any], source: Any, *arguments: Any, **named: Any) -> Any:

@@ -45,7 +45,7 @@ class Sign(NamedTuple):
 @cache
 def signs() -> dict[str, Sign]:
     """All of them."""
-    text = Path(__file__).with_name("signs.toml").read_text(encoding="utf-8")
+    text = Path(__file__).with_name("symbols.toml").read_text(encoding="utf-8")
     return {name: Sign(*entry) for name, entry in tomllib.loads(text).items()}
 
 

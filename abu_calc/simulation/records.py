@@ -4,13 +4,14 @@ The SI numbers and states of a scene that is integrated, and what it is in words
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field
 from typing import Annotated, Any, ClassVar, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.stability.boundaries import Boundary
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
 from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.simulation.effect_selection import EffectAudit as AuditRun
@@ -298,3 +299,17 @@ class SimulatedScene(Record):
             settling_estimates=settling_estimates,
             audit=None if audit is None else Audit.of(audit),
         )
+
+
+@record
+class StabilityBoundary(Record):
+    """A speed at which the balanced state gains or loses its stability."""
+
+    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
+    stable_above: Annotated[bool, Quantity("stable above it")]
+
+
+def stability_boundaries(limits: Sequence[Boundary]) -> tuple[StabilityBoundary, ...]:
+    """Speeds where stability changes."""
+    return tuple(StabilityBoundary(speed_rpm=from_si(limit.speed, "rpm"), stable_above=limit.stable_above)
+                 for limit in limits)  # fmt: skip

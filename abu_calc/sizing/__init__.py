@@ -1,6 +1,6 @@
 """The pipeline of `abu size`: one step after another, then their checks in the order a reader wants them.
 
-Steps that few files ask for (bearing seats, swing arm) are imported when they are.
+Steps of the swing arm are imported only if the machine has one.
 """
 
 from dataclasses import replace
@@ -19,7 +19,6 @@ from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.seats import BearingSeats
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 __all__ = ["Design", "instead", "size"]
@@ -44,7 +43,7 @@ def instead(design: Design, candidate: Candidate, why: str) -> Design:
 
 
 def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> Design:
-    machine, best = case.table, choice.best
+    best = choice.best
     frequency = frequency_region(case, best.ball_mass, best.mass)
     race = track(case, best, frequency.natural_frequencies)
     others = tuple(track(case, runner_up, frequency.natural_frequencies) for runner_up, _ in choice.runners_up)
@@ -52,7 +51,7 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     worst = worst_residuals(case, imbalance.value, best)
     levels = speed_levels(case, imbalance.value, best, worst, frequency.balancing_possible)
     loaded = loaded_vibration(case, imbalance.value, best, frequency.balancing_possible)
-    seats, arm = _seats(machine), _arm(case, imbalance.value, best)
+    arm = _arm(case, imbalance.value, best)
     advice = drawing(case, best, race)
     checks = (
         frequency.check,
@@ -62,11 +61,10 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
         *vibration_checks(case, imbalance.value, best, idle, levels, worst),
         *power_checks(case),
         *(arm.checks if arm else ()),
-        *(check for bearing in seats for check in bearing.checks),
     )
     warnings = design_warnings(case, best, loaded)
     return Design(
-        case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, seats, arm, advice, checks,
+        case, frequency, imbalance, choice, race, others, idle, worst, levels, loaded, arm, advice, checks,
         warnings,
     )  # fmt: skip
 
@@ -77,14 +75,6 @@ def _motor(case: Case) -> tuple[Check, ...]:
     from abu_calc.sizing.operating_speed import motor_checks
 
     return motor_checks(case)
-
-
-def _seats(machine: MachineFile) -> "tuple[BearingSeats, ...]":
-    if not machine.bearing:
-        return ()
-    from abu_calc.features.seats.seats import seat_bearings
-
-    return seat_bearings(machine.bearing)
 
 
 def _arm(case: Case, imbalance: float, candidate: Candidate) -> "SwingArmBounds | None":

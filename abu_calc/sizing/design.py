@@ -19,7 +19,6 @@ from abu_calc.sizing.track import Track, track
 from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, VibrationLevels, WorstResidual, worst_residuals
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.seats import BearingSeats
     from abu_calc.sizing.swing_arm import SwingArmBounds
 
 
@@ -37,7 +36,6 @@ class Design:
     worst: tuple[WorstResidual, ...]
     speed_levels: SpeedLevels | None
     loaded: LevelsUnderLoad | None
-    seats: "tuple[BearingSeats, ...]"
     swing_arm: "SwingArmBounds | None"
     drawing: tuple[DrawingRequirement, ...]
     checks: tuple[Check, ...]
@@ -73,7 +71,7 @@ def built(design: Design, machine: MachineFile) -> Design:
     return replace(
         design, case=case, frequency=frequency, imbalance=imbalance, choice=replace(design.choice, best=made),
         track=track(case, made, frequency.natural_frequencies), runner_up_tracks=(), worst=(), speed_levels=None,
-        loaded=None, seats=(), swing_arm=None, drawing=(), checks=(), warnings=(),
+        loaded=None, swing_arm=None, drawing=(), checks=(), warnings=(),
     )  # fmt: skip
 
 

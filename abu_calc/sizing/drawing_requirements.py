@@ -71,20 +71,37 @@ def _race(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequir
     return (
         DrawingRequirement("race", f"{race} at the bottom (capacity only)", 0.0),
         DrawingRequirement("groove", f"{_across(track.groove_radius)} (shakes out friction, no level of its own)", 0.0),
-        DrawingRequirement("race to bore, all in", f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm) with bore "
-               "clearance and spindle; grind bore and race in one set-up", _cost(others, case.race_eccentricity)),
-        DrawingRequirement("race circularity", f"{_um(OVALITY)} µm; two lobes of {_um(OVALITY / 2)} µm leave {_um(OVALITY)} µm",
-               _cost(budget.residual, OVALITY)),
-        DrawingRequirement("race waviness", "n_k lobes of amplitude a_k leave n_k·a_k: 5 × 0.5 µm",
-               _cost(budget.residual, WAVINESS)),
-        DrawingRequirement("race surface", f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: one of {_um(DENT)} µm depth holds a ball",
-               _cost(budget.residual, DENT * candidate.pitch_radius / _dent_half_width(candidate))),
-        DrawingRequirement("race hardness", f"{HARDNESS}, case ≥ {_mm(CASE_DEPTH)} mm after grinding (given: "
-               f"{abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
-               _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction)),
-        DrawingRequirement("rolling friction", f"lever arm ≤ {1e3 * abu.rolling_friction_mm:g} µm: hard, ground, clean, oiled",
-               _cost(smooth, budget.rolling_friction)),
-    )  # fmt: skip
+        DrawingRequirement(
+            "race to bore, all in",
+            f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm) with bore "
+            "clearance and spindle; grind bore and race in one set-up",
+            _cost(others, case.race_eccentricity),
+        ),
+        DrawingRequirement(
+            "race circularity",
+            f"{_um(OVALITY)} µm; two lobes of {_um(OVALITY / 2)} µm leave {_um(OVALITY)} µm",
+            _cost(budget.residual, OVALITY),
+        ),
+        DrawingRequirement(
+            "race waviness", "n_k lobes of amplitude a_k leave n_k·a_k: 5 × 0.5 µm", _cost(budget.residual, WAVINESS)
+        ),
+        DrawingRequirement(
+            "race surface",
+            f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: one of {_um(DENT)} µm depth holds a ball",
+            _cost(budget.residual, DENT * candidate.pitch_radius / _dent_half_width(candidate)),
+        ),
+        DrawingRequirement(
+            "race hardness",
+            f"{HARDNESS}, case ≥ {_mm(CASE_DEPTH)} mm after grinding (given: "
+            f"{abu.race_hardness_HRC:g}); a soft race has a lever arm of {_um(SOFT_ARM)} µm",
+            _cost(smooth, max(1.0, SOFT_ARM / arm) * budget.rolling_friction),
+        ),
+        DrawingRequirement(
+            "rolling friction",
+            f"lever arm ≤ {1e3 * abu.rolling_friction_mm:g} µm: hard, ground, clean, oiled",
+            _cost(smooth, budget.rolling_friction),
+        ),
+    )
 
 
 def _across(groove: float | None) -> str:
@@ -99,21 +116,29 @@ def _seat_and_balls(case: Case, candidate: Candidate) -> tuple[DrawingRequiremen
     return (
         DrawingRequirement("bore and spindle", f"bore {BORE}, spindle {SPINDLE}{play}", cost),
         DrawingRequirement("balls", "of one lot, grade 20 (ISO 3290): 0.5 µm of diameter, which they balance", 0.0),
-        DrawingRequirement("housing without balls", "balanced to G6.3 (ISO 21940-11), the rest is balanced by the balls", 0.0),
-    )  # fmt: skip
+        DrawingRequirement(
+            "housing without balls", "balanced to G6.3 (ISO 21940-11), the rest is balanced by the balls", 0.0
+        ),
+    )
 
 
 def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequirement, ...]:
     oval = candidate.roundness
     optimum = "" if track.optimum_drag is None else f" (optimum {track.optimum_drag:.0f})"
     return (
-        DrawingRequirement("oil", f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
-               "to 50 by slip, more when cold; state grade and volume"),
-        DrawingRequirement("web and cover", "both must carry the wall, the cover without clearance: the race's two lobes then "
-               f"leave {_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))}; a free "
-               f"ring would go oval by {_um(oval.free_ring)}"),
+        DrawingRequirement(
+            "oil",
+            f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
+            "to 50 by slip, more when cold; state grade and volume",
+        ),
+        DrawingRequirement(
+            "web and cover",
+            "both must carry the wall, the cover without clearance: the race's two lobes then "
+            f"leave {_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))}; a free "
+            f"ring would go oval by {_um(oval.free_ring)}",
+        ),
         DrawingRequirement("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
-    )  # fmt: skip
+    )
 
 
 def _um(length: float) -> str:

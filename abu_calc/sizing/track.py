@@ -75,23 +75,50 @@ def track_checks(case: Case, imbalance: float, candidate: Candidate, race: Track
     hoop, limit = from_si(stress.hoop_stress, "MPa"), from_si(stress.permitted_hoop, "MPa")
     top = f"{from_si(case.speed_range[1], 'rpm'):.6g} rpm"
     checks = [
-        coded("ABU301", verdict(pressure <= permitted), f"Hertz pressure of a ball at {top}, against 5.2·HV, "
-              "which leaves no dent (assumed rule)", pressure, permitted, "MPa",
-              None if pressure <= permitted else trials.remedy(case, imbalance, trials.harder(case), _bears)),
-        coded("ABU302", verdict(hardness >= LEAST_HARDNESS_HRC), "a soft race dents, and dents hold "
-              "the balls: machines with soft races gained nothing", hardness, LEAST_HARDNESS_HRC, "HRC",
-              None if hardness >= LEAST_HARDNESS_HRC else "Harden the race to 60–63 HRC and grind it.", "least"),
-        coded("ABU303", verdict(hoop <= limit), f"spinning rim at {top} (limit assumed)", hoop, limit,
-              "MPa", None if hoop <= limit else trials.remedy(case, imbalance, trials.stronger(case), _bears)),
+        coded(
+            "ABU301",
+            verdict(pressure <= permitted),
+            f"Hertz pressure of a ball at {top}, against 5.2·HV, which leaves no dent (assumed rule)",
+            pressure,
+            permitted,
+            "MPa",
+            None if pressure <= permitted else trials.remedy(case, imbalance, trials.harder(case), _bears),
+        ),
+        coded(
+            "ABU302",
+            verdict(hardness >= LEAST_HARDNESS_HRC),
+            "a soft race dents, and dents hold the balls: machines with soft races gained nothing",
+            hardness,
+            LEAST_HARDNESS_HRC,
+            "HRC",
+            None if hardness >= LEAST_HARDNESS_HRC else "Harden the race to 60–63 HRC and grind it.",
+            "least",
+        ),
+        coded(
+            "ABU303",
+            verdict(hoop <= limit),
+            f"spinning rim at {top} (limit assumed)",
+            hoop,
+            limit,
+            "MPa",
+            None if hoop <= limit else trials.remedy(case, imbalance, trials.stronger(case), _bears),
+        ),
         _roundness(case, imbalance, candidate, top),
-    ]  # fmt: skip
+    ]
     if case.table.machine.spindle_axis == "horizontal":
         lowest, needed = from_si(case.speed_range[0], "rpm"), from_si(race.carry_over, "rpm")
         checks.append(
-            coded("ABU102", verdict(lowest > needed), "the lowest speed carries the balls round the "
-                  "horizontal spindle", lowest, needed, "rpm",
-                  None if lowest > needed else "Raise the lowest speed, or enlarge the race.", "least")
-        )  # fmt: skip
+            coded(
+                "ABU102",
+                verdict(lowest > needed),
+                "the lowest speed carries the balls round the horizontal spindle",
+                lowest,
+                needed,
+                "rpm",
+                None if lowest > needed else "Raise the lowest speed, or enlarge the race.",
+                "least",
+            )
+        )
     return tuple(checks)
 
 
@@ -109,8 +136,15 @@ def _roundness(case: Case, imbalance: float, candidate: Candidate, top: str) -> 
         permitted_displacement(case, candidate.mass, case.speed_range[1]),
     )
     drawn = f"{from_si(oval_rest(candidate.roundness.lobes), 'um'):.3g} µm"
-    return coded("ABU304", verdict(candidate.stays_round), "what the two lobes leave of a race that two opposite balls make "
-        f"oval, held by one web alone, at {top}; {drawn} as drawn, the cover carrying the wall", from_si(left, "um"),
-        from_si(permitted, "um"), "µm", None if candidate.stays_round else
-        trials.remedy(case, imbalance, trials.rounder(case), lambda _, other: other.stays_round),
-    )  # fmt: skip
+    return coded(
+        "ABU304",
+        verdict(candidate.stays_round),
+        "what the two lobes leave of a race that two opposite balls make "
+        f"oval, held by one web alone, at {top}; {drawn} as drawn, the cover carrying the wall",
+        from_si(left, "um"),
+        from_si(permitted, "um"),
+        "µm",
+        None
+        if candidate.stays_round
+        else trials.remedy(case, imbalance, trials.rounder(case), lambda _, other: other.stays_round),
+    )

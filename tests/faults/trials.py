@@ -43,14 +43,42 @@ runs = 16
 "scene.speed_rpm" = "uniform(6, 24)"
 """
 MODULES = (
-    "sqlite3", "numpy", "numpy.linalg", "numpy.random", "scipy", "scipy._lib._ccallback", "scipy.special",
-    "scipy.special._ufuncs", "scipy.stats", "scipy.stats._qmc", "scipy.linalg", "scipy.linalg._fblas", "scipy.sparse",
-    "scipy.optimize", "scipy.integrate", "scipy.integrate._vode", "scipy.spatial", "scipy.interpolate", "pydantic",
-    "pydantic_core", "typer", "tomllib", "uuid", "abu_calc.cli.app", "abu_calc.features.sweep.command", "abu_calc.features.sweep.study",
-    "abu_calc.features.sweep.store", "abu_calc.features.sweep.answers", "abu_calc.inputs.scene",
-    "abu_calc.dynamics.equations.assemble", "abu_calc.dynamics.integrators.choice", "abu_calc.features.sweep.view",
-    "concurrent.futures", "abu_calc.features.sweep.sample_run", "abu_calc.simulation.scene_of_file",
-)  # fmt: skip
+    "sqlite3",
+    "numpy",
+    "numpy.linalg",
+    "numpy.random",
+    "scipy",
+    "scipy._lib._ccallback",
+    "scipy.special",
+    "scipy.special._ufuncs",
+    "scipy.stats",
+    "scipy.stats._qmc",
+    "scipy.linalg",
+    "scipy.linalg._fblas",
+    "scipy.sparse",
+    "scipy.optimize",
+    "scipy.integrate",
+    "scipy.integrate._vode",
+    "scipy.spatial",
+    "scipy.interpolate",
+    "pydantic",
+    "pydantic_core",
+    "typer",
+    "tomllib",
+    "uuid",
+    "abu_calc.cli.app",
+    "abu_calc.features.sweep.command",
+    "abu_calc.features.sweep.study",
+    "abu_calc.features.sweep.store",
+    "abu_calc.features.sweep.answers",
+    "abu_calc.inputs.scene",
+    "abu_calc.dynamics.equations.assemble",
+    "abu_calc.dynamics.integrators.choice",
+    "abu_calc.features.sweep.view",
+    "concurrent.futures",
+    "abu_calc.features.sweep.sample_run",
+    "abu_calc.simulation.scene_of_file",
+)
 """Modules that a sweep loads, some of them while it computes its first members."""
 ENDED = {"SIGINT": {130, -signal.SIGINT}, "SIGTERM": {143, -signal.SIGTERM}}
 PATIENCE_S = 300.0
@@ -132,9 +160,14 @@ class Faults:
         """A command as a process of its own; `first`: where it looks for modules before anywhere else."""
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (first or ROOT, ROOT)))}
         return subprocess.Popen(
-            (sys.executable, "-m", "abu_calc", *words), env=environment, cwd=folder, stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, text=True, preexec_fn=_heed_interrupts,
-        )  # fmt: skip
+            (sys.executable, "-m", "abu_calc", *words),
+            env=environment,
+            cwd=folder,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            preexec_fn=_heed_interrupts,
+        )
 
 
 def _heed_interrupts() -> None:
@@ -190,9 +223,14 @@ def _limited(faults: Faults, folder: Path, draw: random.Random, what: str) -> No
     store, most = folder / "members.sqlite", draw.choice((1_000, 20_000, 33_000, 40_000, 60_000))
     words = (sys.executable, "-m", "abu_calc", *faults.words(store))
     done = subprocess.run(
-        words, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)), capture_output=True,
-        text=True, check=False, cwd=folder, env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )  # fmt: skip
+        words,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
     faults.tally.see(what, done.returncode, done.stderr)
     if done.returncode not in (0, 1) and (done.returncode != 2 or str(store) not in done.stderr):
         faults.tally.failures.append(f"{what} {most}: status {done.returncode}: {done.stderr[-300:]}")

@@ -33,8 +33,8 @@ TELLS: Final = (0.3, 0.05)
 def balance_checks(balancing: Found) -> tuple[Check, ...]:
     """Checks that there are numbers for."""
     return (
-        _planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing), *_permitted(balancing), *_agree(balancing),
-        *_trials(balancing), *_metal(balancing),
+        _planes(balancing), *_natural_frequencies(balancing), *_rigid(balancing), _sure(balancing),
+        *_permitted(balancing), *_agree(balancing), *_trials(balancing), *_metal(balancing),
     )  # fmt: skip
 
 

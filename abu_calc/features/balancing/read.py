@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError, Place, shortened
@@ -63,6 +63,20 @@ def readings_from(document: Document, overrides: "Sequence[Override]" = ()) -> R
                     remedy="put the file beside this one, or write its whole path",
                 )  # fmt: skip
     return readings
+
+
+def readings_template() -> str:
+    """Text of a complete file of readings; it reads back without error."""
+    from abu_calc.inputs.reading.template import template_of
+
+    return template_of("readings", ReadingsFile)
+
+
+def readings_schema() -> dict[str, Any]:
+    """The schema of files of readings."""
+    from abu_calc.inputs.reading.schema import schema_of
+
+    return schema_of("readings", ReadingsFile) | {"allOf": [{"$ref": f"#/definitions/{ReadingsFile.__name__}"}]}
 
 
 def _is_file(path: Path) -> bool:

@@ -49,7 +49,7 @@ def _blocks(result: "SizeResult", explain: bool) -> tuple[Block, ...]:
 
     if not explain:
         return size_blocks(result)
-    from abu_calc.features.explain.steps import explanation_blocks
+    from abu_calc.features.design.step_numbers import explanation_blocks
 
     return size_blocks(result) + explanation_blocks(result)
 

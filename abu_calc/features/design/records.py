@@ -3,11 +3,9 @@
 The parts of a sized design, as results hold them: SI in, user units out.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
-from abu_calc.dynamics.stability.boundaries import Boundary as SpeedLimit
 from abu_calc.features.design.region import TrueRegion
 from abu_calc.features.design.section import section
 from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
@@ -15,7 +13,7 @@ from abu_calc.formulas.friction_band import friction_band
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.autobalancer import Autobalancer as AutobalancerTable
-from abu_calc.simulation.records import finite
+from abu_calc.simulation.records import StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.vibration_records import HandleLevels
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.design import Design
@@ -36,20 +34,6 @@ from abu_calc.sizing.vibration import VibrationLevels as Levelled
 
 if TYPE_CHECKING:
     from abu_calc.features.design.section import TurnedPart
-
-
-@record
-class StabilityBoundary(Record):
-    """A speed at which the balanced state gains or loses its stability."""
-
-    speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
-    stable_above: Annotated[bool, Quantity("stable above it")]
-
-
-def stability_boundaries(limits: Sequence[SpeedLimit]) -> tuple[StabilityBoundary, ...]:
-    """Speeds where stability changes."""
-    return tuple(StabilityBoundary(speed_rpm=from_si(limit.speed, "rpm"), stable_above=limit.stable_above)
-                 for limit in limits)  # fmt: skip
 
 
 @record

@@ -1,16 +1,12 @@
-"""Drawings for the results of each command: the autobalancer's sheet first, then the sketches.
-
-A sheet to hand over: both views of the autobalancer, notes from the drawing table, list of parts, title block.
-"""
+"""A sheet to hand over: both views of the autobalancer, notes from the drawing table, list of parts, title block."""
 
 import textwrap
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final
 
 from abu_calc.features.design.section_drawing import bore_limits, described, face_view, section_view
-from abu_calc.features.seats.records import SeatResult
+from abu_calc.features.seats.figures import seats_of
 from abu_calc.reporting.drawings.dimensions import extent, fits, moved
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
@@ -26,11 +22,10 @@ from abu_calc.reporting.drawings.shapes import (
     plain,
     text_width,
 )
-from abu_calc.simulation.result import Result
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
-    from abu_calc.features.seats.study import CheckFitResult
+    from abu_calc.simulation.result import Result
 
 WIDE, HIGH = 420.0, 297.0
 """A3 [mm]."""
@@ -195,19 +190,4 @@ def arm_sheets(result: "SizeResult") -> tuple[Drawing, ...]:
         return ()
     from abu_calc.features.swing_arm.drawing import swing_arm_sketch
 
-    return (swing_arm_sketch(result, result.swing_arm),)
-
-
-def seat_sheets(result: "CheckFitResult") -> tuple[Drawing, ...]:
-    """One sketch for each bearing."""
-    return seats_of(result, result.seats)
-
-
-def seats_of(result: Result, seats: Sequence[SeatResult]) -> tuple[Drawing, ...]:
-    """Seats come in pairs, the shaft's first."""
-    if not seats:
-        return ()
-    from abu_calc.features.seats.figures import seats_sketch
-
-    pairs = list(pairwise(seats))[::2]
-    return tuple(seats_sketch(f"seats-{number}", result, *pair) for number, pair in enumerate(pairs, 1))
+    return (swing_arm_sketch(result, result.swing_arm, result.autobalancer.outer_diameter_mm / 2),)

@@ -1,9 +1,11 @@
 """The formulas of each step with the numbers of a sized machine put in: lines, or None where it has no such step."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Final
 
+from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.foundation.units import from_si
-from abu_calc.reporting.blocks import number
+from abu_calc.reporting.blocks import Block, Heading, number
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
@@ -102,3 +104,34 @@ def swing_arm(result: "SizeResult") -> Lines | None:
         f"makes it stand at every contact angle above c_sh = {_n(arm.joint_stiffness_standing_N_per_m)} N/m",
         f"T_a = {_n(arm.pressing_moment_N_m)} > {_n(arm.least_pressing_moment_N_m)} N·m; N = {_n(arm.press_force_N)} N",
     )
+
+
+NUMBERS: Final[Mapping[str, Callable[["SizeResult"], Lines | None]]] = {
+    "frequency": frequency,
+    "imbalance": imbalance,
+    "mass": mass,
+    "capacity": capacity,
+    "budget": budget,
+    "balls": balls,
+    "track": track,
+    "vibration": vibration,
+    "levels": lambda result: (),
+    "grinding": lambda result: (),
+    "seats": seats,
+    "swing-arm": swing_arm,
+    "simulation": lambda result: (),
+}
+"""Functions from a result to the lines of a step with its numbers, by the names of the steps that `abu size` has.
+
+None: that machine has no such step.
+"""
+
+
+def explanation_blocks(result: "SizeResult") -> tuple[Block, ...]:
+    """Every step that the result has, formulas and numbers."""
+    blocks: list[Block] = [Heading("FORMULAS, WITH THE NUMBERS OF THIS MACHINE")]
+    for name, step in STEPS.items():
+        numbers = NUMBERS[name](result) if name in NUMBERS else None
+        if numbers is not None:
+            blocks += step_blocks(step, numbers)
+    return tuple(blocks)

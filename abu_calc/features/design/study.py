@@ -33,6 +33,7 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si
 from abu_calc.foundation.validity import Range
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
@@ -48,6 +49,7 @@ from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 
 if TYPE_CHECKING:
+    from abu_calc.features.seats.seats import BearingSeats
     from abu_calc.features.swing_arm.verdict import ArmJudgement
 
 
@@ -168,6 +170,7 @@ def size(
     WORKERS.check(1 if workers is None else workers)
     tables = machine.whole("size")
     with machine.located():
+        seats = _seats(tables)
         threads = processors() if workers is None else workers
         tried = proven(size_design(tables), accuracy=accuracy, progress=progress, workers=threads)
         design = tried.design
@@ -186,7 +189,7 @@ def size(
     return SizeResult(
         title=tables.machine.name,
         checks=(
-            *_checks(tried, arm),
+            *_checks(tried, [check for bearing in seats for check in bearing.checks], arm),
             *stays,
             region.check,
             *(
@@ -228,7 +231,7 @@ def size(
         simulation=tuple(
             SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
         ),
-        fits=tuple(seat for bearing in design.seats for seat in seat_results(bearing)),
+        fits=tuple(seat for bearing in seats for seat in seat_results(bearing)),
         swing_arm=None if arm is None else SwingArmRecord.of(arm),
         arm_motion=moved,
         drawing=tuple(
@@ -241,7 +244,16 @@ def size(
     )
 
 
-def _checks(tried: Proven, arm: "ArmJudgement | None") -> Iterator[Check]:
+def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":
+    """Bearing seats of the machine, judged."""
+    if not tables.bearing:
+        return ()
+    from abu_calc.features.seats.seats import seat_bearings
+
+    return seat_bearings(tables.bearing)
+
+
+def _checks(tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | None") -> Iterator[Check]:
     """Checks of the sizing, the level by its worst start case and the arm's checks as they were judged."""
     held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
     for check in tried.design.checks:
@@ -249,6 +261,7 @@ def _checks(tried: Proven, arm: "ArmJudgement | None") -> Iterator[Check]:
             yield with_searched(level_check(check, tried.ensemble, tried.remedy), tried.searched, tried.design)
         else:
             yield held.pop(check.code, check)
+    yield from seat_checks
     yield from held.values()
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from abu_calc.features.design.figures import size_charts
-from abu_calc.features.design.records import AutobalancerRecord, Frequency, StabilityBoundary, Vibration
+from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
 from abu_calc.features.design.screen import about, balls, numbers_that_matter, section_picture
 from abu_calc.features.design.starts import SettlingOfStart
 from abu_calc.features.design.study import SizeResult
@@ -21,7 +21,7 @@ from abu_calc.reporting.parts import (
     value_of,
     warning_blocks,
 )
-from abu_calc.simulation.records import SimulatedScene
+from abu_calc.simulation.records import SimulatedScene, StabilityBoundary
 
 CONVENTIONS = (
     "Amplitudes are 0–peak, velocities of levels rms, levels 20 lg(v / 5e-8 m/s) in the louder of x and y; "

@@ -1,31 +1,23 @@
-"""Steps, formulas and checks explained, and with a result the numbers put in.
+"""Explanations of steps, formulas and checks.
 
-What a formula says of itself (equation, units, range, source, where the print differs) is registered where it stands.
-
-The steps of sizing as `abu explain` shows them: the formulas of each, and how the numbers of a result go in.
+Equation, units, range, source and misprints of a formula are registered beside its function.
 """
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Final
+from collections.abc import Mapping
+from typing import Final
 
-from abu_calc.features.design import step_numbers
 from abu_calc.foundation.checks import CheckCode
 from abu_calc.foundation.formula import Formula, formula_of
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
 
-if TYPE_CHECKING:
-    from abu_calc.features.design.study import SizeResult
-
 
 @dataclass(frozen=True)
 class Step:
-    """A step of sizing: the keys of its registered formulas, and lines with the numbers of a result put in."""
+    """A step of sizing: its title and the keys of its registered formulas."""
 
     title: str
     keys: tuple[str, ...]
-    numbers: "Callable[[SizeResult], step_numbers.Lines | None]" = lambda result: ()
-    """None: that machine has no such step."""
 
     @property
     def formulas(self) -> tuple[Formula, ...]:
@@ -47,7 +39,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.slow_motion:damped_drag",
             "formulas.slow_motion:gravity_drag",
         ),
-        step_numbers.frequency,
     ),
     "imbalance": Step(
         "Imbalance",
@@ -56,12 +47,14 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.instruments:velocity_shown",
             "standards.vibration:permissible_imbalance",
         ),
-        step_numbers.imbalance,
     ),
     "mass": Step(
         "Mass that moves",
-        ("sizing.case:RigidMachine.inertance", "sizing.case:RigidMachine.effective_mass", "formulas.suspension:Hands"),
-        step_numbers.mass,
+        (
+            "sizing.case:RigidMachine.inertance",
+            "sizing.case:RigidMachine.effective_mass",
+            "formulas.suspension:Hands",
+        ),
     ),
     "capacity": Step(
         "Required capacity",
@@ -71,7 +64,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.balls:SteadyContact.balancing_imbalance",
             "sizing.capacity:plane_ratio",
         ),
-        step_numbers.capacity,
     ),
     "budget": Step(
         "Accuracy budget",
@@ -82,7 +74,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.budget:permitted_displacement",
             "sizing.budget:plane_rest",
         ),
-        step_numbers.budget,
     ),
     "balls": Step(
         "Balls",
@@ -92,7 +83,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.balls:best_count",
             "sizing.balls:choose",
         ),
-        step_numbers.balls,
     ),
     "track": Step(
         "Track and housing",
@@ -113,7 +103,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.slow_motion:optimum_drag",
             "features.sweep.columns:drag_ratio",
         ),
-        step_numbers.track,
     ),
     "vibration": Step(
         "Vibration level",
@@ -123,7 +112,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "sizing.budget:displacement_level",
             "sizing.drawing_requirements:extra_level",
         ),
-        step_numbers.vibration,
     ),
     "levels": Step(
         "Levels as instruments show them, weighted acceleration, exposure",
@@ -167,7 +155,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.seats.drawing_requirements:seat_repair",
             "features.seats.notes:load_intensity",
         ),
-        step_numbers.seats,
     ),
     "swing-arm": Step(
         "Swing arm",
@@ -191,7 +178,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.swing_arm:free_rates",
             "formulas.swing_arm:averaged_edge",
         ),
-        step_numbers.swing_arm,
     ),
     "balance": Step(
         "Balancing in two planes (`abu balance`)",
@@ -206,7 +192,6 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.balancing.formulas:bar_bending_speed",
             "features.balancing.formulas:printed_answer",
         ),
-        lambda result: None,
     ),
     "simulation": Step(
         "Simulation",
@@ -214,16 +199,6 @@ STEPS: Final[Mapping[str, Step]] = {
     ),
 }
 """Steps in the order of the pipeline."""
-
-
-def explanation_blocks(result: "SizeResult") -> tuple[Block, ...]:
-    """Every step that the result has, formulas and numbers."""
-    blocks: list[Block] = [Heading("FORMULAS, WITH THE NUMBERS OF THIS MACHINE")]
-    for step in STEPS.values():
-        numbers = step.numbers(result)
-        if numbers is not None:
-            blocks += step_blocks(step, numbers)
-    return tuple(blocks)
 
 
 def step_blocks(step: Step, numbers: tuple[str, ...] = ()) -> list[Block]:

@@ -181,7 +181,7 @@ def _note(result: "CheckFitResult") -> tuple[Block, ...]:
 
 
 def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
-    from abu_calc.features.design.sheet import seat_sheets
+    from abu_calc.features.seats.figures import seat_sheets
 
     return seat_sheets(result)
 

@@ -10,9 +10,9 @@ Tolerance zones of both seats of a bearing about the zero line, to scale in µm,
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Final, NamedTuple
 
-from abu_calc.features.design.sheet import seats_of
 from abu_calc.features.seats.records import Clearance, Pair, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.view import Seats, by_bearing
@@ -34,6 +34,17 @@ from abu_calc.reporting.drawings.shapes import (
     fitted,
 )
 from abu_calc.simulation.result import Result
+
+
+def seat_sheets(result: CheckFitResult) -> tuple[Drawing, ...]:
+    """One sketch for each bearing."""
+    return seats_of(result, result.seats)
+
+
+def seats_of(result: Result, seats: Sequence[SeatResult]) -> tuple[Drawing, ...]:
+    """Sketches of the seats of each bearing; seats come in pairs, the shaft's first."""
+    pairs = list(pairwise(seats))[::2]
+    return tuple(seats_sketch(f"seats-{number}", result, *pair) for number, pair in enumerate(pairs, 1))
 
 
 def seat_figures(result: Result, seats: Sequence[SeatResult]) -> Iterator[Figure]:

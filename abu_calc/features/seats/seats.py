@@ -275,3 +275,8 @@ def _as_shown(key: str, value: object) -> tuple[str, ...]:
         return (str(value),)
     sizes = (SI_PER_UNIT[unit] for unit in SI_PER_UNIT if key.endswith(f"_{unit}"))
     return (f"{value:g}", *(f"{value * size:g}" for size in sizes))
+
+
+def bearing_checks(tables: "Sequence[BearingTable]") -> tuple[Check, ...]:
+    """Checks of all bearings of a file."""
+    return tuple(check for bearing in seat_bearings(tables) for check in bearing.checks)

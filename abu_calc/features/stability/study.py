@@ -17,7 +17,6 @@ from abu_calc.dynamics.stability.boundaries import Boundary, boundaries, crossin
 from abu_calc.dynamics.stability.stall import HangingBounds, hanging_bounds
 from abu_calc.dynamics.stability.verdict import Stability, critical_damping
 from abu_calc.dynamics.stability.verdict import stability as judged
-from abu_calc.features.design.records import StabilityBoundary, stability_boundaries
 from abu_calc.features.stability.disturbed import DISTURBANCE, Consequence
 from abu_calc.features.swing_arm.records import ArmMotion, SwingArmRecord
 from abu_calc.foundation.checks import Check, verdict
@@ -26,7 +25,7 @@ from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import from_si, to_si, wrapped_deg
 from abu_calc.simulation.arguments import checked, one_of
-from abu_calc.simulation.records import SceneModel, finite
+from abu_calc.simulation.records import SceneModel, StabilityBoundary, finite, stability_boundaries
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.subject import Source, Subject, subject_of
 

@@ -9,7 +9,6 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from abu_calc.features.design.records import StabilityBoundary
 from abu_calc.features.explain.steps import STEPS, Step, step_blocks
 from abu_calc.features.stability.study import Crossing, GrowthAt, Hanging, StabilityResult
 from abu_calc.features.swing_arm.view import BOUNDS, arm_bounds, arm_line, motion_blocks, printed_otherwise
@@ -18,6 +17,7 @@ from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot, alik
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened
+from abu_calc.simulation.records import StabilityBoundary
 
 CHANGES = "Speeds where stability changes"
 FORBIDDEN = (

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from abu_calc.features.design.study import WORKERS
+from abu_calc.features.seats.seats import bearing_checks
 from abu_calc.features.sweep import answers
 from abu_calc.features.sweep import tolerance_costs as worth
 from abu_calc.features.sweep.cluster import software, versions
@@ -168,8 +169,13 @@ def _identity(plan: Plan, accuracy: float) -> dict[str, Any]:
 
 
 def _computed(
-    plan: Plan, store: Store, source: Machine | SceneDescription, hands: Workers, command: str | None, progress: Progress,
-) -> None:  # fmt: skip
+    plan: Plan,
+    store: Store,
+    source: Machine | SceneDescription,
+    hands: Workers,
+    command: str | None,
+    progress: Progress,
+) -> None:
     facts = {
         "file": source.file,
         "sha256": source.sha256,
@@ -189,9 +195,14 @@ def _computed(
 
 
 def _answered(
-    plan: Plan, ask: SweepRequest, store: Store, source: Machine | SceneDescription, members: Members, path: Path | None,
+    plan: Plan,
+    ask: SweepRequest,
+    store: Store,
+    source: Machine | SceneDescription,
+    members: Members,
+    path: Path | None,
     again: Compute,
-) -> SweepResult:  # fmt: skip
+) -> SweepResult:
     study, sample = plan.study, plan.study.sample
     failed, late = answers.failed(store), answers.left_out(store)
     if (
@@ -291,7 +302,8 @@ def _limits(plan: Plan) -> dict[str, float]:
 def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -> list[str]:
     """Warnings about answers that rest on little."""
     notes = []
-    failing = [check.code for check in plan.design.checks if check.status == "fail"] if plan.design else []
+    checks = (*plan.design.checks, *bearing_checks(plan.design.case.table.bearing)) if plan.design else ()
+    failing = [check.code for check in checks if check.status == "fail"]
     if failing:
         notes.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
     rows = plan.study.sample.base

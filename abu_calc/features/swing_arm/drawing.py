@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterator
 
-from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.records import SwingArmRecord
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.drawings.dimensions import leader, scale_for, sketch
@@ -20,15 +19,16 @@ from abu_calc.reporting.drawings.shapes import (
     Text,
     digits,
 )
+from abu_calc.simulation.result import Result
 
 
-def swing_arm_sketch(result: SizeResult, arm: SwingArmRecord) -> Drawing:
+def swing_arm_sketch(result: Result, arm: SwingArmRecord, radius_mm: float) -> Drawing:
     """The arm where its wheel touches the work, to scale in its length, wheel and angles."""
     wheel = arm.wheel_diameter_mm / 2
     scale = scale_for(arm.arm_length_mm + wheel, SCALES)
     shapes = (
         *_joint(scale),
-        *_arm(arm, result.autobalancer.outer_diameter_mm / 2),
+        *_arm(arm, radius_mm),
         *_work(arm, scale),
         *_dimensions(arm, scale),
         *_bounds(arm, scale),

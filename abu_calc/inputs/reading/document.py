@@ -120,7 +120,7 @@ def said(value: object) -> str:
     return bounded(value) if isinstance(value, (int, float)) else str(value)
 
 
-__all__ = ["LARGEST_FILE", "Document", "Reading", "named", "open_document", "parsed_overrides", "validate"]
+__all__ = ["LARGEST_FILE", "Document", "FileReading", "named", "open_document", "parsed_overrides", "validate"]
 
 Model = TypeVar("Model", bound=Table)
 

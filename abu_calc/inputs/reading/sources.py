@@ -16,7 +16,7 @@ SUFFIX: Final = ".toml"
 
 def folder() -> Path:
     """Folder of the presets: inside the installed package, or beside it in a checkout."""
-    package = Path(__file__).resolve().parent.parent
+    package = Path(__file__).resolve().parents[2]
     inside = package / "presets"
     return inside if inside.is_dir() else package.parent / "presets"
 

@@ -30,12 +30,12 @@ STEPS: Final = 24
 """Chords of an arc of an outline."""
 
 
-def sheet(drawing: Drawing) -> "Figure":
+def sheet(drawing: Drawing) -> "Drawn":
     """Sheet as large as it is on paper."""
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Drawn
 
     wide, high = drawing.size
-    figure = Figure((wide / INCH, high / INCH))
+    figure = Drawn((wide / INCH, high / INCH))
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_xlim(0, wide)
     axes.set_ylim(0, high)

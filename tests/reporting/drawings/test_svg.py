@@ -206,7 +206,7 @@ def test_drawing_seats_loads_no_numerics(tmp_path: Path) -> None:
 
 def test_sizes_and_limits_of_the_knife_shaft_s_seats() -> None:
     """Afanasiev 2015: Ø80 k6 is +21/+2, Ø140 K7 is +12/−28; by ISO 286 Ø80 m6 is +30/+11, Ø140 H7 +40/0."""
-    from abu_calc.features.design.sheet import seat_sheets
+    from abu_calc.features.seats.figures import seat_sheets
 
     drawn = []
     for drawing in seat_sheets(check_fit(read_machine("mmg-3200k-knife-shaft")))[:2]:

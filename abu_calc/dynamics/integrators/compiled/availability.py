@@ -16,8 +16,7 @@ from functools import cache
 from typing import Final
 
 from abu_calc.dynamics.equations.assemble import Equations
-from abu_calc.dynamics.integrators.compiled import code
-from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
+from abu_calc.dynamics.integrators.compiled import code, llvm_engine
 from abu_calc.dynamics.integrators.compiled.kernels import Method
 from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache, CompilerError
 from abu_calc.dynamics.integrators.compiled.program import in_order
@@ -37,15 +36,15 @@ def passed() -> None:
     """Raise CompilerError unless the trial was passed, now or before, or is not needed here."""
     if sys.platform in TRIED:
         return
-    folder, key = Cache.own(), hashlib.sha256(f"{__version__} {machine.described()}".encode()).hexdigest()
+    folder, key = Cache.own(), hashlib.sha256(f"{__version__} {llvm_engine.described()}".encode()).hexdigest()
     if folder.read(key) is None:
-        with machine.guarded("its trial"):
+        with llvm_engine.guarded("its trial"):
             words = [sys.executable, "-m", __name__]
             seen = subprocess.run(words, capture_output=True, timeout=LONGEST, check=False)
         folder.write(key, PASSED if seen.returncode == 0 else f"it ended with status {seen.returncode}".encode())
     record = folder.read(key)
     if record != PASSED:
-        raise machine.CompilerError(f"its trial: {'cannot be kept' if record is None else record.decode()}")
+        raise llvm_engine.CompilerError(f"its trial: {'cannot be kept' if record is None else record.decode()}")
 
 
 def main() -> None:
@@ -97,7 +96,7 @@ def loaded(equations: Equations, method: Method) -> bool:
 
 
 def load(equations: Equations, method: Method) -> bool:
-    """Make the code of a scene. False, with a warning once, where compiled code does not run on this machine."""
+    """Make the code of a scene. False, with a warning once, where compiled code does not run on this llvm_engine."""
     if not _failures and code.installed():
         try:
             passed()

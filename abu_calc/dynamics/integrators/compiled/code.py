@@ -14,19 +14,14 @@ import numpy as np
 from abu_calc.dynamics.codegen.tracer import cached
 from abu_calc.dynamics.equations.assemble import Equations
 from abu_calc.dynamics.equations.right_hand_side import rhs
-from abu_calc.dynamics.integrators.compiled import arrays
-from abu_calc.dynamics.integrators.compiled import llvm_engine as machine
-from abu_calc.dynamics.integrators.compiled import llvm_text as expressions
-from abu_calc.dynamics.integrators.compiled import llvm_text as writer
-from abu_calc.dynamics.integrators.compiled import translator as calls
-from abu_calc.dynamics.integrators.compiled import translator as language
+from abu_calc.dynamics.integrators.compiled import arrays, llvm_engine, llvm_text, translator
 from abu_calc.dynamics.integrators.compiled.kernels import Method, kernels, step_numbers
 from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache, CompilerError, LoadedModule
 from abu_calc.dynamics.integrators.compiled.program import EQUATIONS, Program, program
 from abu_calc.dynamics.parameters import Acting
 from abu_calc.version import __version__
 
-TRANSLATOR: tuple[ModuleType, ...] = (language, calls, expressions, writer, machine, arrays)
+TRANSLATOR: tuple[ModuleType, ...] = (translator, llvm_text, llvm_engine, arrays)
 
 NAMES = {"inf": math.inf}
 """Names that the compiled texts know besides their own."""
@@ -99,10 +94,10 @@ def _text(module: ModuleType) -> str:
     return Path(str(module.__file__)).read_text(encoding="utf-8")
 
 
-def _key(parts: list[language.Part]) -> str:
+def _key(parts: list[translator.Part]) -> str:
     """Key of all that the machine code depends on: texts, the numbers they name, translator, processor."""
-    rules: list[Any] = [__version__, machine.described(), *map(_text, TRANSLATOR)]
-    rules += [(text, sorted(language.numbers(names).items())) for text, names in parts]
+    rules: list[Any] = [__version__, llvm_engine.described(), *map(_text, TRANSLATOR)]
+    rules += [(text, sorted(translator.numbers(names).items())) for text, names in parts]
     return hashlib.sha256(repr(rules).encode()).hexdigest()
 
 
@@ -111,18 +106,18 @@ def _loop(method: Method) -> LoadedModule:
     if method in _loops:
         return LoadedModule(_loops[method])
     numbers = step_numbers(method)
-    parts: list[language.Part] = [(_text(kernel), vars(kernel) | numbers) for kernel in kernels(method)]
+    parts: list[translator.Part] = [(_text(kernel), vars(kernel) | numbers) for kernel in kernels(method)]
     module, _loops[method] = _module(parts, ("go",), _text(arrays))
     return module
 
 
-def _module(parts: list[language.Part], exported: tuple[str, ...], given: str = "") -> tuple[LoadedModule, bytes]:
+def _module(parts: list[translator.Part], exported: tuple[str, ...], given: str = "") -> tuple[LoadedModule, bytes]:
     """Machine code for some texts, loaded: from disk where it is there and whole."""
     folder, key = Cache.own(), _key(parts)
     kept = folder.read(key)
     if kept is not None:
         with contextlib.suppress(CompilerError):  # what cannot be loaded is made anew
             return LoadedModule(kept), kept
-    made = machine.compiled(language.translated(parts, exported, given))
+    made = llvm_engine.compiled(translator.translated(parts, exported, given))
     folder.write(key, made)
     return LoadedModule(made), made
