@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 
 import abu_calc
-from abu_calc.features.explain.steps import explanation_blocks
+from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.foundation.interruption import INTERRUPTED
 from abu_calc.reporting.blocks import number
 from abu_calc.simulation import design_scenes as machine

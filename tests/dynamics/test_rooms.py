@@ -34,21 +34,9 @@ from tests.house.newcomers.rail import Rail
 
 DYNAMICS = Path(abu_calc.dynamics.__file__).parent
 PACKAGE = DYNAMICS.parent
-ROOMS = ("", "supports", "equations", "switching", "effects", "tracing", "integrators", "slow", "balanced")
+ROOMS = ("", "supports", "equations", "switching", "effects", "codegen", "integrators", "averaging", "stability")
 """Of dynamics, in order; the first are its own files."""
-BELOW = {
-    "version",
-    "frozen",
-    "patience",
-    "escapes",
-    "errors",
-    "progress",
-    "roots",
-    "units",
-    "validity",
-    "standards",
-    "formulas",
-}
+BELOW = {"version", "foundation", "standards", "formulas"}
 
 
 def imports(path: Path) -> set[str]:
@@ -83,8 +71,8 @@ def test_a_room_imports_only_rooms_before_it(room):
             assert {module.split(".")[1] for module in files} <= BELOW | {"dynamics"}, path
 
 
-def test_no_file_of_dynamics_or_scenes_is_in_a_circle():
-    files = [*DYNAMICS.rglob("*.py"), *(PACKAGE / "scenes").rglob("*.py")]
+def test_no_file_of_dynamics_or_simulation_is_in_a_circle():
+    files = [*DYNAMICS.rglob("*.py"), *(PACKAGE / "simulation").rglob("*.py")]
     left = {path: {file_of(module) for module in imports(path)} & set(files) for path in files}
     while free := [path for path, needed in left.items() if not needed]:
         left = {path: needed - set(free) for path, needed in left.items() if path not in free}

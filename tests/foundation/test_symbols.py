@@ -4,9 +4,9 @@ import re
 import tomllib
 from pathlib import Path
 
-import abu_calc.signs
 import pytest
 
+import abu_calc.foundation.formula
 from abu_calc.features.explain.steps import STEPS
 from abu_calc.features.files.result_schema import RESULTS
 from abu_calc.foundation.formula import Formula, conversions, formula_of, in_files, signs, signs_in, told, unit_name
@@ -42,7 +42,7 @@ def test_no_two_things_have_one_sign_and_few_one_thing_two() -> None:
 
 
 def test_the_list_is_read_as_toml_would_be() -> None:
-    path = Path(abu_calc.foundation.formula.__file__).with_name("signs.toml")
+    path = Path(abu_calc.foundation.formula.__file__).with_name("symbols.toml")
     assert {name: [one.meaning, *filter(None, [one.unit])] for name, one in signs().items()} == tomllib.loads(
         path.read_text(encoding="utf-8")
     )

@@ -35,7 +35,7 @@ def add_churning(copy: Copy) -> None:
     copy.change(
         "abu_calc/dynamics/effects/registry.py",
         (behind, imported),
-        ('    ("gravity", Gravity),', '    ("churning", Churning),\n'),
+        ('    ("gravity", GravityEffect),', '    ("churning", Churning),\n'),
     )
     copy.change(
         "abu_calc/inputs/scene_effects.py",

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc import analysis
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.equations.assemble import Equations, assemble
 from abu_calc.dynamics.integrators.compiled.run import integrate
 from abu_calc.dynamics.scene import with_parted_balls
+from abu_calc.features.design import verification
 from abu_calc.features.design.verification import MachineChange, changes, other_drags, passes, proven
 from abu_calc.foundation.checks import Check, Grade, coded
 from abu_calc.inputs.duty import Motor
@@ -274,7 +274,7 @@ def test_another_candidate_where_the_best_does_not_pass(monkeypatch: pytest.Monk
     def simulated(one: Design, *given: object) -> Ensemble:
         return hangs if one is best else real(one, *given)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(analysis.proven, "simulate_members", simulated)
+    monkeypatch.setattr(verification, "simulate_members", simulated)
     free = proven(best)
     assert free.design.autobalancer == next(one for one, _ in best.choice.runners_up if sound(best.case, one))
     assert free.ensemble is not None

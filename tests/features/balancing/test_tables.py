@@ -9,16 +9,15 @@ from hypothesis import strategies as st
 from jsonschema import Draft4Validator
 
 import abu_calc
-from abu_calc.features.balancing.read import read_readings
+from abu_calc.features.balancing.read import read_readings, readings_schema, readings_template
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.read_machine import read_file
 from abu_calc.inputs.reading import sources as presets
 from abu_calc.inputs.reading.errors import SpecErrors
 from abu_calc.inputs.reading.kinds import KINDS, kind_of
-from abu_calc.inputs.reading.schema import readings_schema
 from abu_calc.inputs.reading.table import all_tables, usual_of
-from abu_calc.inputs.reading.template import WIDTH, readings_template
+from abu_calc.inputs.reading.template import WIDTH
 from tests.features.balancing.rig import BARE_ROTOR, RIG, ROTOR, written
 from tests.inputs.agreeing import check_schema, right_but_for_rules
 from tests.inputs.reading.test_schema import VALUES, places
