@@ -4,11 +4,13 @@ import math
 from collections.abc import Collection
 from dataclasses import replace
 
+import numpy as np
+
 from abu_calc.dynamics.effect import Effect
 from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.rotor import Rotation, most_demanding
 from abu_calc.dynamics.scene_context import Circumstances, Holding
-from abu_calc.dynamics.support import Support
+from abu_calc.dynamics.support import Array, Complex, Support
 from abu_calc.foundation.errors import InputError
 from abu_calc.foundation.frozen import dataclass
 
@@ -65,6 +67,25 @@ class Scene(Circumstances):
         """Holding by the first effect that holds balls."""
         holdings = (effect.holding(self) for effect in self.effects)
         return next((holding for holding in holdings if holding is not None), None)
+
+    def axis_place(self, states: Array, plane: float = 0.0) -> Array:
+        """Place x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, time].
+
+        On a swing arm: from the place where it lies along +x.
+        """
+        return self.support.axis(states[: len(self.support.names)], plane)
+
+    def axis_velocity(self, states: Array) -> Array:
+        """Velocity of the axis [m/s] in the plane of the centre of mass, for states [state, time]."""
+        size = len(self.support.names)
+        return self.support.axis_velocity(states[:size], states[size : 2 * size])
+
+    def total_imbalance(self, angles: Array) -> Complex:
+        """Imbalance of rotor and balls, m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m], for ball angles [ball, time]."""
+        total = np.full(angles.shape[1:], self.imbalance * np.exp(1j * self.imbalance_angle))
+        for static_moment, angle in zip(self.static_moments, angles, strict=True):
+            total += static_moment * np.exp(1j * angle)
+        return total
 
     def effect(self, name: str) -> Effect | None:
         """The effect of this name, if the scene has it."""

@@ -17,11 +17,9 @@ from abu_calc.simulation.response import (
     Course,
     Response,
     amplitude_window,
-    axis_velocity,
     evaluate,
     needed_times,
     settling_times,
-    total_imbalance,
 )
 
 LOOKS: Final = (0.1875, 0.25, 0.375, 0.5, 0.7)
@@ -142,7 +140,7 @@ class Early:
         if len(times) < 4 * HISTORY_SAMPLES_PER_REVOLUTION:
             return math.inf, math.inf
         states = samples.at(times)
-        left, speed = _over_turns(self._left(states)), _over_turns((axis_velocity(self.scene, states) ** 2).sum(axis=0))
+        left, speed = _over_turns(self._left(states)), _over_turns((self.scene.axis_velocity(states) ** 2).sum(axis=0))
         ahead = (self.scene.duration - end) / seen
         half = len(speed) // 2
         before, after = float(speed[:half].mean()), float(speed[half:].mean())
@@ -151,7 +149,7 @@ class Early:
 
     def _left(self, states: Array) -> np.ndarray:
         first = 2 * len(self.scene.support.names)
-        return total_imbalance(self.scene, states[first : first + len(self.scene.ball_masses)])
+        return self.scene.total_imbalance(states[first : first + len(self.scene.ball_masses)])
 
 
 def _over_turns(values: np.ndarray) -> np.ndarray:

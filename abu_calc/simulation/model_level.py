@@ -26,7 +26,7 @@ from abu_calc.formulas.slow_motion import decay_rate
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.simulation.nonconvergence import difference
-from abu_calc.simulation.response import settling_count, settling_time, total_imbalance
+from abu_calc.simulation.response import settling_count, settling_time
 
 LEADING, SLOWNESS = 0.5, 10.0
 """Weights in the error of the envelope: of what its last order changes, and of (rate of the balls/gap)². Calibrated
@@ -86,7 +86,7 @@ def closed_form(scene: Scene) -> Estimate:
     rate = decay_rate(stiffnesses, rest, race.drag, race.inertia_factor)
     if rate <= 0:
         raise InputError("the averaged motion does not come to rest in balance")
-    start = abs(complex(total_imbalance(scene, np.array(scene.start_angles)[:, None])[0]))
+    start = abs(complex(scene.total_imbalance(np.array(scene.start_angles)[:, None])[0]))
     limit = SETTLED * reference_imbalance(scene)
     time = max(math.log(start / limit) / rate, 0.0) if start > limit else 0.0
     amplitude = abs(model.offset)
@@ -104,7 +104,7 @@ def averaged(scene: Scene, tolerance: float, order: int = 2) -> Estimate:
         raise InputError(reason)
     times = slow_times(scene)
     slow = envelope(scene, tolerance, times, order)
-    residuals = np.abs(total_imbalance(scene, slow.theta))
+    residuals = np.abs(scene.total_imbalance(slow.theta))
     window = times >= _window(scene)
     limit = float(residuals[window].mean()) + SETTLED * reference_imbalance(scene)
     X, Y = (scene.small_motion.frame @ whirl(scene, slow.theta[:, window], slow.rate[:, window])[0])[:2]

@@ -11,7 +11,6 @@ import math
 from copy import copy
 
 import numpy as np
-from numpy.typing import NDArray
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.receptance import reference_imbalance, unbalanced_amplitude
@@ -61,8 +60,8 @@ class Course:
         index = np.rint(samples.t / step).astype(np.intp)
         here = (index * step == samples.t) | (samples.t == scene.duration)
         index, states = index[here], samples.y[:, here]
-        self.residuals[index] = np.abs(total_imbalance(scene, states[2 * size : 2 * size + len(scene.ball_masses)]))
-        self.places[:, index] = axis_place(scene, states)
+        self.residuals[index] = np.abs(scene.total_imbalance(states[2 * size : 2 * size + len(scene.ball_masses)]))
+        self.places[:, index] = scene.axis_place(states)
 
 
 def settling_count(scene: Scene) -> int:
@@ -77,22 +76,6 @@ def settling_times(scene: Scene) -> Array:
     times *= scene.duration / count
     times[-1] = scene.duration
     return times
-
-
-def axis_place(scene: Scene, states: Array, plane: float = 0.0) -> Array:
-    """x, y of the axis [m] at a plane z [m] from the centre of mass, for states [state, time].
-
-    Of a swing arm: from where it lies along +x.
-    """
-    return scene.support.axis(states[: len(scene.support.names)], plane)
-
-
-def total_imbalance(scene: Scene, angles: Array) -> NDArray[np.complex128]:
-    """m₀e e^{iφ} + Σ m R_p e^{iθ} [kg m] for ball angles [ball, time]."""
-    total = np.full(angles.shape[1:], scene.imbalance * np.exp(1j * scene.imbalance_angle))
-    for static_moment, angle in zip(scene.static_moments, angles, strict=True):
-        total += static_moment * np.exp(1j * angle)
-    return total
 
 
 SAMPLES_PER_REVOLUTION = 64
@@ -220,11 +203,11 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, cr
     balls = slice(first, first + len(scene.ball_masses))
     states = trajectory.at(window.times)
     whole = states[:, -1 - window.whole :]
-    place = axis_place(scene, states)
-    mean = _mean(axis_place(scene, whole))
-    rms = float(np.sqrt(_mean(axis_velocity(scene, whole) ** 2)).max())
+    place = scene.axis_place(states)
+    mean = _mean(scene.axis_place(whole))
+    rms = float(np.sqrt(_mean(scene.axis_velocity(whole) ** 2)).max())
     residuals = course.residuals
-    settled = float(_mean(np.abs(total_imbalance(scene, whole[balls])))[0])
+    settled = float(_mean(np.abs(scene.total_imbalance(whole[balls])))[0])
     theta = states[balls, :][:, [-1 - window.whole, -1]]
     span = float(window.times[-1] - window.times[-1 - window.whole])
     time = settling_time(course.times, residuals, settled - creep + SETTLED * reference_imbalance(scene))
@@ -247,8 +230,8 @@ def evaluate(scene: Scene, trajectory: Samples, course: Course | None = None, cr
 
 def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalState:
     first = 2 * len(scene.support.names)
-    x, y = axis_place(scene, end[:, None])[:, 0].tolist()
-    vx, vy = axis_velocity(scene, end[:, None])[:, 0].tolist()
+    x, y = scene.axis_place(end[:, None])[:, 0].tolist()
+    vx, vy = scene.axis_velocity(end[:, None])[:, 0].tolist()
     q, turned, count = end[: first // 2], scene.support.turned(end), len(scene.ball_masses)
     return FinalState(
         t=scene.duration,
@@ -265,15 +248,9 @@ def _final(scene: Scene, end: Array, ball_speeds: tuple[float, ...]) -> FinalSta
     )
 
 
-def axis_velocity(scene: Scene, states: Array) -> Array:
-    """The velocity of the axis [m/s], likewise."""
-    size = len(scene.support.names)
-    return scene.support.axis_velocity(states[:size], states[size : 2 * size])
-
-
 def _bearing_amplitudes(scene: Scene, states: Array, whole: Array) -> tuple[float, ...]:
     places = scene.support.bearings
-    return tuple(_largest_radius(axis_place(scene, states, z), _mean(axis_place(scene, whole, z))) for z in places)
+    return tuple(_largest_radius(scene.axis_place(states, z), _mean(scene.axis_place(whole, z))) for z in places)
 
 
 def settling_time(t: Array, residuals: Array, limit: float) -> float | None:

@@ -12,7 +12,7 @@ from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory, merged
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, level_from_velocity
-from abu_calc.simulation.response import axis_place, axis_velocity, beginning, settling_times, total_imbalance
+from abu_calc.simulation.response import beginning, settling_times
 
 Array = NDArray[np.float64]
 Level = Callable[[float], float]
@@ -58,9 +58,9 @@ class RotorView:
         inner = (turn >= turn[0] + np.pi) & (turn <= turn[-1] - np.pi)
         if np.count_nonzero(inner) < 2:
             return None
-        place = axis_place(scene, states)
+        place = scene.axis_place(states)
         swinging = (place - _over_a_turn(place, times, turn))[:, inner]
-        squares = _over_a_turn(axis_velocity(scene, states) ** 2, times, turn)[:, inner]
+        squares = _over_a_turn(scene.axis_velocity(states) ** 2, times, turn)[:, inner]
         times, turn, states = times[inner], turn[inner], states[:, inner]
         # Denser at the start, where all moves.
         index = merged(((len(times) - 1) * np.linspace(0, 1, most) ** 2).round().astype(np.intp))
@@ -73,7 +73,7 @@ class RotorView:
             x_um=seen.real,
             y_um=seen.imag,
             ball_angles_deg=from_si(1.0, "deg") * angles,
-            residual_g_mm=from_si(1.0, "g_mm") * np.abs(total_imbalance(scene, angles)),
+            residual_g_mm=from_si(1.0, "g_mm") * np.abs(scene.total_imbalance(angles)),
             level_db=_levels(squares[:, index], level),
             speed_rpm=from_si(1.0, "rpm") * np.broadcast_to(speed, inner.shape)[inner][index] if changes else None,
             imbalance_angle_deg=from_si(scene.imbalance_angle, "deg"),

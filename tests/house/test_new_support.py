@@ -55,7 +55,7 @@ def add_rail(copy: Copy) -> None:
     copy.change("abu_calc/inputs/scene_parts.py", ("PER_BEARING: Final", RAIL_TABLE))
     copy.change(
         "abu_calc/inputs/scene.py",
-        ("from abu_calc.inputs.scene_parts import", "from abu_calc.inputs.scene_parts import Rail\n"),
+        ("from pydantic import", "from abu_calc.inputs.scene_parts import Rail\n"),
         ("NEEDED: Final", '    "rail": ("mass_kg", "rail"),\n'),
         ("REFUSED: Final", '    "rail": (*SPRINGS, "tilting", "swing_arm", "body"),\n'),
         ("    body: Body | None", "    rail: Rail | None = None\n"),

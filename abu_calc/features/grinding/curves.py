@@ -28,7 +28,6 @@ from abu_calc.foundation.errors import InputError, NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import to_si
-from abu_calc.simulation.response import total_imbalance
 from abu_calc.simulation.scene_of_design import scene_of_design
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
@@ -117,7 +116,7 @@ def _left(design: Design, scene: Scene, ends: complex, seconds: float) -> float 
     except NotTrustworthyError:
         return None
     first = 2 * len(scene.support.names)
-    total = total_imbalance(scene, run.at(last)[first : first + len(scene.ball_masses)])
+    total = scene.total_imbalance(run.at(last)[first : first + len(scene.ball_masses)])
     return abs(complex(total[:-1].mean()) - ends) / design.case.body.effective_mass(design.autobalancer.mass)
 
 

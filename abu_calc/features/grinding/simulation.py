@@ -29,9 +29,6 @@ from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.simulation.response import (
     SAMPLES_PER_REVOLUTION,
     amplitude_window,
-    axis_place,
-    axis_velocity,
-    total_imbalance,
 )
 from abu_calc.simulation.simulate import Simulation, simulate
 
@@ -114,7 +111,7 @@ def seen(run: Simulation) -> WorkSimulation:
 
 def read(scene: Scene, times: Array, states: Array, summary: RunSummary) -> WorkSimulation:
     """Results from the states at equal steps over whole turns, both ends given."""
-    place, count = axis_place(scene, states), 2 * len(scene.support.names)
+    place, count = scene.axis_place(states), 2 * len(scene.support.names)
     whole = place[:, :-1]
     away = np.abs(whole - whole.mean(axis=1, keepdims=True)).max(axis=1)
     balls = states[count : count + len(scene.ball_masses)]
@@ -124,7 +121,7 @@ def read(scene: Scene, times: Array, states: Array, summary: RunSummary) -> Work
         x=float(away[0]),
         y=float(away[1]),
         reaction=_phasor(scene, force, times) if len(force) else 0j,
-        imbalance=complex(total_imbalance(scene, balls)[:-1].mean()),
+        imbalance=complex(scene.total_imbalance(balls)[:-1].mean()),
         force=force[:-1],
         profile=_profile(scene, times, force) if len(force) else (),
         velocity=summary.velocity,
@@ -159,7 +156,7 @@ def _forces(scene: Scene, times: Array, states: Array) -> Array:
         return np.empty(0)
     if contact.contact == "rigid":
         return contact.normal_forces(assemble(scene), Samples(times, states))
-    gap = axis_place(scene, states)[1] + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
+    gap = scene.axis_place(states)[1] + contact.runout * np.sin(scene.speed * times + contact.runout_angle)
     return np.asarray(np.maximum(contact.press_force - contact.contact_stiffness * gap, 0.0), dtype=float)
 
 
@@ -243,7 +240,7 @@ def _run(scene: Scene, tolerance: float) -> WorkSimulation:
     trajectory = choice.integrate(equations, tolerance, Sampling(times), choice.evaluations(WORK))
     states = trajectory.at(times)
     count, balls = 2 * len(scene.support.names), len(scene.ball_masses)
-    velocity = float(np.sqrt((axis_velocity(scene, states[:, :-1]) ** 2).mean(axis=1)).max())
+    velocity = float(np.sqrt((scene.axis_velocity(states[:, :-1]) ** 2).mean(axis=1)).max())
     angles = tuple(states[count : count + balls, -1].tolist())
     return read(scene, times, states, RunSummary(velocity, angles, settled=False, error=math.nan, warnings=()))
 

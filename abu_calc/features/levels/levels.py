@@ -27,7 +27,6 @@ from abu_calc.features.levels.octaves import (
 )
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import level_from_velocity
-from abu_calc.simulation.response import axis_velocity
 from abu_calc.simulation.simulate import Simulation
 from abu_calc.sizing.design import Design
 from abu_calc.standards.vibration import Octave, hand_arm_response, octaves
@@ -224,7 +223,7 @@ def _slowest_period() -> float:
 
 def axis_place_levels(run: Simulation, times: Array, name: str) -> PlaceLevels:
     """Levels of the axis along x and y, from the states of a run sampled at these times."""
-    velocities = axis_velocity(run.scene, run.trajectory.at(times))
+    velocities = run.scene.axis_velocity(run.trajectory.at(times))
     rate, start = (len(times) - 1) / float(times[-1] - times[0]), LAST * run.scene.duration - float(times[0])
     signals = [Signal(np.asarray(values), rate, 0, start, whole=True) for values in velocities]
     return PlaceLevels(name, tuple(map(axis_levels, "xy", signals)))

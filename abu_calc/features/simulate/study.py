@@ -26,7 +26,7 @@ from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.effect_selection import EffectAudit
 from abu_calc.simulation.effect_selection import audit as with_all_effects
 from abu_calc.simulation.records import SceneModel, SimulatedLevel, SimulatedScene, in_words
-from abu_calc.simulation.response import Response, axis_place
+from abu_calc.simulation.response import Response
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import level_at, levels_at_places, loudest, one_run_checks
@@ -64,7 +64,7 @@ class SampledMotion:
         """Motion of a run, sampled at these times."""
         scene, states = run.scene, run.trajectory.at(times)
         size, balls = len(scene.support.names), len(scene.ball_masses)
-        x, y = from_si(1.0, "mm") * axis_place(scene, states)
+        x, y = from_si(1.0, "mm") * scene.axis_place(states)
         angles = from_si(1.0, "deg") * states[2 * size : 2 * size + balls]
         return cls(times, x, y, angles, dict(_further(scene, times, states)))
 
@@ -83,7 +83,7 @@ def _further(scene: Scene, times: Array, states: Array) -> Iterator[tuple[str, A
         about_y, about_minus_x = (1000 * np.asarray(angle) for angle in tilt)
         yield from (("tilt_x_mrad", 0.0 - about_minus_x), ("tilt_y_mrad", about_y))
     for k, place in enumerate(support.bearings, 1):
-        x, y = from_si(1.0, "mm") * axis_place(scene, states, place)
+        x, y = from_si(1.0, "mm") * scene.axis_place(states, place)
         yield from ((f"bearing{k}_x_mm", x), (f"bearing{k}_y_mm", y))
     if turned is not None:
         yield "arm_angle_mrad", 1000 * np.asarray(turned)

@@ -28,7 +28,6 @@ from abu_calc.features.grinding.simulation import working
 from abu_calc.features.grinding.steady_contact import RestingBalls, bare, even_fan, fitted, fixed, runout_of, with_balls
 from abu_calc.features.grinding.work import at_work
 from abu_calc.formulas.balls import SteadyContact
-from abu_calc.simulation.response import total_imbalance
 from abu_calc.simulation.scene_of_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
@@ -128,7 +127,7 @@ def course(
     choice = choose(equations, "auto", 1e-6)
     run = choice.integrate(equations, 1e-6, Sampling(times), 50_000_000)
     first = 2 * len(scene.support.names)
-    return total_imbalance(scene, run.at(times)[first : first + len(scene.ball_masses)]), scene
+    return scene.total_imbalance(run.at(times)[first : first + len(scene.ball_masses)]), scene
 
 
 def replace_runs(design: Design) -> Any:
