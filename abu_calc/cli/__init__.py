@@ -1,1 +1,1 @@
-"""The command line: one file per command, each load → call → render → exit status; `app` puts them together."""
+"""Parts of the command line that all commands share: application, options, output, progress."""

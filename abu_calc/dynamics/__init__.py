@@ -6,8 +6,9 @@ motion.py         places and speeds of everything, loads, all accelerations
 rotor.py          how a rotor turns: steady, guided, driven
 parameters.py     the numbers that the equations read
 race.py           races and their balls
+chains.py         balls that move as one
 support.py        the interface of a support
-circumstances.py  all of a scene but its effects
+scene_context.py  all of a scene but its effects
 effect.py         the interface of an effect
 scene.py          both together
 trajectory.py     the samples that an integrator returns
@@ -18,8 +19,8 @@ supports/     one file a kind: it answers for itself
 equations/    the one right-hand side, with the map of it
 switching/    modes: what sticks, touches, stands
 effects/      one file an effect, and how they go together
-tracing/      the equations in other languages
+codegen/      the equations as straight-line code
 integrators/  the only files that know solvers
-slow/         averages, and the envelope by them
-balanced/     states of rest, and whether they are stable
+averaging/    averages, and the envelope by them
+stability/    states of rest, and whether they are stable
 """

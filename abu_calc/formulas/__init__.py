@@ -1,1 +1,1 @@
-"""Formulas that sizing and dynamics share: ball ring, slow motion, contact, suspension, swing arm, friction band."""
+"""Closed forms that sizing and dynamics share."""

@@ -1,4 +1,1 @@
-"""Files that people write: the tables of machine.toml as strict models; reading, schema and template.
-
-`read.read_machine` is the way in. The models keep the units of the file: nothing is converted to SI here.
-"""
+"""What people write: the tables of files as strict models, in the units of their keys."""

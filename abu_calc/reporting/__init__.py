@@ -1,1 +1,1 @@
-
+"""Results as text, JSON, TOML, CSV, pages, charts and drawings. Nothing is computed here."""

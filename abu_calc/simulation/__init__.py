@@ -1,1 +1,1 @@
-"""Sources of a scene: a design, a scene file, and the tables in which both are written."""
+"""Simulation of scenes: scenes of designs and files, start cases, one run and its response, ensembles."""

@@ -1,1 +1,1 @@
-"""The averaged slow motion of the balls, and where it holds."""
+"""Averaged slow motion of the balls, and where it holds."""

@@ -20,15 +20,15 @@ What is coupled by physics, and where:
     dry friction and the second direction        `across` comes first; friction rubs against the whole velocity, so it
                                                  sets `across.grip` and `across.free` beside its own
     balls in contact move and stick together     contact sets `mates`, `leads`; friction reads them from `Loads` when it
-                                                 decides, and contact reads `hold`: one problem, `switching.touching`
+                                                 decides, and contact reads `hold`: one problem, `switching.ball_impacts`
     gravity and race eccentricity                the offset stands in `Motion`, since `move` comes before all `act`
-    a wheel stands on its work                   a constraint, `beside` that of a rigid contact: `switching.cutting`
+    a wheel stands on its work                   a constraint, `beside` that of a rigid contact: `switching.contact_stop`
     gravity shakes balls loose                   its weight reads `Circumstances.holding`
 
 ORDER: that of the registry. What moves the rotor and the races comes before what acts on the balls, what opens a
 direction before what rubs in it, and what decides by all forces comes last.
 
-A new effect is a file here, its line in `registry.py`, its table in `spec.scene_effects`, its line in
-`scenes.from_tables`, and its example in `tests/dynamics/examples.py`. One that comes with its support names the
+A new effect is a file here, its line in `registry.py`, its table in `inputs.scene_effects`, its line in
+`simulation.scene_of_file`, and its example in `tests/dynamics/examples.py`. One that comes with its support names the
 support's table instead, as `table`.
 """

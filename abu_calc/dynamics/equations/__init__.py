@@ -9,9 +9,9 @@
         ├─ elimination.solve_all         balls eliminated, d equations for A, then back         → Solved
         └─ right_hand_side.derivative    Effect.rates for states of effects                     → y'
 
-    build        Scene → Parameters: every number, combined once       assemble   Scene → Equations, ready to integrate
-    jacobian     ∂y'/∂y, exact                                          linear     small systems by plain arithmetic
+    assemble     Scene → Parameters: every number, combined once; → Equations, ready to integrate; ∂y'/∂y, exact
+    elimination  balls eliminated; small systems by plain arithmetic
 
-The same arithmetic serves numbers, complex numbers (exact derivatives) and symbols (`tracing`). Modes of effects come
+The same arithmetic serves numbers, complex numbers (exact derivatives) and symbols (`codegen`). Modes of effects come
 beside the numbers, as `Acting`. What is watched for events is computed from `Solved` by `switching.modes.watched`.
 """

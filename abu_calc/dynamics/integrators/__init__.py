@@ -1,9 +1,8 @@
 """Ways through the equations, each with `integrate(equations, tolerance, sample_times) -> Trajectory`.
 
-choice.py   which one, and why        counts.py    about how much work that is
-compiled/   one loop for nearly all scenes, compiled or as plain Python
-scipy_.py   stiff scenes, references  events.py    where SciPy's runs switch
-run.py      what they share: from event to event
-rates.py    how fast a scene's motion dies out and oscillates
-recorder.py samples on their way to who reads them
+choice.py          the method for a scene, and why
+work_estimates.py  how fast a scene's motion dies out and oscillates, and how much work that makes
+compiled/          one loop for nearly all scenes, compiled or as plain Python
+scipy_solvers.py   stiff scenes, references; where SciPy's runs switch
+run.py             what all share: from event to event, and samples on their way to their readers
 """

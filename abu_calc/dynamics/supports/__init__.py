@@ -1,9 +1,9 @@
 """Kinds of support, one file each; every one answers by the face in `dynamics.support`.
 
-linear.py      springs, dampers, masses: what all linear supports share
-planar.py      a point mass on springs        body.py    with a further body on it      hands.py   held in two hands
-tilting.py     a rigid rotor on bearings      swing_arm.py   at the end of an arm
+planar.py     springs, dampers, masses: a point mass on springs, with a further body on it, or held in two hands
+pressed.py    an arm pressed to its workpiece
+tilting.py    a rigid rotor on bearings      swing_arm.py   at the end of an arm
 
-A new kind is a file here, its table in `spec.scene_support`, its key in `spec.scene`, and its line in
-`scenes.from_scene.SUPPORTS`.
+A new kind is a file here, its table in `inputs.scene_parts`, its key in `inputs.scene`, and its line in
+`simulation.scene_of_file.SUPPORTS`.
 """

@@ -1,1 +1,1 @@
-"""Modes, which balls stick, which touch, what a wheel does on its work: what is decided where a scene switches."""
+"""Modes of motion: which balls stick, which touch, how a wheel moves on its workpiece."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu accuracy`: what accuracy costs in time."""

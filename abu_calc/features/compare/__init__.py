@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu compare`: machines, or variants of one, side by side."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu effects`: the effects of the model, and those that a scene is simulated with."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu factory`: machines that a factory measured, beside what is predicted of them."""

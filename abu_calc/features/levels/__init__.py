@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu levels`: octave levels, weighted acceleration and daily exposure of a motion."""

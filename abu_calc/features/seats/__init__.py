@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu check-fit`: bearing seats: interference, probability, creep, stress, clearance, tolerance classes."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu simulate`: one scene integrated to the accuracy asked for."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu sweep`: many machines like one: share that meets the limits, percentiles, which value decides."""

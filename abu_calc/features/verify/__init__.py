@@ -1,1 +1,1 @@
-"""TODO."""
+"""`abu verify`: files held to the results they expect."""

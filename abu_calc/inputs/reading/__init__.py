@@ -1,1 +1,1 @@
-"""TODO."""
+"""Reading of files: TOML with places, overrides, messages of errors, schema and template."""

@@ -1,13 +1,17 @@
 """The loop: steps, located events and natural next modes, compiled by LLVM or run as the plain Python that it is.
 
-program.py   the equations of a structure as text          arrays.py, layout.py   where the loop finds what
-rk45.py, dop853.py   step, error, dense output             step_size.py  the factor on the next step
-locate.py    the first event of a step                     friction.py, contact.py, impact.py, decide.py
-loop.py      all of it together                                natural next modes, checked by the equations
-kernels.py   the modules that make the loop of a method    order.py     balls numbered round their races
-language.py  their text in LLVM's language, by             machine.py   LLVM's language to machine code
-             calls.py, expressions.py, writer.py           cache.py     machine code on disk
-code.py      a structure's machine code                    plain.py     the same without a compiler
-ready.py     whether compiled code runs here               trial.py     asked of systems nobody has tried
-run.py       from one general decision to the next
+program.py           the equations of a structure as text; balls numbered round their races
+arrays.py            places in the arrays of the loop
+dopri5.py, dop853.py step, error, dense output
+locate.py            the first event of a step
+impact.py            balls that press on each other, and their impacts
+mode_transitions.py  natural next modes, checked by the equations
+loop.py              all of it together, with the size of steps
+kernels.py           the modules that make the loop of a method
+translator.py        their text in LLVM's language, written by llvm_text.py
+llvm_engine.py       LLVM's language to machine code, kept on disk
+code.py              a structure's machine code
+plain.py             the same without a compiler
+availability.py      whether compiled code runs here, tried on systems that nobody has tried
+run.py               from one general decision to the next
 """
