@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, field
+from dataclasses import asdict
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from abu_calc.foundation.checks import Check, Status
@@ -25,14 +26,12 @@ class Outcome:
     """The frozen result of a command: numbers in user units, checks, and how they are shown."""
 
     command: str
-    result: Any
+    content: "Result | dict[str, Any]"
+    """The typed result of a study, or what a command without a study answers."""
     view: tuple[Block, ...] | Callable[[], tuple[Block, ...]]
     """Blocks, or what makes them where text is wanted."""
-    provenance: "Provenance" = field(default_factory=lambda: _today())
-    checks: tuple[Check, ...] = ()
-    model: dict[str, Any] = field(default_factory=dict)
-    warnings: tuple[str, ...] = ()
-    status: Status = "pass"
+    notes: tuple[str, ...] = ()
+    """Warnings of a command without a study."""
     short: Callable[[], tuple[Block, ...]] | None = None
     """The one screen that stands in a terminal for blocks that take more."""
     drawings: "Callable[[], tuple[Drawing, ...]] | None" = None
@@ -62,10 +61,37 @@ class Outcome:
         `view` makes all its blocks, `short` those of one screen, `drawings` its drawings, `extras` its page's
         extras.
         """
-        return cls(
-            result.command, result.to_dict(), view, result.provenance, result.checks, result.model.to_dict(),
-            result.warnings, result.status, short, drawings, extras,
-        )  # fmt: skip
+        return cls(result.command, result, view, short=short, drawings=drawings, extras=extras)
+
+    @cached_property
+    def result(self) -> Any:
+        """The result as the JSON document has it."""
+        return self.content if isinstance(self.content, dict) else self.content.to_dict()
+
+    @cached_property
+    def provenance(self) -> "Provenance":
+        """Where the result comes from; of this day if it stands on no file."""
+        return _today() if isinstance(self.content, dict) else self.content.provenance
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Checks of the result."""
+        return () if isinstance(self.content, dict) else self.content.checks
+
+    @property
+    def model(self) -> dict[str, Any]:
+        """SI numbers behind the result."""
+        return {} if isinstance(self.content, dict) else self.content.model.to_dict()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings of the result."""
+        return self.notes if isinstance(self.content, dict) else self.content.warnings
+
+    @property
+    def status(self) -> Status:
+        """The worst of the checks; a command without a study passes."""
+        return "pass" if isinstance(self.content, dict) else self.content.status
 
     @property
     def blocks(self) -> tuple[Block, ...]:

@@ -111,7 +111,7 @@ def test_results_in_micrometres_hertz_and_kilonewtons_are_explained_in_them() ->
 def test_no_equation_with_units_of_its_own_says_that_it_takes_si() -> None:
     """13·F_r·k_B/b_s gives µm by kN and mm; in SI it would be 1e12 times too much."""
     for name in ("creep_interference", "load_loss", "catalogue_smoothing_loss"):
-        assert "Equations take SI" not in " ".join(formula_of(f"fits.requirement:{name}").for_users)
+        assert "Equations take SI" not in " ".join(formula_of(f"features.seats.requirement:{name}").for_users)
 
 
 def test_labels_of_the_design_are_equations_that_give_its_numbers() -> None:

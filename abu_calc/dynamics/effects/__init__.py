@@ -20,9 +20,11 @@ What is coupled by physics, and where:
     dry friction and the second direction        `across` comes first; friction rubs against the whole velocity, so it
                                                  sets `across.grip` and `across.free` beside its own
     balls in contact move and stick together     contact sets `mates`, `leads`; friction reads them from `Loads` when it
-                                                 decides, and contact reads `hold`: one problem, `switching.ball_impacts`
+                                                 decides, and contact reads `hold`: one problem,
+                                                 `switching.ball_impacts`
     gravity and race eccentricity                the offset stands in `Motion`, since `move` comes before all `act`
-    a wheel stands on its work                   a constraint, `beside` that of a rigid contact: `switching.contact_stop`
+    a wheel stands on its work                   a constraint, `beside` that of a rigid contact:
+                                                 `switching.contact_stop`
     gravity shakes balls loose                   its weight reads `Circumstances.holding`
 
 ORDER: that of the registry. What moves the rotor and the races comes before what acts on the balls, what opens a

@@ -84,7 +84,7 @@ def validate(
         raise faults[0]
     if faults:
         raise InputError("\n".join(map(str, faults)))
-    return Outcome("validate", {"files": results}, tuple(blocks), warnings=tuple(warnings))
+    return Outcome("validate", {"files": results}, tuple(blocks), notes=tuple(warnings))
 
 
 def register(app: typer.Typer) -> None:

@@ -11,8 +11,8 @@ UNSAID = {("Bearing", "shaft_bore_mm", "le"), ("SceneTable", "duration_s", "gt")
 
 
 def _tables(above: type[Table] = Table) -> Iterator[type[Table]]:
-    for name in ("machine", "scene", "readings"):
-        importlib.import_module(f"abu_calc.inputs.{name}")
+    for name in ("inputs.machine", "inputs.scene", "features.balancing.tables"):
+        importlib.import_module(f"abu_calc.{name}")
     for table in above.__subclasses__():
         if table.__module__.startswith("abu_calc."):
             yield table

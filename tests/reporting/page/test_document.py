@@ -222,7 +222,7 @@ def _luminance(colour: str) -> float:
 
 def test_colours_have_the_contrast_that_wcag_asks_for() -> None:
     """4.5 for text, 3 for what figures draw (WCAG 2.2, 1.4.3 and 1.4.11), in every theme."""
-    css = (Path(__file__).parents[3] / "abu_calc/report/page/page.css").read_text("utf-8")
+    css = (Path(__file__).parents[3] / "abu_calc/reporting/page/page.css").read_text("utf-8")
     themes = [
         dict(re.findall(r"--([\w]+): #([0-9a-f]{3,6})\b", block))
         for block in re.findall(r":root \{(.*?)\}", css, re.DOTALL)

@@ -118,7 +118,7 @@ def test_what_was_used_longest_ago_goes_first_and_other_files_stay(
 WRITER = """
 import sys
 from pathlib import Path
-from abu_calc.dynamics.integrators.compiled.cache import Cache
+from abu_calc.dynamics.integrators.compiled.llvm_engine import Cache
 folder, content = Cache(Path(sys.argv[1])), bytes(range(256)) * 400
 for turn in range(300):
     folder.write("a" * 64, content)

@@ -69,7 +69,7 @@ def both(body: str) -> tuple[Callable[..., int], Callable[..., int]]:
     text = OTHERS + HEAD + "".join(f" {line}\n" for line in (body + "\nreturn 0").splitlines())
     scope = {**NAMES, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "Reals": None, "Integers": None}
     exec(text, scope)
-    loaded = machine.Loaded(machine.compiled(language.translated([(text, NAMES)], ("go",))))
+    loaded = machine.LoadedModule(machine.compiled(language.translated([(text, NAMES)], ("go",))))
     call = loaded.function("go", 2)
     return scope["go"], lambda x, k, keep=loaded: call(x.ctypes.data, k.ctypes.data)  # type: ignore[return-value]
 
@@ -139,6 +139,6 @@ def test_types_of_arguments_are_those_of_the_language() -> None:
 def test_what_llvm_refuses_is_told_as_what_it_is() -> None:
     with pytest.raises(machine.CompilerError, match="compiling: RuntimeError"):
         machine.compiled("define nonsense")
-    loaded = machine.Loaded(machine.compiled(language.translated([], ())))
+    loaded = machine.LoadedModule(machine.compiled(language.translated([], ())))
     with pytest.raises(machine.CompilerError, match="has no go"):
         loaded.address("go")
