@@ -84,7 +84,7 @@ def _used_codes() -> dict[str, set[str]]:
     found: dict[str, set[str]] = {}
     for info in pkgutil.walk_packages([str(PACKAGE)], "abu_calc."):
         path = PACKAGE.parent / (info.name.replace(".", "/") + ".py")
-        if path.exists() and path.stem != "checks":
+        if path.exists() and path.parent.name != "foundation":
             text = path.read_text(encoding="utf-8")
             for code in re.findall(r'"(ABU\d+)"', text):
                 found.setdefault(code, set()).update(re.findall(rf'"{code}",\s+"([a-z][^"]*)"', text))
