@@ -200,6 +200,9 @@ class Effect:
         """Position and velocity with which the support has to start."""
         return scene.start_position, scene.start_velocity
 
+    def check(self, scene: Circumstances) -> None:
+        """Raise InputError if the effect cannot act in these circumstances, on their support for instance."""
+
     # Motion.
 
     def move(self, m: Motion, mode: Any, own: Any) -> None:

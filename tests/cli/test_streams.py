@@ -58,7 +58,8 @@ def test_signals_end_a_command_in_good_order(name: str, tmp_path: Path) -> None:
     # The process sends itself the signal in the middle of the work, so that no time has to be guessed; in code made
     # from text, out of which a KeyboardInterrupt would end the process by the signal itself.
     code = (
-        "import os, signal\nfrom abu_calc.features.seats import study as check_fit\nfrom abu_calc.cli.start import main\n"
+        "import os, signal\nfrom abu_calc.features.seats import study as check_fit\n"
+        "from abu_calc.cli.start import main\n"
         f"signal.signal({int(number)}, signal.SIG_DFL)\n"  # whoever runs the tests may have it ignored
         f"check_fit.judged_seats = lambda *_: exec('os.kill(os.getpid(), {int(number)})')\nmain()"
     )

@@ -43,6 +43,17 @@ NOTHING: list[Effect] = [
 ]
 """Effects without strength, or with nothing to act on, which need no states."""
 
+WEIGHTLESS = [effect for effect in NOTHING if not (effect.balls_meet or getattr(effect, "contact_stiffness", 0.0))]
+"""Those whose influence is estimated as none: balls of some size meet, and a soft contact has its own tests."""
+
+STATES: dict[str, list[str]] = {
+    "run_up": ["turn", "turn'"],
+    "motor": ["turn", "turn'"],
+    "transverse_motion": [f"across{k}" for k in range(1, 6)] + [f"across'{k}" for k in range(1, 6)],
+    "transverse_motion, free spin": [f"{name}{k}" for name in ("across", "across'", "spin") for k in range(1, 6)],
+}
+"""States that effects add to a scene of five balls."""
+
 UNITS: dict[str, tuple[int, int, int]] = {
     "magnitude": (1, 0, 0),
     "acceleration": (1, 0, -2),

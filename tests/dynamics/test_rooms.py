@@ -30,6 +30,7 @@ from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.scene_of_file import SUPPORTS as KINDS
 from tests.dynamics.energy import mass_matrix
 from tests.dynamics.scenes import SUPPORTS, dimensionless, scene_on, with_effects
+from tests.house import structure
 from tests.house.newcomers.rail import Rail
 
 DYNAMICS = Path(abu_calc.dynamics.__file__).parent
@@ -41,19 +42,12 @@ BELOW = {"version", "foundation", "standards", "formulas"}
 
 def imports(path: Path) -> set[str]:
     """Modules of the package that a file imports, for types alone too."""
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("abu_calc."):
-            for alias in node.names:
-                inner = f"{node.module}.{alias.name}"
-                found.add(inner if file_of(inner) else node.module)
-    return found
+    return structure.imports()[next(name for name, file in structure.files().items() if file == path)]
 
 
 def file_of(module: str) -> Path | None:
-    """Where a module stands, if it is one."""
-    path = PACKAGE.joinpath(*module.split(".")[1:])
-    return next((one for one in (path.with_suffix(".py"), path / "__init__.py") if one.is_file()), None)
+    """Path of a module of the package."""
+    return structure.files().get(module)
 
 
 def room_of(path: Path) -> str:

@@ -102,9 +102,12 @@ class GrindingContactEffect(Effect):
         """True if cutting brakes a rotor that a torque drives."""
         return self.drag < 0 and self.wheel_radius > 0 and bool(scene.rotor.rows)
 
-    def first_mode(self, scene: Circumstances) -> Any:
-        """Touching, and sliding where that may change; raises InputError on supports that have no such contact."""
+    def check(self, scene: Circumstances) -> None:
+        """Raise InputError on supports that have no such contact."""
         self._row(scene)
+
+    def first_mode(self, scene: Circumstances) -> Any:
+        """Touching, and sliding where that may change."""
         if self._may_stop(scene):
             return Cutting()
         return TOUCHING if self.contact == "compliant" else None

@@ -65,10 +65,13 @@ class LiftOffEffect(Effect):
         if not (math.isfinite(self.depth) and self.depth):
             raise InputError("depth of the contact", found=str(self.depth), allowed="a number that is not 0")
 
-    def first_mode(self, scene: Circumstances) -> float:
-        """Touching. Raises InputError on a support that is no swing arm."""
+    def check(self, scene: Circumstances) -> None:
+        """Raise InputError on a support that is no swing arm."""
         if scene.support.standing_arm(scene.balls) is None:
             raise InputError("only a swing arm lifts off its work", remedy="describe the contact as grinding_contact")
+
+    def first_mode(self, scene: Circumstances) -> float:
+        """Touching."""
         return TOUCHING
 
     def _beyond(self, m: Motion) -> Any:

@@ -126,7 +126,12 @@ class Equations:
 
 
 def assemble(scene: Scene) -> Equations:
-    """The equations of a scene. Raises InputError when the support's mass matrix is not symmetric positive definite."""
+    """The equations of a scene.
+
+    Raises InputError when an effect cannot act in it, or the support's mass matrix is not symmetric positive definite.
+    """
+    for effect in scene.effects:
+        effect.check(scene)
     parameters, effects = parameters_of(scene), scene.effects
     names, balls, rotor = scene.support.names, range(1, parameters.balls + 1), scene.rotor
     support_scales, rate_scale = scales_of(scene)

@@ -9,24 +9,25 @@ from typing import Any
 import numpy as np
 import pytest
 
-from abu_calc.dynamics.effect import EffectInfluence
+from abu_calc.dynamics.effect import Effect, EffectInfluence
 from abu_calc.dynamics.effects.grinding_contact import GrindingContactEffect
 from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.dynamics.effects.run_up import RunUpEffect
 from abu_calc.dynamics.equations.assemble import STEP, Equations, assemble
 from abu_calc.dynamics.equations.right_hand_side import accelerations, with_states
+from abu_calc.dynamics.rotor import STEADY
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.planar import LinearSupport
 from abu_calc.dynamics.switching.modes import at_break, settled
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
-from tests.dynamics.examples import CONTACT, EXAMPLES, HELD, NOTHING, mirrored_effect, turned_effect
+from tests.dynamics.examples import CONTACT, EXAMPLES, HELD, NOTHING, STATES, WEIGHTLESS, mirrored_effect, turned_effect
 from tests.dynamics.scenes import SUPPORTS, scene_on, with_effects
 from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned
 
 ORDER = [name for name, _ in REGISTRY]
-WAYS = [name for name in EXAMPLES if name not in ("run_up", "motor")]
-"""Effects that go with each of the other's; run-up and motor say how the rotor turns."""
+WAYS = [name for name, effect in EXAMPLES.items() if effect.rotor is STEADY]
+"""Effects that go with each of the others'; the rest say how the rotor turns."""
 
 
 @dataclass(frozen=True)
@@ -49,14 +50,21 @@ class Sample:
         return self.equations.rhs(np, self.t, self.y, self.equations.in_mode(self.modes))
 
 
+def fits(effect: Effect, scene: Scene) -> bool:
+    """Whether an effect can act in a scene."""
+    try:
+        effect.check(scene)
+    except InputError:
+        return False
+    return True
+
+
 def taken(support: str, *names: str) -> Scene | None:
-    """The scene with these effects in order; None where the support does not take one of them."""
-    if support == "swing arm" and any(name.startswith("grinding_contact") for name in names):
-        return None
-    if support != "swing arm" and "lift_off" in names:
-        return None
+    """The scene with these effects in order; None where one of them refuses it."""
     effects = sorted((EXAMPLES[name] for name in names), key=lambda effect: ORDER.index(effect.name))
     scene = scene_on(support, *effects)
+    if not all(fits(effect, scene) for effect in effects):
+        return None
     # Both races alike: effects know one size of ball.
     return replace(scene, races=tuple(replace(race, ball_radius=0.1) for race in scene.races))
 
@@ -175,7 +183,7 @@ def test_dissipative_effects_take_energy_only(support, name):
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_an_effect_of_no_strength_does_nothing(support, nothing):
     """Accelerations are the same to the last bit."""
-    if support == "swing arm" and nothing.name == "grinding_contact":
+    if not fits(nothing, scene_on(support)):
         return
     rng = np.random.default_rng(3)
     for rotor in ((), (EXAMPLES["run_up"],), (EXAMPLES["motor"],)):
@@ -219,8 +227,9 @@ def test_energy_changes_by_the_power_alone(support, names):
 
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_energy_with_everything_at_once(support):
-    names = [name for name, effect in EXAMPLES.items() if name == effect.name and name != "run_up"]
-    names.remove("grinding_contact" if support == "swing arm" else "lift_off")
+    scene = scene_on(support)
+    names = [name for name, effect in EXAMPLES.items() if name == effect.name and fits(effect, scene)]
+    names.remove("run_up")  # the motor says how the rotor turns
     for sample in samples(taken(support, *names), 5):
         check_energy(sample)
 
@@ -360,11 +369,9 @@ def test_weights_are_numbers_with_a_reason(support, name):
 def test_what_has_no_strength_weighs_nothing(support):
     """An effect of nothing would not change the answer, as far as it can tell."""
     scene = scene_on(support)
-    for effect in NOTHING:
-        if effect.name == "ball_contact" or (effect.name == "grinding_contact" and support == "swing arm"):
+    for effect in WEIGHTLESS:
+        if not fits(effect, scene):
             continue
-        if effect.name == "grinding_contact" and effect.contact == "compliant":
-            continue  # a soft one: see its own tests
         value = effect.weight(with_effects(scene, effect)).value
         assert value in (0.0, None)
 
@@ -379,12 +386,6 @@ def test_states_are_those_of_the_effects(name):
         equations, plain = assemble(scene), assemble(scene_on(support))
         more = list(equations.states[len(plain.states) :])
         assert equations.states[: len(plain.states)] == plain.states
-        own = {
-            "run_up": ["turn", "turn'"],
-            "motor": ["turn", "turn'"],
-            "transverse_motion": [f"across{k}" for k in range(1, 6)] + [f"across'{k}" for k in range(1, 6)],
-        }
-        spin = [f"spin{k}" for k in range(1, 6)] if name.endswith("free spin") else []
-        assert more == own.get(EXAMPLES[name].name, []) + spin
+        assert more == STATES.get(name, [])
         for part in (equations.initial, equations.scales, equations.relative):
             assert len(part) == len(equations.states)
