@@ -8,6 +8,10 @@ ball that its outer side does not press inward, n < 0, is held by the inner one,
 the sums of their forces. A ball that also rolls across its race, by v, is rubbed against its whole velocity,
 −f |n| (R_p θ', v)/|…|: so transverse motion shakes dry friction out. Source: Coulomb's rolling friction with the lever
 arm k_r; balls may rest where |Im(w e^{−iθ})| ≤ f R_p. The inner side is taken to be as hard as the outer one.
+
+    parameter    unit  range            default   source
+    lever_arm    m     0 … ball_radius  required  5e-7 … 5e-6 m on hard ground races, practice
+    ball_radius  m     > 0              required  geometry
 """
 
 import math

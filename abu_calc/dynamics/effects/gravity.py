@@ -4,6 +4,9 @@
 
 The support's own weight and that of the balls in the middle are held by its springs: the axis is counted from static
 equilibrium. Source: Kladiev 1996, (1), the term −(g/R) cos γ.
+
+    parameter     unit  range  default  source
+    acceleration  m/s²  any    9.80665  ISO 80000-3:2019
 """
 
 from dataclasses import replace

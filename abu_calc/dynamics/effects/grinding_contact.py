@@ -17,6 +17,17 @@ Where T brakes a driven rotor it turns round with the sliding, and at rest holds
 Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and a remark
 tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power
 with its cube, so that it is infinite after a finite time. Compliance, one-sided contact and torque are derived.
+
+    parameter            unit  range                   default    source
+    press_force          N     ≥ 0                     required   measured
+    cutting_coefficient  1     ≥ 0                     required   Kladiev 1996
+    contact                    compliant, rigid, face  compliant  wheel and workpiece
+    contact_stiffness    N/m   > 0 if compliant        0          measured
+    rotation_sense             −1, 1                   −1         geometry
+    runout               m     ≥ 0                     0          dial gauge, half of TIR
+    runout_angle         rad   any                     0          from the zero mark
+    wheel_radius         m     ≥ 0; 0: not known       0          geometry
+    plane_offset         m     any                     0          geometry, supports that tilt
 """
 
 import cmath

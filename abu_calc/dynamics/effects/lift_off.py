@@ -8,6 +8,12 @@ stays on its work. Where the arm has left it, the effect takes that moment back:
 
 With N = c_n l (φ − φ₀) sin Z the disk leaves the work where N would be negative, and comes back at φ₀. Nothing damps
 the contact but the joint. Source: derived; Kovalenko 2010, (3), takes a contact that never parts.
+
+    parameter    unit  range  default   source
+    stiffness    N/m   any    required  c_n g(Z), Kovalenko 2010, (3)
+    length       m     > 0    required  geometry of the arm
+    touch_angle  rad   any    required  geometry of the arm
+    depth        rad   not 0  required  standing arm under its load
 """
 
 import math

@@ -5,6 +5,11 @@
 With too little torque the speed sticks at a resonance (Sommerfeld 1902): the power goes into the vibration. Source:
 Blekhman 1988, Synchronization in Science and Technology, ch. 6. The rotor starts at the scene's speed, or from rest in
 a run-up.
+
+    parameter      unit   range         default   source
+    stall_torque   N m    > 0 in files  required  data sheet
+    no_load_speed  rad/s  > 0 in files  required  data sheet
+    inertia        kg m²  > 0 in files  required  data sheet, all that turns
 """
 
 from typing import Any, ClassVar

@@ -3,6 +3,10 @@
     Δ e_r(turn + φ),    accelerated by Δ (Ω' e_t − Ω² e_r)
 
 The balls centre the race, so the axis keeps a whirl of radius Δ, whatever the speed. Source: derived.
+
+    parameter  unit  range         default   source
+    magnitude  m     ≥ 0 in files  required  5e-6 … 2e-5 m, practice
+    angle      rad   any           0         from the zero mark
 """
 
 import cmath

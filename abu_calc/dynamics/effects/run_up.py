@@ -8,6 +8,15 @@ A rolling ball is turned by the race that accelerates: (J − 1) r Ω'/R_p on θ
 ½ (J − 1) m (r·turn' − R_p θ')². In a steady ramp a ball lags by θ' = −(1 − (J − 1) r/R_p) Ω'/h₀. What drives the
 rotor stands on what carries it: a swing arm feels −J_r Ω', J_r the rotor's inertia. With a motor the rotor starts from
 rest, its torque sets the pace, and in the run-down it is switched off.
+
+    parameter  unit   range                 default   source
+    up         s      ≥ 0; 0: none          required  measured
+    down       s      ≥ 0; 0: none          0         measured
+    inertia    kg m²  ≥ 0; 0: not known     0         data sheet, all that turns
+    low        rad/s  ≥ 0                   0         chosen: speed of the reduction
+    fall       s      ≥ 0; 0: no reduction  0         chosen
+    pause      s      ≥ 0                   0         chosen
+    rise       s      ≥ 0                   0         chosen
 """
 
 from typing import Any, ClassVar

@@ -20,6 +20,12 @@ Locked, J = 7/5: ω_t = Ω at 5 (R − r) = 7 (R_g − r), at every speed (Kladi
 then an axial runout "shakes out" dry friction. In print the locked spin is not mentioned; with free spin it is at
 R_g = R. The axial runout is a motion of the machine along the spindle, once per turn: a swash of the race itself stands
 still in the rotor. Left out: w Θ in the plane where races tilt by Θ, and w/b times the rotor's acceleration in ν'.
+
+    parameter      unit  range          default   source
+    groove_radius  m     > ball_radius  required  drawing of the race
+    ball_radius    m     > 0            required  geometry
+    axial_runout   m     ≥ 0            0         dial gauge, 0–peak
+    free_spin            true, false    false     assumed: the contact locks the spin
 """
 
 import math
