@@ -24,7 +24,7 @@ from abu_calc.foundation.progress import Progress, Stage, silent
 from abu_calc.simulation.effect_selection import chosen
 from abu_calc.simulation.ensemble import ALWAYS, first_tolerance, start_once
 from abu_calc.simulation.ensemble_results import Lost, StartOutcome
-from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION, SLIPPING, axis_velocity
+from abu_calc.simulation.response import SAMPLES_PER_REVOLUTION, SLIPPING
 from abu_calc.simulation.start_cases import Member, grinding_scene_of_member, members
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.vibration import handle_levels
@@ -220,7 +220,7 @@ def _observed(design: Design, start: LoadedStart, scene: Scene) -> LoadedOutcome
     choice = choose(equations, "auto", TOLERANCE)
     states = choice.integrate(equations, TOLERANCE, Sampling(times), choice.evaluations(WORK)).at(times)
     half = turns // 2 * SAMPLES_PER_REVOLUTION
-    squares = axis_velocity(scene, states[:, :-1]) ** 2
+    squares = scene.axis_velocity(states[:, :-1]) ** 2
     first, last = (_level(design, _rms(part)) for part in (squares[:, :half], squares[:, -half:]))
     count, balls = 2 * len(scene.support.names), len(scene.ball_masses)
     angles = states[count : count + balls]

@@ -25,10 +25,14 @@ def start_blocks(starts: LoadedStarts | None) -> list[Block]:
     if starts is None:
         return []
     rows = tuple(
-        (WHEN[group.pressed], f"{group.count} of {group.total}", group.state + ("" if group.steady else ", still changing"),
-         _range(group))
+        (
+            WHEN[group.pressed],
+            f"{group.count} of {group.total}",
+            group.state + ("" if group.steady else ", still changing"),
+            _range(group),
+        )
         for group in starts.outcomes
-    )  # fmt: skip
+    )
     lost = f"; {starts.without_answer} gave no answer" if starts.without_answer else ""
     return [
         Heading(f"Start cases under load: {starts.count} simulated{lost}"),

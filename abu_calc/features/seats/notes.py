@@ -122,7 +122,8 @@ def sorting_groups(male: DeviationLimits, female: DeviationLimits, count: int) -
     Both sizes normal and centred, half a field = 3σ, parts outside their fields sorted out: matched groups of both
     parts are then equally full.
 
-    >>> [round(100 * one.share) for one in sorting_groups(DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0), 3)]
+    >>> part, ring = DeviationLimits(2e-6, 21e-6), DeviationLimits(-15e-6, 0.0)
+    >>> [round(100 * group.share) for group in sorting_groups(part, ring, 3)]
     [16, 68, 16]
     """
     if not 1 < count <= MOST_GROUPS:
