@@ -70,7 +70,7 @@ class Outcome:
 
     @cached_property
     def provenance(self) -> "Provenance":
-        """Where the result comes from; of this day if it stands on no file."""
+        """Provenance of the result; of this day if it stands on no file."""
         return _today() if isinstance(self.content, dict) else self.content.provenance
 
     @property

@@ -20,7 +20,7 @@ from abu_calc.features.design.region import true_region
 from abu_calc.features.design.start_search import with_searched
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
 from abu_calc.features.design.verification import Proven, proven
-from abu_calc.features.grinding.outcomes import Loads, LowerBound, lower_bound, with_starts
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LowerBound, lower_bound, with_starts
 from abu_calc.features.grinding.start_cases import FEW, WHEN, loaded_ensemble
 from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.work import Work, loaded_levels, work_of
@@ -287,7 +287,7 @@ def _mean(failure: SceneFailure, work: Work | SceneFailure | None) -> str | None
 
 def _pressed(
     work: Work | SceneFailure | None, ensemble: Ensemble | None, accuracy: float, progress: Progress, workers: int
-) -> tuple[Work | SceneFailure | None, Loads | None]:
+) -> tuple[Work | SceneFailure | None, GrindingOutcomes | None]:
     """The machine at its workpiece with a few start cases: `abu grinding` runs all of them."""
     if not isinstance(work, Work):
         return work, None
@@ -295,7 +295,9 @@ def _pressed(
     return with_starts(work, loaded_ensemble(work.design, accuracy, progress, workers, idle, FEW))
 
 
-def _under_load(work: Work | SceneFailure | None, loads: Loads | None, bound: LowerBound | None) -> Iterator[str]:
+def _under_load(
+    work: Work | SceneFailure | None, loads: GrindingOutcomes | None, bound: LowerBound | None
+) -> Iterator[str]:
     """Warnings about the levels under load that a reader must know."""
     if bound is not None and bound.sentence:
         yield bound.sentence
@@ -319,7 +321,7 @@ def _under_load(work: Work | SceneFailure | None, loads: Loads | None, bound: Lo
         )
 
 
-def _starts(loads: Loads, *, stays: bool) -> Iterator[str]:
+def _starts(loads: GrindingOutcomes, *, stays: bool) -> Iterator[str]:
     """The start cases of grinding that do not lower the level, and those without an answer.
 
     `stays`: pressed at once the machine keeps bouncing louder, which a sentence of its own tells.

@@ -9,7 +9,7 @@ from typing import Final
 
 from abu_calc.dynamics.scene import Scene
 from abu_calc.features.grinding.formulas import flutter_drag, loaded_stiffness
-from abu_calc.features.grinding.outcomes import Loads
+from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.simulation import WorkSimulation, only_contact, working
 from abu_calc.features.grinding.steady_contact import RestingBalls, SteadyWork, contact_presses, leaving
 from abu_calc.features.grinding.work import Work
@@ -124,7 +124,7 @@ def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Agreemen
 
 
 def work_checks(
-    work: Work, remedy: str | None, compared: Agreement | None, loads: Loads | None = None
+    work: Work, remedy: str | None, compared: Agreement | None, loads: GrindingOutcomes | None = None
 ) -> tuple[Check, ...]:
     """Level, capacity, stability, contact kept, power, and how far the closed form can be trusted.
 
@@ -160,7 +160,7 @@ def _lowered(work: Work, remedy: str | None) -> Check:
     return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
 
 
-def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) -> Check:
+def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: GrindingOutcomes) -> Check:
     """The check of the usual case, judged by every start case, as the idle machine is.
 
     A start case pressed after the balls settled fails it, one pressed at once warns. One without an answer leaves it
@@ -194,7 +194,7 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Loads) 
     return coded("ABU421", "warn", message, after, before, "dB", remedy)
 
 
-def _early_starts(loads: Loads) -> str:
+def _early_starts(loads: GrindingOutcomes) -> str:
     """Text on the start cases pressed at once that do not lower the level."""
     louder, count = loads.louder("at once"), loads.count("at once")
     if louder:
@@ -257,7 +257,7 @@ def _lines(work: Work) -> tuple[float, ...]:
     return () if count == 2 else tuple(count * step / 4 for step in range(5))
 
 
-def _kept(work: Work, remedy: str | None, loads: Loads | None) -> tuple[Check, ...]:
+def _kept(work: Work, remedy: str | None, loads: GrindingOutcomes | None) -> tuple[Check, ...]:
     """Never failed: wheels bounce, and are judged by their level."""
     contact, force = work.design.case.contact, work.fitted.steady.reaction
     if contact is None or contact.kind == "face":

@@ -146,7 +146,7 @@ def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count
 
 
 @dataclass(frozen=True)
-class Loads:
+class GrindingOutcomes:
     """The start cases of a machine at its workpiece, sorted, and whether each is below the level without.
 
     `before` [dB]: that level; `scatter` [dB]: how far it may be off; `bouncing` [dB]: how far the level of a start case
@@ -201,7 +201,7 @@ class Loads:
         return self.ensemble.lost
 
 
-def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, Loads | None]:
+def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, GrindingOutcomes | None]:
     """The machine with the start cases of its grinding, sorted; None for a machine without such.
 
     The level of the usual case, pressed when the balls have settled, stays what it was, unless the median of the start
@@ -218,7 +218,9 @@ def with_starts(work: Work, ensemble: LoadedEnsemble | None) -> tuple[Work, Load
         if usual is None or (raised.worst.after or -math.inf) > usual + LOUDER:
             work = replace(work, settled=raised, moved=moved)
     bouncing = max(work.fitted.scatter, work.at_once.scatter)
-    return work, Loads(ensemble, groups_of(work, ensemble), work.levels.before, work.without.scatter, bouncing)
+    return work, GrindingOutcomes(
+        ensemble, groups_of(work, ensemble), work.levels.before, work.without.scatter, bouncing
+    )
 
 
 def loudest_start(work: Work, accuracy: float) -> float | None:

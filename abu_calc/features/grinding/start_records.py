@@ -2,7 +2,7 @@
 
 from typing import Annotated, Self
 
-from abu_calc.features.grinding.outcomes import LoadedGroup, Loads, LowerBound
+from abu_calc.features.grinding.outcomes import LoadedGroup, GrindingOutcomes, LowerBound
 from abu_calc.foundation.quantity import Quantity, Record, record
 
 
@@ -59,7 +59,7 @@ class LoadedStarts(Record):
     outcomes: tuple[LoadedOutcomeGroup, ...]
 
     @classmethod
-    def of(cls, loads: Loads | None) -> Self | None:
+    def of(cls, loads: GrindingOutcomes | None) -> Self | None:
         """None for a machine whose contact does not press in the plane of the wheel."""
         if loads is None:
             return None

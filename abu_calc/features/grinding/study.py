@@ -14,7 +14,7 @@ from abu_calc.features.grinding import work as analysis
 from abu_calc.features.grinding.checks import agreement, flutter_limits, work_checks
 from abu_calc.features.grinding.curves import shaken
 from abu_calc.features.grinding.formulas import printed_resultant, stiffness_regions
-from abu_calc.features.grinding.outcomes import Loads, loudest_start, lower_bound, with_starts
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, loudest_start, lower_bound, with_starts
 from abu_calc.features.grinding.records import (
     AxisMotion,
     Comparison,
@@ -268,7 +268,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
     )  # fmt: skip
 
 
-def _always(work: Work, loads: Loads | None) -> bool:
+def _always(work: Work, loads: GrindingOutcomes | None) -> bool:
     """Sentence that tells if the autobalancer lowers the level in every start case."""
     return bool(work.always) and (loads is None or bool(loads.lowered("settled") and loads.lowered("at once")))
 

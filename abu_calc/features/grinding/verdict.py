@@ -6,13 +6,13 @@ It tells whether the autobalancer helps, why, and what would change that.
 import math
 from collections.abc import Sequence
 
-from abu_calc.features.grinding.outcomes import Loads
+from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.features.grinding.start_cases import WHEN
 from abu_calc.features.grinding.work import LOUDER, Remedy, Side, Work
 from abu_calc.foundation.units import from_si
 
 
-def in_words(work: Work, tried: Sequence[Remedy], loads: Loads | None = None) -> str:
+def in_words(work: Work, tried: Sequence[Remedy], loads: GrindingOutcomes | None = None) -> str:
     """A sentence or two; the level first, then the start cases that are louder than the usual case."""
     before, after = work.levels.before, work.levels.after
     if work.lowered is None or before is None or after is None:
@@ -33,7 +33,7 @@ def in_words(work: Work, tried: Sequence[Remedy], loads: Loads | None = None) ->
     return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
 
 
-def starts_in_words(work: Work, loads: Loads | None) -> str:
+def starts_in_words(work: Work, loads: GrindingOutcomes | None) -> str:
     """The loudest motion of the start cases and its share, if it is louder than the usual case by more than 1 dB."""
     loudest = None if loads is None else loads.loudest
     if (

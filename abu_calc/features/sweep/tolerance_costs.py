@@ -49,7 +49,7 @@ class Trials:
     members: tuple[int, ...]
 
     def rows(self, numbers: tuple[int, ...], may_end_process: bool = False) -> tuple[list[Row], float]:
-        """What each came to, its number in place of the member's, and how long all took [s]."""
+        """Answers of the samples, the number of each in place of the member's, and how long all took [s]."""
         begun, rows = time.perf_counter(), []
         for number in numbers:
             study, member = self._of(number)

@@ -12,7 +12,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.grinding.checks import work_checks
-from abu_calc.features.grinding.outcomes import Loads, groups_of, with_starts
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, groups_of, with_starts
 from abu_calc.features.grinding.start_cases import LoadedEnsemble, LoadedLost, LoadedOutcome, LoadedStart, Pressed
 from abu_calc.features.grinding.verdict import in_words
 from abu_calc.features.grinding.work import Work, at_work
@@ -122,7 +122,7 @@ def test_a_start_case_without_an_answer_leaves_it_open() -> None:
 def test_a_level_that_still_changes_across_the_limit_leaves_it_open() -> None:
     work = _work()
     near = _outcome(work, (work.levels.before or 0.0) - 0.4, drift=1.0)
-    loads = Loads(LoadedEnsemble((near,), ()), (), work.levels.before, 0.0)
+    loads = GrindingOutcomes(LoadedEnsemble((near,), ()), (), work.levels.before, 0.0)
     assert loads.lowered("settled") is None and loads.louder("settled") == ()
 
 
