@@ -2,7 +2,7 @@
 
 from typing import Annotated, Self
 
-from abu_calc.features.grinding.outcomes import LoadedGroup, GrindingOutcomes, LowerBound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedGroup, LowerBound
 from abu_calc.foundation.quantity import Quantity, Record, record
 
 
