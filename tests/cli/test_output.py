@@ -2,17 +2,35 @@
 
 import json
 from pathlib import Path
+from typing import Annotated, ClassVar
 
 import pytest
 
 from abu_calc.cli.output import BUG, Delivery, asked_figures, check_figures, deliver, fail, figure_option
+from abu_calc.foundation.checks import Check
 from abu_calc.foundation.errors import InputError, OutputError, Place
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome
+from abu_calc.simulation.result import Provenance, Result
 
-OUTCOME = Outcome(
-    "size", {"a": 1.0}, (Paragraph("whole"),), warnings=("careful",), status="fail",
-    short=lambda: (Paragraph("short"),),
+
+@record
+class Sample(Result):
+    """A result with one number, whose check fails."""
+
+    command: ClassVar[str] = "sample"
+
+    a: Annotated[float, Quantity("a")] = 1.0
+
+
+OUTCOME = Outcome.of(
+    Sample(
+        title="sample", checks=(Check("ABU201", "capacity", "fail", "too little"),), warnings=("careful",),
+        provenance=Provenance.today(),
+    ),
+    lambda: (Paragraph("whole"),),
+    lambda: (Paragraph("short"),),
 )  # fmt: skip
 
 

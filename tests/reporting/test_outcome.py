@@ -2,14 +2,17 @@
 
 import json
 import math
+from typing import Annotated, ClassVar
 
 import pytest
 
 import abu_calc
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, Grade
 from abu_calc.foundation.errors import InputError, Place
+from abu_calc.foundation.quantity import Quantity, record
 from abu_calc.reporting.blocks import Paragraph
 from abu_calc.reporting.outcome import Outcome, document, error_document, finite, to_json
+from abu_calc.simulation.result import Provenance, Result
 
 WHOLE, SHORT = (Paragraph("whole"),), (Paragraph("short"),)
 
@@ -30,20 +33,44 @@ def test_the_screen_is_the_short_report_or_else_the_whole_one() -> None:
     assert Outcome("size", {}, WHOLE).screen == WHOLE
 
 
+@record
+class Sample(Result):
+    """A result with one number."""
+
+    command: ClassVar[str] = "sample"
+
+    mass_g: Annotated[float, Quantity("mass")] = 240.5
+
+
+def sample(*checks: Check) -> Outcome:
+    result = Sample(title="sample", checks=checks, warnings=("careful",), provenance=Provenance.today())
+    return Outcome.of(result, lambda: WHOLE)
+
+
+def check(status: Grade) -> Check:
+    return Check("ABU201", "capacity", status, "enough", 2.0, 1.0, "g·mm", None, "least")
+
+
 def test_only_a_pass_exits_with_zero() -> None:
-    statuses = [Outcome("size", {}, WHOLE, status=status).exit_status for status in ("pass", "fail", "not-done")]
-    assert statuses == [0, 1, 1]
+    statuses = [sample(check(status)).exit_status for status in ("pass", "warn", "fail", "not-done")]
+    assert statuses == [0, 0, 1, 1]
+    assert Outcome("presets", {}, WHOLE).exit_status == 0
 
 
-def test_the_envelope_holds_checks_and_no_input_without_a_file() -> None:
-    check = Check("ABU201", "capacity", "pass", "enough", 2.0, 1.0, "g·mm", None, "least")
-    made = document(Outcome("size", {"a": 1}, WHOLE, checks=(check,), warnings=("careful",)))
-    assert made["abu"]["command"] == "size" and made["abu"]["version"] == abu_calc.__version__
-    assert made["input"] is None and made["warnings"] == ["careful"] and made["result"] == {"a": 1}
+def test_the_envelope_holds_what_the_result_holds_and_no_input_without_a_file() -> None:
+    made = document(sample(check("pass")))
+    assert made["abu"]["command"] == "sample" and made["abu"]["version"] == abu_calc.__version__
+    assert made["input"] is None and made["warnings"] == ["careful"] and made["result"] == {"mass_g": 240.5}
     assert made["checks"] == [
         {"code": "ABU201", "name": "capacity", "status": "pass", "message": "enough", "value": 2.0, "limit": 1.0,
          "unit": "g·mm", "remedy": None, "bound": "least"}
     ]  # fmt: skip
+
+
+def test_a_command_without_a_study_has_its_notes_for_warnings() -> None:
+    made = document(Outcome("validate", {"files": []}, WHOLE, notes=("careful",)))
+    assert (made["status"], made["checks"], made["model"]) == ("pass", [], {})
+    assert (made["result"], made["warnings"]) == ({"files": []}, ["careful"])
 
 
 def test_a_wrong_input_is_told_by_its_place() -> None:
