@@ -5,7 +5,7 @@ import pytest
 from abu_calc.dynamics.integrators.run import TooMuchWorkError
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.simulation import design_scenes
-from abu_calc.simulation.design_scenes import MORE, SceneFailure, scenes_of, simulated
+from abu_calc.simulation.design_scenes import SceneFailure, scenes_of, simulated
 from abu_calc.simulation.ensemble_checks import WORK
 from abu_calc.sizing import size
 from tests.sizing.machines import PINNED, machine
@@ -37,4 +37,4 @@ def test_too_much_work_is_tried_once_more_with_ten_times_as_much(monkeypatch: py
 
     monkeypatch.setattr(design_scenes, "simulate", simulate)
     assert simulated(size(machine(**PINNED)), 0.01) == ((), (SceneFailure("idle", "never agreed"),))
-    assert asked == [WORK, MORE * WORK]
+    assert asked == [WORK, 10 * WORK]

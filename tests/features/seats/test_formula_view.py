@@ -38,3 +38,11 @@ def test_the_spread_of_the_line_is_the_root_of_both_halves() -> None:
         if line.startswith("shaft: probable")
     ]
     assert "19 ∓ √(9.5² + 7.5²) = 6 … 32 µm" in line
+
+
+def test_the_standard_deviation_is_a_third_of_the_spread() -> None:
+    """√(9.5² + 7.5²)/3 = 4.035, and the mean of 19 is 4.7 of them: 1.2 in a million pairs are loose."""
+    judged = check_fit(read_machine("mmg-3200k-knife-shaft"))
+    lines = seat_numbers(bearing_models(judged)[:1], judged.seats[:2])
+    (line,) = (line for line in lines if line.startswith("shaft: P(clearance)"))
+    assert "Φ(−(19)/4.035) = 1.2" in line and "σ = √(9.5² + 7.5²)/3" in line

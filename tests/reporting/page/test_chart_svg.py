@@ -97,3 +97,10 @@ def test_lengths_of_bars_are_as_their_values() -> None:
     wide = [(float(str(a["x"])), float(str(a["width"]))) for tag, a in page.tags if tag == "rect"]
     assert wide[1][1] == pytest.approx(3 * wide[0][1], abs=0.3)
     assert wide[2][0] + wide[2][1] == pytest.approx(wide[0][0], abs=0.2)
+
+
+def test_the_first_series_is_filled_and_the_second_hollow() -> None:
+    axes = Axis("x", 0.0, 1.0), Axis("y", 0.0, 1.0)
+    page = read(plot("a", Plot("A", "told", *axes, [], [MarkedPoint(0.5, 0.5, "", series) for series in (1, 2)])))
+    kinds = {tag: attributes["class"] for tag, attributes in page.tags if tag in ("circle", "rect")}
+    assert kinds == {"circle": "f1", "rect": "hollow s2"}
