@@ -7,7 +7,6 @@ import re
 import tomllib
 from pathlib import Path
 
-import jsonschema
 import pytest
 from hypothesis import given, settings
 
@@ -233,45 +232,6 @@ def test_output_formats(tmp_path: Path, suffix: str) -> None:
     assert seen.status == 2 and "--force" in seen.err and path.read_bytes() == before
     assert again("size", "avtovaz-707-222", "--output", str(path), "--force", "-q").status == 0
     assert path.read_bytes() != before and list(tmp_path.iterdir()) == [path]
-
-
-def test_init_writes_what_size_takes(tmp_path: Path) -> None:
-    file = tmp_path / "mine.toml"
-    assert abu("init", str(file)).status == 0
-    assert abu("validate", str(file)).status == 0
-    assert abu("size", str(file), "--quiet").status == 0
-    assert abu("init", str(file)).status == 2
-    copy = tmp_path / "copy.toml"
-    assert abu("init", "--preset", "msh-230", str(copy)).status == 0
-    assert copy.read_text(encoding="utf-8") == abu("presets", "msh-230").out
-    schema = json.loads(abu("schema").out)
-    jsonschema.Draft4Validator(schema).validate(tomllib.loads(file.read_text(encoding="utf-8")))
-
-
-def test_validate_takes_overrides() -> None:
-    """Of every file it is given, as all commands that read one do."""
-    seen = abu("validate", "msh-230", "swing-arm-grinder", "--set", "wheel.mass_kg=0.5", "--json")
-    assert [one["overrides"] for one in json.loads(seen.out)["result"]["files"]] == [{"wheel.mass_kg": 0.5}] * 2
-    wrong = abu("validate", "msh-230", "--set", "wheel.mass_kg=-1")
-    assert wrong.status == 2 and "--set wheel.mass_kg" in wrong.err
-
-
-def test_validate_tells_every_file(tmp_path: Path) -> None:
-    wrong = tmp_path / "wrong.toml"
-    wrong.write_text("[machine]\n", encoding="utf-8")
-    seen = abu("validate", "msh-230", "swing-arm-grinder")
-    assert seen.status == 0 and "msh-230: right" in seen.out
-    seen = abu("validate", "msh-230", str(wrong))
-    assert seen.status == 2 and "wrong.toml" in seen.err
-
-
-def test_presets_say_where_each_value_comes_from() -> None:
-    for preset in json.loads(abu("presets", "--json").out)["result"]["presets"]:
-        text = abu("presets", preset["name"]).out.split("[expected]")[0]
-        for line in text.splitlines():
-            if "=" in line and not line.startswith(("#", "name", "model")):
-                assert "#" in line and ("assumed: " in line or any(c.isdigit() for c in line.split("#")[1]) or
-                                        "worked example" in line), line  # fmt: skip
 
 
 def test_check_fit_of_the_source() -> None:

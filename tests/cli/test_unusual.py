@@ -1,13 +1,10 @@
 """Every command that reads a file warns of what is unusual in it."""
 
-import json
 from pathlib import Path
 
 import pytest
 
 from tests.cli.runner import abu
-from tests.inputs.samples import BASIC
-from tests.inputs.scenes import ARM
 
 ODD = ("--set", "wheel.diameter_mm=60")
 SAID = "larger than the wheel: wheel.diameter_mm = 60"
@@ -32,22 +29,6 @@ def test_results_and_reports_warn(arguments: tuple[str, ...], said: str) -> None
 def test_reports_show_it() -> None:
     told = " ".join(abu("check-fit", "mmg-3200k-knife-shaft", *LOAD).out.split())
     assert "bearing[0].radial_load_kN = 800 (--set) is unusual, 0.01 … 300 kN is usual. Meant in N (0.8 kN)" in told
-
-
-def test_validate_prints_the_warnings_of_each_file(tmp_path: Path) -> None:
-    odd, scene = tmp_path / "odd.toml", tmp_path / "scene.toml"
-    odd.write_text(BASIC.replace("= 5800", "= 97") + "[swing_arm]\n", encoding="utf-8")
-    scene.write_text(ARM.partition("arm_length_mm")[0], encoding="utf-8")
-    arguments = ("validate", str(odd), "msh-230", str(scene))
-    seen = abu(*arguments)
-    told = " ".join(seen.out.split())
-    assert seen.status == 0 and "! machine.speed_rpm = 97 (line 6) is unusual" in told
-    assert "! [swing_arm] (line 29) takes example data" in told and "! [scene.swing_arm] (line 11)" in told
-    files = json.loads(abu(*arguments, "--json", "--quiet").out)
-    assert [len(one["warnings"]) for one in files["result"]["files"]] == [2, 0, 1]
-    assert [line.startswith(str(path)) for line, path in zip(files["warnings"], (odd, odd, scene), strict=True)] == [
-        True, True, True
-    ]  # fmt: skip
 
 
 def test_verify_names_the_file(tmp_path: Path) -> None:

@@ -18,11 +18,7 @@ from abu_calc.formulas.swing_arm import (
     worst_contact_angle,
 )
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
-from abu_calc.sizing.budget import fan
-from abu_calc.sizing.capacity import required_capacity, runout_factor
-from abu_calc.sizing.case import read_case
 from abu_calc.sizing.operating_speed import finite_mass_gap, zones
-from tests.sizing.machines import machine
 
 OMEGA = 5800 * math.pi / 30
 M, WX, WY, EPS = 5.6, 80.0, 120.0, 0.04e-3
@@ -104,34 +100,6 @@ def test_compliant_contact_solves_the_equations_of_motion() -> None:
 def test_band_of_contact_stiffness_in_which_balls_go_wrong(stiffness: float, increases: bool) -> None:
     """Between MΩ² − c_y = 1.985e6 and 2MΩ² − c_x − c_y = 4.015e6 N/m."""
     assert SteadyContact(OMEGA, D, 1 / stiffness, 0.0).balls_increase_imbalance is increases
-
-
-def test_exact_need_against_the_printed_limit() -> None:
-    """320.1 against 324.0 g·mm at f = 0."""
-    assert 100 + 224 * runout_factor(OMEGA, (WX, WY), 0.0) == pytest.approx(320.1, abs=0.05)
-
-
-def test_exact_need_is_the_worst_angle_of_the_runout() -> None:
-    f = 0.35
-    contact = SteadyContact(OMEGA, D, 0.0, -f)
-    worst = max(abs(contact.balancing_imbalance(EPS * cmath.exp(1j * math.radians(a))) - 100e-6) for a in range(0, 360))
-    assert 100e-6 + M * EPS * runout_factor(OMEGA, (WX, WY), f) == pytest.approx(worst, rel=1e-4)
-
-
-def test_need_of_a_machine_by_hand() -> None:
-    """m₀e + Mε√{…} + MΔ with M = 5.6 + 0.6 + 0.25 kg; the springs' stiffness was fixed at 6.2 kg."""
-    case = read_case(
-        machine(
-            wheel__runout_mm=0.09,
-            autobalancer__race_eccentricity_mm=0.01,
-            grinding={"contact": "rigid", "cutting_coefficient": 0.4, "press_force_N": 45.0},
-        )
-    )
-    need = required_capacity(case, 250e-6, 0.25)
-    share = 1 - 6.2 / 6.45 * (2.5 / (5800 / 60)) ** 2
-    assert need.required == pytest.approx(250e-6 + 6.45 * 0.09e-3 * share + 6.45 * 0.01e-3, rel=1e-9)
-    assert need.printed_limit == pytest.approx(250e-6 + 6.45 * 0.09e-3, rel=1e-9)
-    assert need.compliant is None
 
 
 # Regions.
@@ -233,11 +201,6 @@ def test_second_order_damping_limit(kappa: float, sigma: float) -> None:
 
 
 # Resting places.
-@pytest.mark.parametrize(("count", "resultant"), [(2, 0.5), (3, 1.2), (4, 0.665), (5, 0.0), (6, 2.0)])
-def test_fan_adds_up_to_its_resultant(count: int, resultant: float) -> None:
-    angles = fan(count, resultant, math.radians(8))
-    # Its spacing is one of 512 steps, so the sum is right to a few hundredths.
-    assert abs(sum(cmath.exp(1j * a) for a in angles)) == pytest.approx(resultant, abs=0.03)
 
 
 def test_friction_band_is_the_largest_displacement_that_holds_every_ball() -> None:

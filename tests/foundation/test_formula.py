@@ -99,24 +99,6 @@ def test_every_code_has_an_entry_and_its_name_agrees() -> None:
     assert len({one.name for one in CHECK_CODES.values()}) == len(CHECK_CODES)
 
 
-@pytest.mark.parametrize("code", CHECK_CODES)
-def test_a_code_is_explained(code: str) -> None:
-    one = CHECK_CODES[code]
-    assert not one.step or one.step in STEPS
-    shown = abu("explain", code.lower())
-    assert shown.status == 0
-    for part in (one.name, one.asks, one.fails, one.remedy, *(formula_of(key).for_users[0] for key in one.formulas)):
-        assert " ".join(part.split()) in " ".join(shown.out.split())
-
-
-def test_codes_are_listed_and_given_as_data() -> None:
-    listed = abu("explain", "--json").document["result"]
-    assert listed["checks"]["ABU203"] == "mass of the autobalancer"
-    told = abu("explain", "ABU203", "--json").document["result"]
-    assert (told["check"], told["step"]) == ("ABU203", "balls")
-    assert "did you mean" in abu("explain", "ABU2O3").err.lower()
-
-
 def test_limits_in_the_words_of_check_codes_are_those_of_the_code() -> None:
     """Codes stand below everything, so their sentences cannot ask for the constants."""
     assert all(f"{PERMITTED_RING_STRESS / 1e6:g} MPa" in CHECK_CODES[code].fails for code in ("ABU602", "ABU612"))

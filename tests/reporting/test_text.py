@@ -1,17 +1,12 @@
 """Names, keys and values of files reach terminals and text files harmless, and begin no line of their own."""
 
-import csv
-import io
-import json
 import re
-import tomllib
 from pathlib import Path
 
 import pytest
 
 from abu_calc.foundation.errors import escaped, escaped_lines
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture
-from abu_calc.reporting.files import FORMULAS
 from abu_calc.reporting.text import as_text
 from tests.cli.runner import abu
 from tests.inputs.samples import BASIC, BEARINGS
@@ -47,19 +42,6 @@ def test_every_part_of_a_report_is_escaped(block: Block) -> None:
     """Headers of tables and captions, too, where handles' names stand."""
     text = as_text([block], 100)
     assert "\\x1b[2J\\u202ex\\x9b31m" in text and not ACTING.search(text)
-
-
-@pytest.mark.parametrize("suffix", [".txt", ".csv", ".toml", ".json"])
-def test_files_do(tmp_path: Path, suffix: str) -> None:
-    output = tmp_path / f"out{suffix}"
-    assert abu("check-fit", str(named(tmp_path, HOSTILE)), "--output", str(output)).status in (0, 1)
-    text = output.read_text(encoding="utf-8")
-    assert not ACTING.search(text)
-    name = tomllib.loads(f'name = "{HOSTILE}"')["name"]
-    if suffix == ".toml":
-        assert tomllib.loads(text)["result"][0]["name"] == name
-    if suffix == ".json":
-        assert json.loads(text)["result"][0]["name"] == name
 
 
 @pytest.mark.parametrize("sign", ["\\n", "\\r", "\\u0085", "\\u2028", "\\u000b"])
@@ -130,18 +112,6 @@ def test_found_values_are_cut(tmp_path: Path) -> None:
     file.write_text(BASIC.replace("5.6", f'"{long}"').replace("[limits]", f"[limits]\n{long} = 1"), encoding="utf-8")
     seen = abu("validate", str(file), "--json")
     assert len(seen.err) < 2000 and len(seen.document["error"]["found"]) <= 200
-
-
-@pytest.mark.parametrize("first", FORMULAS)
-def test_spreadsheets_compute_no_text(tmp_path: Path, first: str) -> None:
-    output = tmp_path / "out.csv"
-    abu("check-fit", str(named(tmp_path, f"{first}HYPERLINK(1)")), "--output", str(output))
-    rows = list(csv.reader(io.StringIO(output.read_text(encoding="utf-8"))))
-    assert ["result.0.name", f"'{first}HYPERLINK(1)", ""] in rows
-    for path, value, _ in rows[1:]:
-        assert not path.startswith(FORMULAS)
-        if value.startswith(FORMULAS):
-            float(value)  # a number stays one
 
 
 def test_what_is_escaped() -> None:

@@ -119,15 +119,6 @@ def test_an_update_writes_over_no_edit(tmp_path: Path, monkeypatch: pytest.Monke
     assert file.read_text(encoding="utf-8").endswith("# edited\n")
 
 
-def test_presets_are_copied_and_files_are_not(tmp_path: Path) -> None:
-    secret = tmp_path / "secret.toml"
-    secret.write_text(BEARINGS + "# password\n", encoding="utf-8")
-    for arguments in (("init", "--preset", str(secret), str(tmp_path / "new.toml")), ("presets", str(secret))):
-        seen = abu(*arguments)
-        assert seen.status == 2 and "no preset of this name" in seen.err and "password" not in seen.out + seen.err
-    assert list(tmp_path.iterdir()) == [secret]
-
-
 LONG = "x" * 300
 
 

@@ -3,7 +3,10 @@
 from copy import deepcopy
 from typing import Any
 
+from abu_calc.foundation.checks import Check
 from abu_calc.inputs.machine import MachineFile
+from abu_calc.sizing import size
+from abu_calc.sizing.design import Design
 
 BASE: dict[str, Any] = {
     "machine": {
@@ -18,6 +21,15 @@ BASE: dict[str, Any] = {
     "autobalancer": {"max_outer_diameter_mm": 68.0, "max_width_mm": 32.0},
 }
 
+PINNED = {"autobalancer__ball_count": 4, "autobalancer__ball_diameter_mm": 8.0, "autobalancer__race_radius_mm": 30.0}
+DRUM = {
+    "machine__mass_kg": 30.0, "machine__speed_rpm": 1250, "wheel__mass_kg": 3.0, "wheel__diameter_mm": 500.0,
+    "wheel__imbalance_g_mm": 60000.0, "autobalancer__design": "light", "autobalancer__ball_count": 8,
+    "autobalancer__max_outer_diameter_mm": 520.0, "autobalancer__max_width_mm": 40.0,
+    "autobalancer__max_mass_fraction": 0.3, "autobalancer__ball_diameter_mm": 24.0,
+    "autobalancer__race_radius_mm": 250.0,
+}  # fmt: skip
+
 
 def machine(**changes: Any) -> MachineFile:
     """The base machine with entries changed: `wheel__runout_mm=0.09`; None removes an entry, a dict sets a table."""
@@ -31,3 +43,14 @@ def machine(**changes: Any) -> MachineFile:
         else:
             tables.setdefault(table, {})[key] = value
     return MachineFile.model_validate(tables)
+
+
+def check_of(design: Design, code: str) -> Check:
+    """The check of one code."""
+    return next(check for check in design.checks if check.code == code)
+
+
+def ranged(limit: float) -> Design:
+    """Four balls of 8 mm, 2500 to 12000 rpm, with a limit [dB] of the level."""
+    changes = {"machine__speed_rpm": 5000, "machine__speed_range_rpm": [2500, 12000], "wheel__imbalance_g_mm": 100.0}
+    return size(machine(**changes, **PINNED, limits={"vibration_level_db": limit}))

@@ -13,11 +13,9 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.inputs.reading.table import LEAST
 from abu_calc.sizing import size
 from abu_calc.sizing.balls import choose
-from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.capacity import required_capacity
 from abu_calc.sizing.case import read_case
 from abu_calc.sizing.design import Design
-from abu_calc.sizing.housing import housing
 from abu_calc.standards.balls import stock_diameters
 from tests.sizing.machines import machine
 
@@ -177,12 +175,6 @@ def test_capacity_and_mass_scale_with_geometry(factor: float, count: int) -> Non
     assert capacity(count, 0.016 * factor**3, 23e-3 * factor, beta) == pytest.approx(one * factor**4)
 
 
-@given(st.floats(20e-3, 60e-3), st.floats(1e-4, 5e-3), st.sampled_from(["one-piece", "bearing-ring", "light"]))
-@RANDOM
-def test_a_larger_race_is_never_lighter(race: float, step: float, design: Any) -> None:
-    assert housing(design, race + step, 8e-3, 20e-3, 2.5e-3).mass > housing(design, race, 8e-3, 20e-3, 2.5e-3).mass
-
-
 # The choice.
 def test_the_choice_is_the_lightest_of_all_that_suffice() -> None:
     """Against every stock diameter, count and half millimetre, tried one by one."""
@@ -290,83 +282,3 @@ def test_hands_hold_the_machine_too() -> None:
     design = size(machine(suspension={"model": "hands"}))
     assert design.frequency.balancing_possible
     assert 1 < max(design.frequency.natural_frequencies) / (2 * math.pi) < 3
-
-
-def test_a_race_off_the_wheels_plane_needs_the_rigid_body() -> None:
-    check = next(c for c in size(machine(autobalancer__plane_offset_mm=-30.0)).checks if c.code == "ABU205")
-    assert check.status == "not-done" and check.value is None
-    rigid = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
-    design = size(machine(autobalancer__plane_offset_mm=-30.0, **rigid))
-    check = next(c for c in design.checks if c.code == "ABU205")
-    assert check.status in ("pass", "fail") and check.value and check.value > 0
-
-
-def test_what_is_uncertain_is_warned_of() -> None:
-    plain = size(machine()).warnings
-    assert any("point mass" in warning for warning in plain) and any("No [grinding]" in warning for warning in plain)
-    rigid = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
-    assert not any("point mass" in warning for warning in size(machine(**rigid)).warnings)
-
-
-def test_background_is_taken_off_the_measured_level() -> None:
-    level = {"wheel__imbalance_g_mm": None, "wheel__measured_level_db": 111.0}
-    quiet = size(machine(**level))
-    noisy = size(machine(**level, machine__background_level_db=105.0))
-    share = math.sqrt(1 - 10 ** ((105 - 111) / 10))
-    assert noisy.imbalance.value == pytest.approx(quiet.imbalance.value * share, rel=1e-9)
-    assert noisy.idle.worst.before == pytest.approx(111.0) == quiet.idle.worst.before
-    with pytest.raises(InputError, match="background"):
-        size(machine(**level, machine__background_level_db=111.0))
-
-
-def test_a_handle_at_a_node_says_nothing_of_the_imbalance() -> None:
-    node = 1000 * 0.1 / (6.2 * 0.2)  # p = −J/(M·a)
-    with pytest.raises(InputError, match="node") as caught:
-        size(
-            machine(
-                machine__transverse_inertia_kg_m2=0.1,
-                machine__center_of_mass_to_wheel_mm=200.0,
-                machine__handle=[{"name": "rear", "from_center_of_mass_mm": -node}],
-                wheel__imbalance_g_mm=None,
-                wheel__measured_level_db=100.0,
-                wheel__measured_at="rear",
-            )
-        )
-    assert caught.value.place.key == "wheel.measured_at"
-
-
-def test_what_the_balls_cannot_carry_stays_in_the_level() -> None:
-    """Two 5 mm balls against 250 g·mm: the rest shakes the machine, beside the budget."""
-    design = size(machine(autobalancer__ball_diameter_mm=5.0, autobalancer__ball_count=2))
-    one = design.autobalancer
-    left = (250e-6 - one.capacity) / (6.2 + one.mass)
-    resonance = 1 / (1 - (2.5 * 60 / 5800) ** 2)  # damping changes it by 3e-4
-    rest = left * resonance + math.hypot(one.budget.race_eccentricity, one.budget.rolling_friction)
-    assert one.budget.residual == pytest.approx(rest, rel=1e-3)
-    assert design.idle.worst.after == pytest.approx(displacement_level(rest, 5800 * math.pi / 30), abs=0.01)
-
-
-def test_handles_of_a_rigid_body() -> None:
-    """265, 116 and 169 g·mm make 111 dB at the wheel of a point mass, at a front and a rear handle: masses as these."""
-    handles = [{"name": "front", "from_center_of_mass_mm": 100.0}, {"name": "rear", "from_center_of_mass_mm": -200.0}]
-    design = size(
-        machine(
-            machine__transverse_inertia_kg_m2=0.1, machine__center_of_mass_to_wheel_mm=200.0, machine__handle=handles
-        )
-    )
-    front, rear = design.idle.places
-    mass = 6.2 + design.autobalancer.mass
-    assert front.effective_mass == pytest.approx(1 / (1 / mass + 0.2))
-    assert rear.effective_mass == pytest.approx(1 / (0.4 - 1 / mass))
-    assert front.levels.before > rear.levels.before
-    assert design.idle.worst.before == front.levels.before
-
-
-def test_costs_of_the_drawing_add_up_to_the_budget() -> None:
-    """What the eccentricity costs is the budget with it against the budget without it."""
-    design = size(machine(autobalancer__race_eccentricity_mm=0.02))
-    line = next(each for each in design.drawing if each.feature == "race to bore, all in")
-    budget = design.autobalancer.budget
-    others = math.hypot(budget.rolling_friction, budget.race_ovality)
-    assert line.cost_db == pytest.approx(20 * math.log10(budget.residual / others))
-    assert all(each.cost_db is None or each.cost_db >= 0 for each in design.drawing)

@@ -12,9 +12,8 @@ from abu_calc.features.design.study import SizeResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.view import check_fit_screen
 from abu_calc.foundation.checks import Check, Grade
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.reporting.parts import check_blocks, reasons
-from abu_calc.reporting.screen import cut
+from abu_calc.reporting.blocks import Paragraph
+from abu_calc.reporting.parts import check_blocks
 from abu_calc.reporting.text import as_text, height
 from tests.cli.runner import Seen, abu, once
 from tests.cli.test_command import PRESETS
@@ -175,13 +174,6 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
 
 
 # room
-def test_a_value_beyond_its_limit_is_not_shown_as_the_limit() -> None:
-    def told(value: float) -> str:
-        return "".join(as_text(reasons([Check("ABU401", "level", "fail", "told", value, 109.0, "dB")])))
-
-    assert "(109.03 dB, at most 109.00)" in told(109.0312)
-    assert "(112.0 dB, at most 109.0)" in told(112.04)
-    assert "(109.0 dB, at most 109.0)" in told(109.0)
 
 
 @pytest.mark.parametrize(("bad", "warned"), [(0, 0), (0, 60), (5, 7), (14, 0), (60, 60)])
@@ -196,26 +188,6 @@ def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFit
             counted = re.search(rf"And (\d+) more {name}s?{' .ABU401.' if name == 'check' else ''}: --full", text)
             assert len(re.findall(told, flat(text))) + int(counted[1] if counted else 0) == all_of
             assert counted is None or int(counted[1]) > 0
-
-
-@pytest.mark.parametrize("room", range(1, 30))
-def test_tables_are_cut_to_the_room_there_is(room: int) -> None:
-    rows = tuple((str(number), "x") for number in range(12))
-    blocks: list[Block] = [
-        Paragraph("first"),
-        Heading("Table"),
-        Grid(("a", "b"), rows),
-        Heading("End"),
-        Paragraph("last"),
-    ]
-    shown = cut(blocks, room)
-    text = as_text(shown)
-    assert height(shown) <= room and not isinstance(shown[-1], Heading)
-    whole = room >= height(blocks)
-    assert ("--full" in text) is not whole
-    counted = re.search(r"And (\d+) more row", text)
-    if counted:
-        assert len(re.findall(r"x$", text, re.MULTILINE)) + int(counted[1]) == 12
 
 
 def test_files_and_full_have_the_whole_report(tmp_path: Path) -> None:

@@ -116,14 +116,6 @@ def test_every_row_of_the_makers_table_is_a_tabulated_class_and_rows_follow_on()
             assert one[7] == other[6]  # the next row begins where this one ends
 
 
-def test_given_ratings_win_and_what_is_not_known_is_not_guessed():
-    given = seat_bearing(by_designation("6205", dynamic_load_rating_kN=10.0, radial_load_kN=1.0))
-    assert given.bearing.load_ratio == pytest.approx(0.1)
-    assert seat_bearing(by_designation("7206C")).bearing.load_ratio is None
-    assert seats().bearing.load_ratio is None  # by sizes, nothing says which bearing it is
-    assert seats(dynamic_load_rating_kN=187.0, bearing_type="tapered").shaft.joint.maker.classes == ("m6",)
-
-
 def test_a_load_above_a_quarter_of_the_static_rating_is_told():
     """6205: C0 is 7.8 kN."""
     told = [" ".join(seat_bearing(by_designation("6205", radial_load_kN=load)).shaft.notes) for load in (1.9, 2.0)]

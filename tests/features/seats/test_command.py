@@ -1,29 +1,15 @@
 """`abu check-fit`: the report, its drawing, the options."""
 
-from dataclasses import replace
 from types import NoneType
 from typing import get_args
 
 import pytest
 
 from abu_calc.features.seats.command import BANDS, OPTIONS
-from abu_calc.features.seats.study import check_fit
-from abu_calc.features.seats.view import zone_lines
-from abu_calc.inputs.read_machine import read_machine
 from abu_calc.inputs.rolling_bearing import Bearing
 from tests.cli.runner import abu
 
 BARE = ("check-fit", "--bore", "80", "--outer", "140", "--width", "33", "--shaft", "m6", "--housing", "K7")
-FLESHING = ("check-fit", "mmg-3200k-knife-shaft")
-
-
-def zones(*seats):
-    """The drawing of a shaft and a housing whose ring, part and field are these."""
-    known = check_fit(read_machine(FLESHING[1])).seats[:2]
-    return zone_lines(*(
-        replace(row, ring_limits_um=tuple(ring), part_limits_um=tuple(part), fit=fit)
-        for row, (ring, part, fit) in zip(known, seats, strict=True)
-    ))  # fmt: skip
 
 
 def test_bare_options_give_a_whole_result_but_for_creep_under_an_unknown_load():
@@ -105,49 +91,6 @@ def test_wrong_options_are_refused(arguments, said):
     assert all(word in seen.err for word in said), seen.err
 
 
-@pytest.mark.parametrize("width", [60, 80])
-def test_the_report_fits_its_width(monkeypatch, width):
-    monkeypatch.setenv("COLUMNS", str(width))
-    out = abu(*FLESHING, "--full").out
-    assert max(map(len, out.splitlines())) <= width
-    for words in ("may creep", "Write m6", "zero line", "positive when tight", "Fields that pass", "For the drawing"):
-        assert words in " ".join(out.split())
-
-
-def test_explain_puts_the_numbers_in():
-    out = " ".join(abu(*FLESHING, "--explain", "--set", "bearing[0].shaft_rz_um=4.0").out.split())
-    for line in ("13·3·2.8/29 = 3.766 µm", "0.08·√(80·3000/33) = 6.822 µm", "2 − (0) … 21 − (-15) = 2 … 36 µm",
-                 "0.4·4 µm = 1.6 µm", "Source: Lamé", "Afanasiev 2015"):  # fmt: skip
-        assert line in out
-
-
-def test_the_drawing_of_the_source():
-    lines = zones(([-15, 0], [2, 21], "k6"), ([-18, 0], [-28, 12], "K7"))
-    zero = next(i for i, line in enumerate(lines) if "+---" in line)
-    assert all(ord(character) < 128 for line in lines for character in line)
-    assert max(map(len, lines)) <= 58
-    above, below = "".join(lines[1:zero]), "".join(lines[zero + 1 :])
-    assert "/" not in above and "/" in below  # rings lie below the zero line
-    assert "k6" in above and "k6" not in below
-    assert "+21" in above and "-15" in below and "-28" in below and "+12" in above
-
-
-@pytest.mark.parametrize("part", [[-33, -20], [0, 9], [-9.5, 9.5], [-6, 0], [63, 131], [0, 4]])
-def test_zones_stand_where_their_limits_are(part):
-    """Rows that hold the part's mark, by the scale at their left, against the limits."""
-    lines = zones(*[([-8, 0], part, "x1")] * 2)
-    zero = next(i for i, line in enumerate(lines) if "+---" in line)
-    scale = abs(int(lines[zero + 1].split("|")[0]))
-    for number, line in enumerate(lines[1:], 1):
-        if number == zero:
-            continue
-        edge = int(line.split("|")[0])
-        middle = edge - scale / 2 if number < zero else edge + scale / 2
-        if part[1] - part[0] > 2 * scale:
-            assert ("#" in line) == (part[0] < middle < part[1]), line
-    assert sum("#" in line for line in lines) >= 1
-
-
 def test_without_fits_it_answers_which_to_write():
     seen = abu("check-fit", "--designation", "608", "--radial-load-kN", "0.4")
     assert seen.status == 0 and "Write shaft js5, housing H7, clearance CN (P/C = 0.12)." in " ".join(seen.out.split())
@@ -155,34 +98,6 @@ def test_without_fits_it_answers_which_to_write():
     shaft, housing = by_sizes.document["result"]
     assert (shaft["recommended_fit"], shaft["fit_given"], housing["recommended_fit"]) == ("m6", False, "H7")
     assert by_sizes.status == 0
-
-
-def test_lists_of_fits_stand_side_by_side():
-    seen = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "g6,k5,m5", "--housing", "H7")
-    lines = seen.out.splitlines()
-    table = [line.split() for line in lines[lines.index("") + 1 :][:4]]
-    assert table[0] == ["bearing", "shaft", "housing", "verdict", "write"]
-    assert [row[:3] for row in table[1:]] == [["g6", "g6", "H7"], ["k5", "k5", "H7"], ["m5", "m5", "H7"]]
-    assert "FAIL" in table[1] and "PASS," in table[2] and seen.status == 1
-    seen = abu("check-fit", "--designation", "6205", "--shaft", "j5,k5", "--housing", "H7,J7", "--json")
-    assert [seat["name"] for seat in seen.document["result"][::2]] == ["j5/H7", "j5/J7", "k5/H7", "k5/J7"]
-    wrong = abu("check-fit", "--designation", "6205", "--shaft", "k5,K6")
-    assert wrong.status == 2 and "--shaft" in wrong.err
-
-
-def test_sorting_and_repair_are_told():
-    out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--shaft", "k6", "--housing", "H7",
-              "--asked-interference", "5:22").out  # fmt: skip
-    assert "group  shaft, µm  bore, µm" in out and "8.5 … 15   -5 … 0" in out
-    out = " ".join(abu("check-fit", "--designation", "6205", "--radial-load-kN", "2", "--shaft-limits", "-14:-6",
-                       "--shaft", "k6").out.split())  # fmt: skip
-    assert "grip left -14 … 4 µm, 5.6 needed" in out and "+2 … +15 µm" in out and "turn down to 20 mm for 6204" in out
-
-
-def test_a_ring_that_needs_no_interference_shows_none():
-    out = abu("check-fit", "--designation", "6205", "--radial-load-kN", "1", "--full").out
-    row = next(line for line in out.splitlines() if "required interference" in line)
-    assert row.split()[-1] == "–" and "housing  load" not in out
 
 
 @pytest.mark.parametrize("text", ["P5", "5", "p5"])

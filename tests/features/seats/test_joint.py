@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from abu_calc.features.seats.interference import clearance_probability, probable_interference, theoretical_interference
 from abu_calc.features.seats.joint import Tube, contact_pressure, inner_ring_stress, outer_ring_stress
 from abu_calc.features.seats.notes import advised_class
-from abu_calc.features.seats.requirement import SERIES_FACTORS, centrifugal_loss, creep_interference, load_loss
 from abu_calc.foundation.errors import RangeError
 from abu_calc.standards.balls import Material, seat_material
 from abu_calc.standards.tolerance_classes import DeviationLimits
@@ -91,43 +90,6 @@ def test_probable_interference_of_the_bearing_makers(shaft, expected):
 def test_rounding_goes_outward():
     found = probable_interference(limits(0, 20), limits(0, 20))  # 0 ∓ 14.142
     assert (1e6 * found.smallest, 1e6 * found.largest) == pytest.approx((-15, 15))
-
-
-def test_creep_interference_in_the_units_of_the_source():
-    """13·R·k/(10³·b) µm with R in kN and b in m; the print's 10⁶ gives millimetres."""
-    assert creep_interference(3000, 0.029, 2.8) == pytest.approx(13 * 3 * 2.8 / (1e3 * 0.029) * 1e-6, rel=1e-12)
-    assert creep_interference(3000, 0.029, 2.8) == pytest.approx(13 * 3 * 2.8 / (1e6 * 0.029) * 1e-3, rel=1e-12)
-    assert 1e6 * creep_interference(6000, 0.029, SERIES_FACTORS["light"]) == pytest.approx(7.53, abs=5e-3)
-
-
-@pytest.mark.parametrize(("load", "length"), [(-1, 0.03), (math.nan, 0.03), (1, 0), (1, -0.01), (1, math.nan)])
-def test_requirements_refuse_impossible_values(load, length):
-    with pytest.raises(RangeError):
-        creep_interference(load, length, 2.8)
-    with pytest.raises(RangeError):
-        load_loss(load, 0.08, length)
-
-
-def test_heavier_series_need_less():
-    assert SERIES_FACTORS["light"] > SERIES_FACTORS["medium"] > SERIES_FACTORS["heavy"]
-
-
-def growth_of_spinning_disc(inner: float, outer: float, at: float, speed: float, m: Material) -> float:
-    """Radial growth u = r(σ_θ − ν·σ_r)/E from the stresses of the rotating annular disc."""
-    c = (3 + m.poisson_ratio) / 8 * m.density * speed**2
-    radial = c * (inner**2 + outer**2 - (inner * outer / at) ** 2 - at**2)
-    share = (1 + 3 * m.poisson_ratio) / (3 + m.poisson_ratio)
-    hoop = c * (inner**2 + outer**2 + (inner * outer / at) ** 2 - share * at**2)
-    return at * (hoop - m.poisson_ratio * radial) / m.youngs_modulus
-
-
-@pytest.mark.parametrize("bore", [0.0, 0.02])
-def test_centrifugal_loss_is_the_difference_of_two_growths(bore):
-    speed, d, d1 = 1000.0, 0.080, 0.0968
-    ring = growth_of_spinning_disc(d / 2, d1 / 2, d / 2, speed, STEEL)
-    # a solid disc is the limit of one with a vanishing hole, taken at the rim
-    shaft = growth_of_spinning_disc(max(bore, 1e-9) / 2, d / 2, d / 2, speed, STEEL)
-    assert centrifugal_loss(speed, d, d1, bore, STEEL) == pytest.approx(2 * (ring - shaft), rel=1e-9)
 
 
 def displacement(r: float, a: float, b: float, inside: float, outside: float, m: Material) -> float:

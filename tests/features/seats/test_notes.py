@@ -12,7 +12,6 @@ from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.seats import seat_bearing
 from abu_calc.foundation.checks import overall
-from abu_calc.foundation.errors import InputError
 from abu_calc.standards.tolerance_classes import DeviationLimits
 from tests.features.seats.samples import by_designation, seats
 
@@ -66,17 +65,6 @@ def test_friction_torque_of_the_example():
     assert shaft.creep.holds_at_start is True
 
 
-def test_start_is_checked_only_where_a_torque_is_given_and_a_ring_must_grip():
-    codes = [check.code for check in seats(shaft_fit="m6", starting_torque_N_m=500.0).checks]
-    assert codes == ["ABU601", "ABU602", "ABU603", "ABU611", "ABU612"]
-    shaft = seats(shaft_fit="m6", starting_torque_N_m=500.0).shaft
-    assert (shaft.creep.holds_at_start, shaft.checks[2].status) == (False, "fail")
-    assert shaft.recommended_fit not in ("m6", None)
-    assert seats(starting_torque_N_m=0.0, shaft_fit="m6").shaft.checks[2].status == "pass"
-    unknown_length = seats(chamfer_mm=None, width_mm=33.5, starting_torque_N_m=1.0).shaft
-    assert unknown_length.checks[2].status == "not-done"
-
-
 def test_losses_lower_the_friction_torque_and_speed_does_not():
     plain = seats(shaft_fit="m6").shaft.creep.least_torque
     rough = seats(shaft_fit="m6", shaft_rz_um=4.0).shaft.creep.least_torque
@@ -120,18 +108,6 @@ def test_the_group_to_choose_passes():
     assert choice in check.remedy
     again = seat_bearing(by_designation("6206", internal_clearance=choice, **given))
     assert again.checks[-1].status == "pass"
-
-
-def test_a_group_of_a_bearing_that_has_none_is_refused():
-    for name in ("7516", "46206", "7206B"):
-        with pytest.raises(InputError, match="deep groove"):
-            seat_bearing(by_designation(name, internal_clearance="CN"))
-    assert seats(internal_clearance=None).clearance is None
-    assert seats(internal_clearance="CN", bearing_type="ball").clearance is not None
-    with pytest.raises(InputError, match="without the type"):
-        seats(internal_clearance="CN")
-    with pytest.raises(InputError, match="its table is not held here"):
-        seats(internal_clearance="CN", bearing_type="cylindrical")
 
 
 @pytest.mark.parametrize("changes", [{}, {"outer_ring_load": "rotating", "housing_fit": "M7"},
@@ -213,11 +189,3 @@ def test_a_band_is_meant_for_the_ring_that_must_grip():
     assert narrow.selection is None and "Sorting cannot keep k6" in narrow.notes[-1]
     assert "17 … 21 µm" in narrow.notes[-1]
     assert "without sorting" in seats(asked_interference_um=(0.0, 40.0)).shaft.notes[-1]
-
-
-def test_a_chamfer_is_lent_by_the_bearing_of_the_same_sizes():
-    found = seats(chamfer_mm=None)
-    assert found.bearing.inner.chamfer == pytest.approx(2.5e-3)
-    assert any("that of 32216" in note for note in found.shaft.notes)
-    assert um(found.housing.ring_limits.lower) == -18  # still taken as a radial bearing
-    assert not any("chamfer" in note for note in seats().shaft.notes)

@@ -138,33 +138,6 @@ def test_odd_entries_are_wrong_input(tmp_path: Path, text: str, key: str, line: 
         assert seen.err.count("\n") >= 1
 
 
-@pytest.mark.parametrize(("old", "new", "key"), [
-    ("max_width_mm = 32.0", "max_width_mm = 4.0", "autobalancer.max_width_mm"),
-    ("max_width_mm = 32.0", "max_width_mm = 32.0\nball_count = 80", "autobalancer.ball_count"),
-    ("max_width_mm = 32.0", "max_width_mm = 32.0\nrace_radius_mm = 45.0", "autobalancer.race_radius_mm"),
-    ('"6203"', '"99999"', "bearing[0].designation"),
-    ('"k6"', '"k9"', "bearing[0].shaft_fit"),
-    ("natural_frequencies_hz = [2.5, 2.5]\ndamping_ratios = [0.5, 0.5]",
-     "natural_frequencies_hz = [2.5, 2.5]\ndamping_ratios = [0.5, 0.5]\n[swing_arm]\ncutting_coefficient = 1.9",
-     "swing_arm.cutting_coefficient"),
-])  # fmt: skip
-def test_validate_refuses_what_size_would(tmp_path: Path, old: str, new: str, key: str) -> None:
-    file = tmp_path / FILE
-    assert old in BASIC
-    file.write_text(BASIC.replace(old, new), encoding="utf-8")
-    one, other = abu("validate", str(file)), abu("size", str(file))
-    assert one.status == other.status == 2
-    assert re.search(rf"{re.escape(str(file))}:\d+: {re.escape(key)}: ", one.err)
-    assert one.err.removeprefix("abu validate") == other.err.removeprefix("abu size")
-
-
-def test_validate_refuses_scenes_too_long_to_integrate(tmp_path: Path) -> None:
-    file = tmp_path / "scene.toml"
-    file.write_text(SCENE.replace("= 700.0", "= 1e9"), encoding="utf-8")
-    seen = abu("validate", str(file))
-    assert seen.status == 2 and "scene.duration_s" in seen.err and f"{file}:9" in seen.err
-
-
 def test_the_library_refuses_with_its_own_errors() -> None:
     machine, bearings = abu_calc.read("msh-230"), abu_calc.read("mmg-3200k-knife-shaft")
     scene = subject_of(machine).scene

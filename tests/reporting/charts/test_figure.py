@@ -1,6 +1,5 @@
 """Figures alone: as files, and from Python. They show the result's numbers, alike each time, and name their units."""
 
-import importlib.util
 import re
 from collections.abc import Callable
 from functools import cache
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 
 import abu_calc
-from abu_calc.foundation.errors import InputError, OutputError
+from abu_calc.foundation.errors import InputError
 from abu_calc.registry import BY_NAME, figures_of, known
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Cells, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Figure, caught, settling
@@ -100,26 +99,6 @@ def test_whatever_stands_in_a_chart_is_drawn(shown: Plot | Cells | Bars) -> None
         assert "mass_kg [kg]" in texts
     if shown is DECADES:
         assert {"0.0001", "10", "1e-07"} <= set(_texts(file))
-
-
-@pytest.mark.parametrize(
-    ("name", "suffix", "begins"),
-    [("settling", ".png", b"\x89PNG"), ("costs", ".pdf", b"%PDF"), ("section", ".pdf", b"%PDF")],
-)
-def test_png_and_pdf_have_a_title_and_no_date(name: str, suffix: str, begins: bytes) -> None:
-    one = _figures()[name]
-    file = figure_file(one, suffix)
-    assert isinstance(file, bytes)
-    assert file.startswith(begins)
-    assert one.shown.title.encode() in file  # type: ignore[union-attr]
-    assert b"CreationDate" not in file
-
-
-def test_drawing_is_as_large_as_on_paper() -> None:
-    shown = _figures()["section"].shown
-    assert isinstance(shown, Drawing)
-    wide, high = sized().figure("section").get_size_inches()
-    assert (25.4 * wide, 25.4 * high) == pytest.approx(shown.size)
 
 
 def test_figure_from_python_has_the_numbers_of_the_result() -> None:
@@ -236,18 +215,6 @@ def test_commands_without_figures_have_no_such_option() -> None:
     seen = abu("presets", "--figure", "levels=a.svg")
     assert seen.status == 2
     assert "--figure" in seen.err
-
-
-def test_missing_matplotlib_is_named_with_what_installs_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    found: Callable[[str], object] = importlib.util.find_spec
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "matplotlib" else found(name))
-    asked = ("check-fit", "mmg-3200k-knife-shaft", "--quiet", "--figure")
-    seen = abu(*asked, f"interference-1={tmp_path / 'a.svg'}")
-    assert seen.status == 2
-    assert "matplotlib" in seen.err and 'pip install "abu-calc[report]"' in seen.err
-    assert abu(*asked, f"seats-1={tmp_path / 'b.svg'}").status == 0
-    with pytest.raises(OutputError, match="matplotlib"):
-        sized().figure("levels")
 
 
 def test_all_files_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from functools import cache
-from itertools import combinations
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -13,13 +12,12 @@ import pytest
 
 from abu_calc.features.design.section_drawing import face_drawing, section_drawing
 from abu_calc.features.design.sheet import section_sheet, size_sheets
-from abu_calc.features.seats.study import check_fit
 from abu_calc.features.swing_arm.records import SwingArmRecord
-from abu_calc.inputs.read_machine import read_machine
 from abu_calc.reporting.drawings.dimensions import box, primitives
 from abu_calc.reporting.drawings.shapes import Drawing, Length, Line, Radius, Region, Text
 from abu_calc.reporting.drawings.svg import svg_figure, svg_file
 from tests.cli.runner import abu
+from tests.reporting.drawings.overlaps import check_clear
 from tests.reporting.drawings.samples import HOSTILE, MACHINES, result
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -45,42 +43,9 @@ def sheet(name: str) -> Drawing:
     return section_sheet(result(name))
 
 
-def _clear(drawing: Drawing) -> None:
-    """No text over another, through a line, or off the sheet."""
-    shapes = list(primitives(drawing.shapes, drawing.scale))
-    texts = [(each.text, each.box(drawing.scale)) for each in shapes if isinstance(each, Text)]
-    slack = 1e-6 / drawing.scale
-    for (one, a), (other, b) in combinations(texts, 2):
-        across = min(a[1][0], b[1][0]) - max(a[0][0], b[0][0])
-        up = min(a[1][1], b[1][1]) - max(a[0][1], b[0][1])
-        assert min(across, up) < slack, (one, other)
-    for each in shapes:
-        low, high = box(each, drawing.scale)
-        assert drawing.low[0] - slack <= low[0] and high[0] <= drawing.high[0] + slack, each
-        assert drawing.low[1] - slack <= low[1] and high[1] <= drawing.high[1] + slack, each
-        if isinstance(each, Line) and each.layer in ("dimension", "frame", "outline"):
-            for text, (a, b) in texts:
-                assert not _crosses(each, a, b, 0.4 / drawing.scale), (text, each)
-
-
-def _crosses(line: Line, low: tuple[float, float], high: tuple[float, float], inside: float) -> bool:
-    """Whether a line runs through a box made smaller on all sides (Liang & Barsky)."""
-    first, last = 0.0, 1.0
-    for axis in (0, 1):
-        start, step = line.start[axis], line.end[axis] - line.start[axis]
-        near, far = low[axis] + inside - start, high[axis] - inside - start
-        if abs(step) < 1e-12:
-            if near > 0 or far < 0:
-                return False
-            continue
-        a, b = sorted((near / step, far / step))
-        first, last = max(first, a), min(last, b)
-    return first < last
-
-
 @pytest.mark.parametrize("name", MACHINES)
 def test_nothing_overlaps(name: str) -> None:
-    _clear(sheet(name))
+    check_clear(sheet(name))
 
 
 @pytest.mark.parametrize("name", MACHINES)
@@ -144,7 +109,7 @@ def test_a_figure_stands_in_a_page() -> None:
     described = next(page.iter(f"{SVG}desc")).text or ""
     assert "83 mm" in described or f"{result('light').autobalancer.outer_diameter_mm:g} mm" in described
     for make in (section_drawing, face_drawing):
-        _clear(make(result("light"), 2.0))
+        check_clear(make(result("light"), 2.0))
 
 
 @pytest.mark.parametrize("name", MACHINES)
@@ -171,7 +136,7 @@ def test_sketch_of_the_swing_arm(name: str) -> None:
     arm = replace(ARM, **ARMS[name])
     found = size_sheets(replace(result("one-piece"), swing_arm=arm))
     assert [each.name for each in found] == ["section", "swing-arm"]
-    _clear(found[1])
+    check_clear(found[1])
     length = next(each for each in found[1].shapes if isinstance(each, Length))
     assert length.value == arm.arm_length_mm and length.text == f"l = {arm.arm_length_mm:g}"
     ElementTree.fromstring(svg_file(found))
@@ -202,15 +167,3 @@ def test_drawing_seats_loads_no_numerics(tmp_path: Path) -> None:
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
     assert (tmp_path / "x.svg").exists()
-
-
-def test_sizes_and_limits_of_the_knife_shaft_s_seats() -> None:
-    """Afanasiev 2015: Ø80 k6 is +21/+2, Ø140 K7 is +12/−28; by ISO 286 Ø80 m6 is +30/+11, Ø140 H7 +40/0."""
-    from abu_calc.features.seats.figures import seat_sheets
-
-    drawn = []
-    for drawing in seat_sheets(check_fit(read_machine("mmg-3200k-knife-shaft")))[:2]:
-        _clear(drawing)
-        drawn.append({each.text: (each.value, each.below) for each in drawing.shapes if isinstance(each, Length)})
-    assert drawn[0] == {"Ø80 k6": (80.0, "(+21 / +2 µm)"), "Ø140 H7": (140.0, "(+40 / 0 µm)"), "33": (33.0, "")}
-    assert drawn[1] == {"Ø80 m6": (80.0, "(+30 / +11 µm)"), "Ø140 K7": (140.0, "(+12 / -28 µm)"), "33": (33.0, "")}

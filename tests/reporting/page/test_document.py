@@ -11,8 +11,7 @@ from typing import Any
 
 import pytest
 
-from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot
-from abu_calc.reporting.page.chart_svg import bars, plot
+from abu_calc.reporting.charts.chart import Axis
 from tests.cli.runner import abu, once
 from tests.reporting.page.pages import ALSO, COMMANDS, PAGES
 from tests.reporting.page.reader import read
@@ -169,46 +168,6 @@ def test_ticks_are_round_within_the_axis_and_evenly_spaced(low: float, high: flo
     assert 3 <= len(ticks) <= 12
     assert len(steps) == 1
     assert low - 1e-9 * (high - low) <= ticks[0] <= ticks[-1] <= high * (1 + 1e-9)
-
-
-def test_points_and_limits_stand_where_the_ticks_say() -> None:
-    axes = Axis("speed [rpm]", 0, 100), Axis("level [dB]", 0, 50)
-    page = read(plot("a", Plot("A", "told", *axes, (), [MarkedPoint(40, 20)], (20.0, "limit 20 dB"))))
-    circle = next(attributes for tag, attributes in page.tags if tag == "circle")
-    ticks = [attributes for tag, attributes in page.tags if tag == "text"]
-    words = [words for tag, words in page.texts if tag == "text"]
-    at = dict(reversed(list(zip(words, ticks, strict=True))))
-    up = dict(zip(words, ticks, strict=True))
-    assert float(str(circle["cx"])) == pytest.approx(float(str(at["40"]["x"])), abs=0.1)
-    assert f"M52.0 {circle['cy']}" in next(str(a["d"]) for tag, a in page.tags if a.get("class") == "limit")
-    assert float(str(up["20"]["y"])) - 4 == pytest.approx(float(str(circle["cy"])), abs=0.1)
-
-
-def test_several_lines_have_a_legend_that_stays_inside_the_chart() -> None:
-    names = ["idle", "loaded", "loaded, another place", "with a name that takes most of the width of a chart"]
-    lines = [Curve([(0, k), (1, k + 1)], name, k) for k, name in enumerate(names, 1)] + [
-        Curve([(0, 0), (1, 1)], "idle", 1)
-    ]
-    axes = Axis("time [s]", 0, 1), Axis("level [dB]", 0, 5)
-    page = read(plot("a", Plot("A", "told", *axes, lines)))
-    high = float(str(page.tags[0][1]["viewbox"]).split()[-1])
-    places = [attributes for tag, attributes in page.tags if tag == "text"]
-    words = [words for tag, words in page.texts if tag == "text"]
-    assert [word for word in words if word in names] == names
-    at = [(float(str(a["x"])), float(str(a["y"])), w) for a, w in zip(places, words, strict=True) if w in names]
-    assert all(x + 5.5 * len(name) < 420 and y < high for x, y, name in at)
-    for one, after in pairwise(at):
-        assert after[1] > one[1] or after[0] > one[0] + 5.5 * len(one[2]) + 20
-    alone = read(plot("a", Plot("A", "told", *axes, lines[:1])))
-    assert "idle" not in [words for tag, words in alone.texts if tag == "text"]
-
-
-def test_lengths_of_bars_are_as_their_values() -> None:
-    rows = [Bar("a", 1.0, "1"), Bar("b", 3.0, "3"), Bar("c", -1.0, "-1")]
-    page = read(bars("a", Bars("A", "told", Axis("x [dB]", -1.0, 3.0), rows)))
-    wide = [(float(str(a["x"])), float(str(a["width"]))) for tag, a in page.tags if tag == "rect"]
-    assert wide[1][1] == pytest.approx(3 * wide[0][1], abs=0.3)
-    assert wide[2][0] + wide[2][1] == pytest.approx(wide[0][0], abs=0.2)
 
 
 def _luminance(colour: str) -> float:

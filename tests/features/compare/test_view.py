@@ -1,0 +1,69 @@
+"""The report of `abu compare`: digits that tell numbers apart, long cells below tables, bars of machines."""
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+import abu_calc
+from abu_calc.features.compare.study import CompareResult, Difference
+from abu_calc.features.compare.view import ComparisonTable, compare_blocks, compare_extras, table_blocks, tables_of
+from abu_calc.reporting.blocks import Grid, Heading, Paragraph
+from abu_calc.reporting.charts.chart import Bars
+from abu_calc.reporting.text import as_text
+
+
+@cache
+def seats() -> CompareResult:
+    """Two shafts that differ in one tolerance class."""
+    shaft = abu_calc.read("mmg-3200k-knife-shaft")
+    return abu_calc.compare([shaft, shaft.changed({"bearing[0].shaft_fit": "m6"})])
+
+
+def row(path: str, *values: object, part: str = "design", unit: str = "") -> Difference:
+    return Difference(part=part, path=path, unit=unit, values=values)  # type: ignore[arg-type]
+
+
+def cells(*values: object) -> tuple[str, ...]:
+    (table,) = tables_of(seats(), [row("x", *values)])
+    return table.lines[0][1:]
+
+
+def test_numbers_have_as_many_digits_as_tell_them_apart() -> None:
+    assert cells(1.0001, 2.0) == ("1.0001", "2")
+    first, second = cells(123.4561234, 123.4562345)
+    assert first != second and float(first) == pytest.approx(123.4561234, rel=1e-6)
+    assert cells(None, True) == ("–", "true")
+
+
+def test_marks_stand_before_what_differs() -> None:
+    (table,) = tables_of(seats(), [row("x", 1, 2), row("y", 1, 1)], marked=True)
+    assert [line[0] for line in table.lines] == ["≠ x", "  y"]
+
+
+def test_long_cells_stand_below_the_table() -> None:
+    table = ComparisonTable("Files", (("short", "a", "b"), ("long", "a" * 21, "b")))
+    heading, grid, label, *values = table_blocks(["A", "B"], table)
+    assert heading == Heading("Files") and isinstance(grid, Grid) and grid.rows == (("short", "a", "b"),)
+    assert label == Paragraph("long")
+    assert [value.text for value in values if isinstance(value, Paragraph)] == ["A  " + "a" * 21, "B  b"]
+
+
+def test_the_short_report_says_that_it_is_short() -> None:
+    short = as_text(compare_blocks(seats(), full=False))
+    assert (
+        "Differences only" in short and "≠" not in short and "Differences only" not in as_text(compare_blocks(seats()))
+    )
+
+
+def test_bars_stand_for_machines_that_have_the_number() -> None:
+    path = "autobalancer.mass_g"
+    result = replace(seats(), differences=(row(path, 240.0, 260.0),), alike=())
+    (figure,) = compare_extras(result).figures
+    assert figure.name == "mass" and isinstance(figure.shown, Bars)
+    assert [(bar.name[0], bar.value, bar.told) for bar in figure.shown.rows] == [
+        ("A", 240.0, "240 g"),
+        ("B", 260.0, "260 g"),
+    ]
+    alone = replace(seats(), differences=(row(path, 240.0, None),), alike=())
+    assert compare_extras(alone).figures == ()

@@ -1,0 +1,42 @@
+"""Effects as text: the list of those there are, and the ledger of a scene."""
+
+from dataclasses import replace
+
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.features.effects.study import effects, known_effects
+from abu_calc.features.effects.view import effects_blocks, effects_grid, effects_screen, known_blocks
+from abu_calc.reporting.blocks import Grid
+from abu_calc.reporting.text import as_text, height
+from abu_calc.simulation.records import EffectEntry
+from tests.dynamics.scenes import dimensionless
+
+SCENE = dimensionless(3.0, 0.05, 0.05, 0.2, 0.3, (1.0, 2.5), 100.0)
+WEIGHED = replace(SCENE, effects=(GravityEffect(1e-9),))
+
+
+def entry(name: str, weight: float | None, *, included: bool) -> EffectEntry:
+    (first,) = effects(WEIGHED).effects
+    return replace(first, name=name, weight=weight, included=included)
+
+
+def test_an_effect_without_an_estimate_has_a_question_mark() -> None:
+    grid = effects_grid([entry("gravity", 0.00234, included=False), entry("motor", None, included=True)])
+    assert [row[:3] for row in grid.rows] == [("gravity", "out", "0.0023"), ("motor", "in", "?")]
+
+
+def test_every_known_effect_has_a_row() -> None:
+    result = known_effects()
+    (grid,) = (block for block in known_blocks(result) if isinstance(block, Grid))
+    assert [row[0] for row in grid.rows] == [effect.name for effect in result.effects]
+
+
+def test_the_screen_leaves_out_the_rule_that_the_whole_report_tells() -> None:
+    result = effects(WEIGHED)
+    whole, screen = as_text(effects_blocks(result)), as_text(effects_screen(result))
+    assert "A weight is an estimate" in whole and "A weight is an estimate" not in screen
+    assert "Left out, all together" in whole and "gravity" in screen
+    assert height(effects_screen(result)) <= 48
+
+
+def test_a_scene_without_data_says_so() -> None:
+    assert "The file has data for none." in as_text(effects_blocks(effects(SCENE)))

@@ -1,0 +1,80 @@
+"""Bearings looked up by designation or by sizes."""
+
+from typing import Any
+
+import pytest
+
+from abu_calc.features.seats.lookup import from_table
+from abu_calc.features.seats.seats import seat_bearing
+from abu_calc.foundation.errors import InputError
+from tests.features.seats.samples import by_designation, seats
+
+
+def um(metres: float) -> float:
+    return round(1e6 * metres, 6)
+
+
+def span(interval: Any) -> list[float]:
+    return [um(interval.smallest), um(interval.largest)]
+
+
+def test_a_designation_brings_its_sizes_and_type() -> None:
+    found = seat_bearing(by_designation("7516"))
+    assert found.bearing.type == "tapered"
+    assert span(found.housing.interference) == [-32, 28]  # the ring of a tapered bearing is 0/−20
+    assert found.shaft.load_intensity == pytest.approx(1.8 * 3000 / 0.028)
+    given = seat_bearing(by_designation("7516", chamfer_mm=2.0))
+    assert given.shaft.load_intensity == pytest.approx(1.8 * 3000 / 0.029)
+    assert given.housing.load_intensity == pytest.approx(1.8 * 3000 / 0.024)  # the cup is 28 mm wide
+
+
+@pytest.mark.parametrize(("written", "read"), [("C3", "C3"), ("P5", None)])
+def test_suffixes_of_the_designation_count(written: str, read: str | None) -> None:
+    found = seat_bearing(by_designation(f"6205-2RS {written}", bearing_class=None)).bearing
+    assert found.internal_clearance == read
+    assert found.bearing_class == ("5" if written == "P5" else "0")
+    with pytest.raises(InputError, match="contradicts the designation"):
+        seat_bearing(by_designation("6205 C3 P5", internal_clearance="CN", bearing_class="6"))
+
+
+def test_a_group_of_a_bearing_that_has_none_is_refused() -> None:
+    for name in ("7516", "46206", "7206B"):
+        with pytest.raises(InputError, match="deep groove"):
+            seat_bearing(by_designation(name, internal_clearance="CN"))
+    assert seats(internal_clearance=None).clearance is None
+    assert seats(internal_clearance="CN", bearing_type="ball").clearance is not None
+    with pytest.raises(InputError, match="without the type"):
+        seats(internal_clearance="CN")
+    with pytest.raises(InputError, match="its table is not held here"):
+        seats(internal_clearance="CN", bearing_type="cylindrical")
+
+
+def test_a_chamfer_is_lent_by_the_bearing_of_the_same_sizes() -> None:
+    found = seats(chamfer_mm=None)
+    assert found.bearing.inner.chamfer == pytest.approx(2.5e-3)
+    assert any("that of 32216" in note for note in found.shaft.notes)
+    assert um(found.housing.ring_limits.lower) == -18  # still taken as a radial bearing
+    assert not any("chamfer" in note for note in seats().shaft.notes)
+
+
+def test_given_ratings_win_and_what_is_not_known_is_not_guessed() -> None:
+    given = seat_bearing(by_designation("6205", dynamic_load_rating_kN=10.0, radial_load_kN=1.0))
+    assert given.bearing.load_ratio == pytest.approx(0.1)
+    assert seat_bearing(by_designation("7206C")).bearing.load_ratio is None
+    assert seats().bearing.load_ratio is None  # by sizes, nothing says which bearing it is
+    assert seats(dynamic_load_rating_kN=187.0, bearing_type="tapered").shaft.joint.maker.classes == ("m6",)
+
+
+def test_sizes_beside_a_designation_must_agree() -> None:
+    """6205 is 25 × 52 × 15 mm (ISO 15)."""
+    assert from_table(by_designation("6205", bore_mm=25.0, outer_mm=52.0, width_mm=15.0)).designation == "6205"
+    with pytest.raises(InputError, match="outer_mm contradicts") as caught:
+        from_table(by_designation("6205", outer_mm=62.0))
+    assert (caught.value.found, caught.value.allowed) == ("62", "52")
+
+
+def test_measured_limits_are_metres_inside() -> None:
+    looked_up = from_table(by_designation("6205", shaft_limits_um=(-14.0, -6.0)))
+    measured = looked_up.shaft.measured
+    assert measured is not None and (measured.lower, measured.upper) == pytest.approx((-14e-6, -6e-6))
+    assert looked_up.housing.measured is None

@@ -1,0 +1,93 @@
+"""Parts that reports share: checks with their reasons, defaults, and where a result comes from."""
+
+from typing import Any
+
+from abu_calc.foundation.checks import Check, Grade
+from abu_calc.reporting.blocks import Heading, Paragraph
+from abu_calc.reporting.parts import (
+    default_blocks,
+    limit_in_file,
+    limit_of,
+    measured_after_line,
+    of_scene,
+    provenance_blocks,
+    reasons,
+    unlike,
+    warning_blocks,
+    written,
+)
+from abu_calc.reporting.text import as_text
+from abu_calc.simulation.result import Provenance
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord
+
+
+def test_a_value_beyond_its_limit_is_not_shown_as_the_limit() -> None:
+    def told(value: float) -> str:
+        return "".join(as_text(reasons([Check("ABU401", "level", "fail", "told", value, 109.0, "dB")])))
+
+    assert "(109.03 dB, at most 109.00)" in told(109.0312)
+    assert "(112.0 dB, at most 109.0)" in told(112.04)
+    assert "(109.0 dB, at most 109.0)" in told(109.0)
+
+
+def check(code: str, status: Grade, message: str = "reason", **values: Any) -> Check:
+    return Check(code, f"name of {code}", status, message, **values)
+
+
+def test_reasons_come_worst_first_and_alike_ones_together() -> None:
+    checks = [
+        check("ABU401", "warn"), check("ABU201", "pass"), check("ABU301", "not-done"), check("ABU202", "fail"),
+        check("ABU303", "fail"),
+    ]  # fmt: skip
+    groups = [[each.code for each in alike] for alike in unlike(checks)]
+    assert groups == [["ABU202", "ABU303"], ["ABU301"], ["ABU401"]]
+    first, *_ = reasons(checks)
+    assert first.mark == "fail" and first.text.startswith("FAIL ABU202") and "ABU303" in first.text
+
+
+def test_limits_say_whether_more_or_less_is_permitted() -> None:
+    assert limit_of(check("ABU201", "pass", limit=5.0, bound="least")) == "at least 5.000"
+    assert limit_of(check("ABU201", "pass", limit=5.0)) == "at most 5.000"
+    assert limit_of(check("ABU201", "not-done")) == ""
+    assert limit_in_file(check("ABU401", "pass", limit=109.0, unit="dB")) == "at most 109 dB"
+    assert limit_in_file(None) == ""
+
+
+def test_values_stand_as_a_file_would_have_them() -> None:
+    assert [written(value) for value in (True, 0.5, (1.0, 2.5), "k6")] == ["true", "0.5", "[1, 2.5]", "k6"]
+
+
+def test_each_entry_of_a_replaced_table_has_a_line() -> None:
+    overrides = (
+        ("wheel", {"mass_kg": 0.5, "diameter_mm": 150.0}),
+        ("bearing", [{"shaft_fit": "m6"}]),
+        ("grinding", {}),
+    )
+    made = Provenance.today("m.toml", "0" * 64, overrides)
+    texts = [block.text for block in provenance_blocks(made) if isinstance(block, Paragraph)]
+    assert texts[2:] == [
+        "wheel.mass_kg = 0.5", "wheel.diameter_mm = 150.0", 'bearing[0].shaft_fit = "m6"', "grinding = {}"
+    ]  # fmt: skip
+    assert "m.toml, SHA-256 0000000000000000…" in texts[0]
+
+
+def test_nothing_to_warn_of_has_no_heading() -> None:
+    assert warning_blocks(()) == [] == default_blocks(())
+    heading, line = warning_blocks(("careful",))
+    assert isinstance(heading, Heading) and line == Paragraph("! careful", hang=2)
+
+
+def record(**changes: Any) -> MeasuredAfterRecord:
+    given = {
+        "place": "rear", "measured": "103 dB", "measured_level_db": 103.0, "predicted_level_db": 100.0,
+        "difference_db": 3.0, "predicted_value": None, "unit": "dB",
+    }  # fmt: skip
+    return MeasuredAfterRecord(**(given | changes))
+
+
+def test_a_measurement_is_above_or_below_the_prediction() -> None:
+    assert measured_after_line(record()).endswith("rear: 103 dB: 3.0 dB above what is predicted, 100.0 dB.")
+    assert "2.0 dB below" in measured_after_line(record(difference_db=-2.0))
+    assert "no idle level is predicted" in measured_after_line(record(predicted_level_db=None, difference_db=None))
+    assert measured_after_line(record(predicted_loaded_db=105.0)).endswith("100.0 dB; 105.0 dB under load.")
+    assert of_scene("scene") == "" and of_scene("idle") == " of the scene idle"

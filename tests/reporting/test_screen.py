@@ -1,0 +1,86 @@
+"""A report on one screen: verdict, reasons and tables cut to the room there is."""
+
+import re
+from typing import ClassVar
+
+import pytest
+
+from abu_calc.foundation.checks import Check, Grade
+from abu_calc.foundation.quantity import record
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
+from abu_calc.reporting.screen import LINES, cut, many, one_screen, sections, shortened, verdict_line
+from abu_calc.reporting.text import as_text, height
+from abu_calc.simulation.result import Provenance, Result
+
+
+@pytest.mark.parametrize("room", range(1, 30))
+def test_tables_are_cut_to_the_room_there_is(room: int) -> None:
+    rows = tuple((str(number), "x") for number in range(12))
+    blocks: list[Block] = [
+        Paragraph("first"),
+        Heading("Table"),
+        Grid(("a", "b"), rows),
+        Heading("End"),
+        Paragraph("last"),
+    ]
+    shown = cut(blocks, room)
+    text = as_text(shown)
+    assert height(shown) <= room and not isinstance(shown[-1], Heading)
+    whole = room >= height(blocks)
+    assert ("--full" in text) is not whole
+    counted = re.search(r"And (\d+) more row", text)
+    if counted:
+        assert len(re.findall(r"x$", text, re.MULTILINE)) + int(counted[1]) == 12
+
+
+@record
+class Sample(Result):
+    """A result without numbers of its own."""
+
+    command: ClassVar[str] = "sample"
+
+
+def sample(*grades: Grade, warnings: tuple[str, ...] = ()) -> Sample:
+    checks = tuple(Check(f"ABU40{k}", f"thing {k}", grade, f"reason {k}") for k, grade in enumerate(grades, 1))
+    return Sample(title="sample", checks=checks, warnings=warnings, provenance=Provenance.today())
+
+
+def test_the_verdict_counts_checks_and_warnings() -> None:
+    assert verdict_line(sample("pass", "pass")).text == "PASS"
+    assert verdict_line(sample("pass", "warn", warnings=("a",))).text == "PASS with 2 warnings"
+    assert verdict_line(sample("fail", "not-done", "pass")).text == "FAIL: 1 of 3 checks failed, 1 not done"
+    assert verdict_line(sample()).text == "NOT DONE: there are no checks"
+    assert verdict_line(sample("pass"), "Nothing was judged").text == "Nothing was judged"
+
+
+def test_passed_checks_stand_in_one_line_and_the_first_open_one_is_explained() -> None:
+    text = as_text(one_screen(sample("pass", "fail", "pass"), [Heading("sample")]))
+    assert "Passed: ABU401 403." in text and "`abu explain ABU402`" in text
+    assert "Passed" not in as_text(one_screen(sample(), [Heading("sample")]))
+
+
+def test_a_picture_takes_the_lines_that_are_left() -> None:
+    given: list[int] = []
+
+    def picture(room: int) -> list[Block]:
+        given.append(room)
+        return [Paragraph("drawn")]
+
+    about: list[Block] = [Heading("sample")]
+    bare = one_screen(sample("pass"), about)
+    assert "drawn" in as_text(one_screen(sample("pass"), about, picture=picture))
+    assert given == [LINES - height(bare) - 1]
+
+
+def test_sections_that_a_screen_words_itself_are_left_out() -> None:
+    whole: list[Block] = [
+        Heading("Title"), Paragraph("verdict"), Heading("Numbers"), Paragraph("1"), Heading("Checks"), Paragraph("2"),
+        Heading("Details"), Paragraph("3"),
+    ]  # fmt: skip
+    assert [len(part) for part in sections(whole)] == [2, 2, 2, 2]
+    text = as_text(shortened(sample("pass"), whole, "Details"))
+    assert "Numbers" in text and "Details" not in text and "Checks" not in text
+
+
+def test_a_count_has_its_noun() -> None:
+    assert [many(count, "row") for count in (0, 1, 2)] == ["0 rows", "1 row", "2 rows"]

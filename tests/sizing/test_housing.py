@@ -1,0 +1,54 @@
+"""Housing of the race: mass, groove and room for the balls."""
+
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from abu_calc.sizing.housing import greatest_race_radius, groove_radius, housing, least_race_radius
+
+
+def test_housing_of_the_straight_grinder() -> None:
+    """231 g with 2 mm wall, 1.5 mm webs; our hub and groove rules may differ by a few grams."""
+    body = housing("one-piece", 31e-3, 16e-3, 20e-3, 2e-3)
+    assert body.mass + 4 * 16.728e-3 == pytest.approx(0.231, abs=0.012)
+
+
+RANDOM = settings(max_examples=60, deadline=None, derandomize=True)
+
+
+@given(st.floats(20e-3, 60e-3), st.floats(1e-4, 5e-3), st.sampled_from(["one-piece", "bearing-ring", "light"]))
+@RANDOM
+def test_a_larger_race_is_never_lighter(race: float, step: float, design: Any) -> None:
+    assert housing(design, race + step, 8e-3, 20e-3, 2.5e-3).mass > housing(design, race, 8e-3, 20e-3, 2.5e-3).mass
+
+
+def test_the_groove_obeys_five_sevenths() -> None:
+    """5(R − r) = 7(R_g − r)."""
+    race, ball = 31e-3, 8e-3
+    assert 7 * (groove_radius(race, ball) - ball) == pytest.approx(5 * (race - ball))
+
+
+def test_a_straight_race_weighs_less_by_the_fill_of_the_groove() -> None:
+    """Volume between cylinder and groove by the midpoint rule over the 16.6 mm between the webs."""
+    race, ball, steps = 31e-3, 16e-3, 20000
+    groove = groove_radius(race, ball / 2)
+    half = ball / 2 + 0.3e-3
+    across = [half * (2 * (k + 0.5) / steps - 1) for k in range(steps)]
+    surfaces = [race - groove + math.sqrt(groove**2 - x**2) for x in across]
+    volume = sum(math.pi * (race**2 - surface**2) for surface in surfaces) * 2 * half / steps
+    grooved, straight = (housing("one-piece", race, ball, 20e-3, 2e-3, grooved=each).mass for each in (True, False))
+    assert grooved - straight == pytest.approx(7800 * volume, rel=1e-6)
+
+
+def test_the_largest_race_fills_the_outer_diameter() -> None:
+    for design in ("one-piece", "bearing-ring", "light"):
+        race = greatest_race_radius(design, 68e-3, 2.5e-3)
+        assert housing(design, race, 8e-3, 20e-3, 2.5e-3).outer_diameter == pytest.approx(68e-3)
+
+
+def test_the_smallest_race_leaves_half_a_millimetre_between_ball_and_hub() -> None:
+    """10 mm of bore, 2.5 mm of hub, 0.5 mm of clearance, 8 mm of ball."""
+    assert least_race_radius("one-piece", 20e-3, 8e-3) == pytest.approx(21e-3)

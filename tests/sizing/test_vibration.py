@@ -1,0 +1,95 @@
+"""Velocity levels over the speed range, at handles, and under load."""
+
+import math
+import re
+
+import pytest
+
+from abu_calc.foundation.units import from_si
+from abu_calc.sizing import size
+from tests.sizing.machines import PINNED, check_of, machine, ranged
+
+
+def test_the_level_is_judged_at_the_worst_speed() -> None:
+    """What stays does not depend on the speed: the level rises by 20 lg(12000/5000) = 7.6 dB above that of 5000 rpm."""
+    design = ranged(105.0)
+    assert design.idle.worst.after is not None and design.idle.worst.after < 105.0
+    level = check_of(design, "ABU401")
+    assert level.status == "fail" and level.value == pytest.approx(design.idle.worst.after + 7.604, abs=0.03)
+    assert "12000 rpm" in level.message
+    assert "12000 rpm" in check_of(design, "ABU202").message and check_of(design, "ABU202").status == "fail"
+
+
+def test_the_curve_of_level_against_speed_is_that_of_the_displacement() -> None:
+    """L = 20 lg(wΩ/√2/5e-8), by hand; ends and rated speed among its speeds, which ascend."""
+    design = ranged(120.0)
+    levels = design.speed_levels
+    assert levels is not None
+    speeds = [from_si(each.speed, "rpm") for each in levels.by_speed]
+    assert speeds == sorted(speeds) and {2500, 5000, 12000} <= {round(speed) for speed in speeds}
+    residual = design.autobalancer.budget.residual
+    for each in levels.by_speed:
+        assert each.after == pytest.approx(20 * math.log10(residual * each.speed / math.sqrt(2) / 5e-8), abs=0.02)
+
+
+def test_the_level_warns_where_only_the_worst_arrangement_exceeds_the_limit() -> None:
+    typical = ranged(130.0)
+    assert typical.speed_levels is not None
+    expected, worst = typical.speed_levels.highest.after, typical.speed_levels.arranged.after
+    assert worst > expected + 3
+    grades = [check_of(ranged(limit), "ABU401").status for limit in (worst + 0.1, worst - 0.1, expected - 0.1)]
+    assert grades == ["pass", "warn", "fail"]
+
+
+def test_without_friction_and_eccentricity_the_worst_is_the_oval_race() -> None:
+    changes = {"autobalancer__rolling_friction_mm": 0.0, "autobalancer__race_eccentricity_mm": 0.0}
+    design = size(machine(**changes, **PINNED, wheel__imbalance_g_mm=100.0))
+    (worst,) = design.worst
+    assert worst.rolling_friction == 0.0
+    assert worst.residual == pytest.approx(design.autobalancer.ball_count * design.autobalancer.roundness.lobes)
+
+
+@pytest.mark.parametrize(
+    ("limit", "status"), [(112.0, "warn"), (104.5, "fail"), pytest.param(106.0, "fail", marks=pytest.mark.slow)]
+)
+def test_a_truer_race_shows_what_the_remedy_promised(limit: float, status: str) -> None:
+    check = check_of(ranged(limit), "ABU401")
+    promised = re.search(r"gives ([\d.]+) dB", check.remedy or "")
+    assert check.status == status and promised and float(promised[1]) <= limit
+    changes = {f"autobalancer__{key}": float(value) for key, value in re.findall(r"(\w+_mm) = ([\d.]+)", check.remedy)}
+    assert changes
+    truer = size(
+        machine(
+            machine__speed_rpm=5000, machine__speed_range_rpm=[2500, 12000], wheel__imbalance_g_mm=100.0, **PINNED,
+            **changes, limits={"vibration_level_db": limit},
+        )
+    ).speed_levels  # fmt: skip
+    assert truer is not None
+    shown = truer.highest.after if status == "fail" else truer.arranged.after
+    assert shown == pytest.approx(float(promised[1]), abs=0.06)
+
+
+def test_what_no_race_can_reach_is_said() -> None:
+    alone = check_of(ranged(80.0), "ABU401").remedy or ""
+    assert "Tried without success" in alone and "plane" not in alone
+    body = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
+    off = size(machine(**body, autobalancer__plane_offset_mm=-40.0, limits={"vibration_level_db": 80.0}))
+    assert "nearer to the wheel's plane" in (check_of(off, "ABU401").remedy or "")
+    loud = size(machine(machine__background_level_db=112.0, limits={"vibration_level_db": 110.0}))
+    assert "background alone is 112 dB" in (check_of(loud, "ABU401").remedy or "")
+
+
+def test_handles_of_a_rigid_body() -> None:
+    """265, 116 and 169 g·mm make 111 dB at the wheel of a point mass, at a front and a rear handle: masses as these."""
+    handles = [{"name": "front", "from_center_of_mass_mm": 100.0}, {"name": "rear", "from_center_of_mass_mm": -200.0}]
+    design = size(
+        machine(
+            machine__transverse_inertia_kg_m2=0.1, machine__center_of_mass_to_wheel_mm=200.0, machine__handle=handles
+        )
+    )
+    front, rear = design.idle.places
+    mass = 6.2 + design.autobalancer.mass
+    assert front.effective_mass == pytest.approx(1 / (1 / mass + 0.2))
+    assert rear.effective_mass == pytest.approx(1 / (0.4 - 1 / mass))
+    assert front.levels.before > rear.levels.before
+    assert design.idle.worst.before == front.levels.before
