@@ -1,0 +1,76 @@
+"""Errors of an answer against the scatter of spoilt data; shares of a correction."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from abu_calc.features.balancing.errors import Deviations, changes, correction, placing, radial, removed, total
+from abu_calc.features.balancing.formulas import (
+    RollOnRig,
+)
+from abu_calc.features.balancing.two_planes import Balancing, solved
+from tests.features.balancing.rig import Workshop
+from tests.features.balancing.test_two_planes import ROLL, run_of
+
+NO_ERRORS = Deviations(*[0.0] * 11)
+
+
+SIGMA = Deviations(0.01, math.radians(1), 0.001, 0.02, 0.02, 0.0, 0.005, 0.02, 0.001, 0.01, math.radians(1))
+
+
+def spoilt(roll: RollOnRig, rng: np.random.Generator) -> RollOnRig:
+    """The rig's data, each off by its error."""
+    n = iter(rng.standard_normal(20))
+    relative = {"M1": 0.02, "M2": 0.02, "C1": 0.02, "C2": 0.02, "M3": 0.005, "J3": 0.02}
+    moved = {key: getattr(roll, key) * (1 + s * next(n)) for key, s in relative.items()}
+    return replace(roll, **moved, **{key: getattr(roll, key) + 0.001 * next(n) for key in "abcd"})
+
+
+@pytest.mark.parametrize("rpm", [1300.0, 3000.0])
+def test_uncertainties_are_the_scatter_of_spoilt_readings_and_rigs(rpm: float) -> None:
+    shop = Workshop(speed_rpm=rpm)
+    case = Balancing(ROLL, (run_of(shop),))
+    by = changes(case, "rig data", SIGMA)
+    Q = solved(case, "rig data").imbalance
+    rng, answers = np.random.default_rng(5), []
+    for _ in range(2000):
+        run = case.runs[0]
+        run = replace(
+            run, speed=run.speed * (1 + 0.001 * rng.standard_normal()),
+            amplitudes=tuple(a * (1 + 0.01 * rng.standard_normal()) for a in run.amplitudes),
+            phases=tuple(p + math.radians(1) * rng.standard_normal() for p in run.phases),
+        )  # fmt: skip
+        answers.append(solved(Balancing(spoilt(ROLL, rng), (run,)), "rig data").imbalance)
+    for plane in (0, 1):
+        values = np.array([pair[plane] for pair in answers])
+        sizes = np.std(np.abs(values))
+        angles = np.std(np.angle(values / Q[plane]))
+        deltas = [change.imbalance[plane] for change in by]
+        assert radial(Q[plane], deltas) == pytest.approx(sizes, rel=0.08)
+        across = math.sqrt(sum((d / Q[plane]).imag ** 2 for d in deltas))
+        assert across == pytest.approx(angles, rel=0.08)
+
+
+def test_without_errors_nothing_is_unsure() -> None:
+    case = Balancing(ROLL, (run_of(Workshop()),))
+    assert all(abs(part) == 0 for change in changes(case, "rig data", NO_ERRORS) for part in change.imbalance)
+    assert all(abs(part) == 0 for pair in placing((1j, 1.0), NO_ERRORS) for part in pair)
+
+
+SPREAD = st.lists(st.floats(0, 6.28), min_size=2, max_size=6).filter(lambda p: abs(math.sin(p[1] - p[0])) > 0.01)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(st.floats(0.001, 1.0), st.floats(-7, 7), st.none() | st.floats(0, 1), st.none() | SPREAD)
+def test_shares_take_away_the_heavy_spot(mass: float, angle: float, removable: float | None, places) -> None:
+    shares = correction(mass, angle, removable, places)
+    assert abs(total(shares) - mass * np.exp(1j * angle)) < 1e-9 * mass / 0.01
+    assert all(share.mass > 0 and 0 <= share.angle < 2 * math.pi for share in shares) and 1 <= len(shares) <= 2
+    if places is not None:
+        assert all(any(abs(math.sin((share.angle - p) / 2)) < 1e-9 for p in places) for share in shares)
+    elif removable is not None:
+        assert removed(shares) <= removable

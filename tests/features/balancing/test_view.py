@@ -1,0 +1,48 @@
+"""Both planes in characters, as one stands before the roll."""
+
+import math
+import re
+
+import pytest
+
+import abu_calc
+from abu_calc.features.balancing.records import PlaneCorrection
+from abu_calc.features.balancing.view import drawing
+
+PRESET = "sapropel-screw-rig"
+
+
+def plane(angle: float) -> PlaneCorrection:
+    seen = abu_calc.balance(PRESET).left
+    values = {name: getattr(seen, name) for name in seen.entries()}
+    shares = (type(seen.corrections[0])(action="remove", mass_g=1.0, angle_deg=angle),)
+    return PlaneCorrection(**(values | {"corrections": shares, "angle_deg": angle}))
+
+
+@pytest.mark.parametrize("angle", [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0])
+@pytest.mark.parametrize("sense", ["counterclockwise", "clockwise"])
+def test_angles_are_drawn_as_one_stands_before_the_roll(angle: float, sense: str) -> None:
+    """The roll turns with the arrows; laid off against them from the mark on top, the sign is where the angle says."""
+    side = plane(angle)
+    lines = drawing(side, side, sense)
+    turn = math.radians(angle)
+    from_left = 1.0 if sense == "counterclockwise" else -1.0
+    for start, flip in ((2, from_left), (40, -from_left)):
+        cells = [line.ljust(80)[start : start + 36] for line in lines[1:]]
+        upper = next(row for row in cells if re.search(r"<---|--->", row))
+        assert ("<---" in upper) == (flip > 0)  # counterclockwise: the top runs to the left
+        bare = [re.sub("<---|--->", "    ", row) for row in cells]
+        signs = [(x, y) for y, row in enumerate(bare) for x, letter in enumerate(row) if letter == "-"]
+        ((x, y),) = signs
+        across, up = (x - 18) / 11 * flip, (6 - y) / 5
+        assert across == pytest.approx(math.sin(turn), abs=0.1) and up == pytest.approx(math.cos(turn), abs=0.15)
+
+
+def test_both_ends_show_the_same_roll() -> None:
+    """The right plane is seen from the other end: the drawing of the same angles is its mirror image."""
+    side = plane(70.0)
+    lines = drawing(side, side, "counterclockwise")[2:-1]
+    for line in lines:
+        left, right = line.ljust(80)[2:39], line.ljust(80)[40:77]
+        shape = [letter in ".o-" for letter in left], [letter in ".o-" for letter in right[::-1]]
+        assert sum(a != b for a, b in zip(*shape, strict=True)) <= 8
