@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from abu_calc.features.accuracy import price_list as module
-from abu_calc.features.accuracy.price_list import PricePoint, ReferenceRun, cheapest, study
+from abu_calc.features.accuracy.price_list import ReferenceRun, cheapest, study
 from abu_calc.features.accuracy.study import MeasuredPoint
 from abu_calc.features.accuracy.view import picture
 from abu_calc.foundation.errors import InputError, NotTrustworthyError
@@ -63,22 +63,6 @@ def test_the_picture_stays_within_eighty_columns(measured):
     lines = picture(tuple(map(MeasuredPoint.of, measured.points)))
     assert max(map(len, lines)) <= 80
     assert any("D" in line for line in lines)
-
-
-def test_each_decade_stands_once_in_the_picture():
-    """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
-    points = tuple(
-        MeasuredPoint.of(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
-        for k in range(10)
-    )
-    labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
-    decades = [int(label.removeprefix("1e")) for label in labels if label]
-    assert decades == list(range(0, -10, -1))
-
-
-def test_a_picture_of_nothing():
-    nothing = MeasuredPoint.of(PricePoint("closed-form", None, None, None, 0, 0, None, None))
-    assert picture((nothing,)) == ["nothing to draw"]
 
 
 def test_no_time_is_told_beforehand():
