@@ -1,8 +1,6 @@
 """Batches by any executor: all members come, whoever fails on the way."""
 
-import contextlib
 import os
-import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -10,7 +8,6 @@ from dataclasses import dataclass
 import pytest
 
 from abu_calc.features.sweep.batches import ENDED, Here, RenewableExecutor, Row, given, here, in_batches, processes
-from abu_calc.features.sweep.sample_run import Overtime, limited
 from abu_calc.foundation.errors import NotTrustworthyError
 
 
@@ -102,38 +99,3 @@ def test_a_member_that_ends_its_process_is_passed_over() -> None:
     found = done(Squares(deadly=frozenset({7})), iter(range(40)), processes(2))
     assert found.pop(7) == ENDED
     assert found == {k: k**2 for k in range(40) if k != 7}
-
-
-def test_work_without_end_is_given_up() -> None:
-    begun = time.perf_counter()
-    with pytest.raises(Overtime), limited(0.1):
-        while True:
-            pass
-    assert time.perf_counter() - begun < 60
-    with limited(0.05):
-        pass
-    time.sleep(0.1)  # nothing arrives afterwards
-
-
-def test_the_end_of_the_time_is_told_again_if_something_swallows_it() -> None:
-    """As callbacks of the garbage collector do."""
-    begun = time.perf_counter()
-    with pytest.raises(Overtime), limited(0.05):
-        with contextlib.suppress(BaseException):
-            while time.perf_counter() - begun < 60:
-                pass
-        while time.perf_counter() - begun < 60:
-            pass
-
-
-def test_time_is_limited_in_other_threads_too() -> None:
-    def endless() -> str:
-        try:
-            with limited(0.1):
-                while True:
-                    pass
-        except Overtime:
-            return "given up"
-
-    with ThreadPoolExecutor(1) as pool:
-        assert pool.submit(endless).result(timeout=60) == "given up"

@@ -18,7 +18,7 @@ from abu_calc.features.sweep.cluster import software
 from abu_calc.features.sweep.columns import LEVEL, MEMBER, REASON, SEED
 from abu_calc.features.sweep.samples import Builds
 from abu_calc.features.sweep.store import Store
-from tests.features.sweep.conftest import ECCENTRICITY, Sweeps
+from tests.features.sweep.conftest import Sweeps
 
 COLUMNS = (MEMBER, SEED, LEVEL, REASON)
 
@@ -166,35 +166,6 @@ def test_the_log_of_a_store_behind_a_link_is_missed(
     Meanwhile(monkeypatch, 5, Path(f"{sweeps.store}-wal").unlink)
     with pytest.raises(abu_calc.OutputError, match="removed or replaced during the run"):
         sweeps.run(link)
-
-
-NO_NAMES = {
-    ":memory:": "outlives",
-    "": "outlives",
-    "a\0b": "not the name",
-    "a\udc80b": "not the name",
-    "a\nb": "not the name",
-    "x" * 300: "File name too long",
-}
-
-
-@pytest.mark.parametrize(("name", "part"), NO_NAMES.items(), ids=ascii)
-def test_what_is_no_name_of_a_store_is_refused(name: str, part: str, sweeps: Sweeps) -> None:
-    with pytest.raises(abu_calc.InputError, match=part) as refused:
-        abu_calc.sweep(sweeps.machine, {ECCENTRICITY: "uniform(0, 0.01)"}, 2, store=name)
-    assert refused.value.place.key == "store" and refused.value.exit_status == 2
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has neither")
-@pytest.mark.parametrize("resume", [False, True])
-def test_loops_folders_and_pipes_are_no_stores(resume: bool, sweeps: Sweeps) -> None:
-    loop, pipe = sweeps.folder / "loop", sweeps.folder / "pipe"
-    loop.symlink_to(loop)
-    os.mkfifo(pipe)
-    for path, part in ((loop, "symbolic links"), (pipe, "no regular file"), (sweeps.folder, "this is a folder")):
-        with pytest.raises(abu_calc.OutputError, match=part) as refused:
-            sweeps.run(path, resume=resume)
-        assert str(path) in str(refused.value)
 
 
 @pytest.mark.parametrize("name", ["a b", "a?b", "a#b", "a%20b", "µ", "file:x", "'", "a&mode=memory"])

@@ -1,7 +1,6 @@
 """A swing arm judged as a whole, against equations of its own: a grid over contact angles, the balance of moments."""
 
 import math
-import re
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -11,14 +10,9 @@ import pytest
 from scipy.optimize import brentq
 
 import abu_calc
-from abu_calc.dynamics.scene import Scene
-from abu_calc.dynamics.stability.verdict import critical_damping, stability
-from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
-from abu_calc.features.swing_arm.scenes import advise_scene
 from abu_calc.features.swing_arm.verdict import ArmJudgement, judge_arm
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
-from tests.dynamics.stability.test_verdict import race
 
 PASSED = {"pass", "warn"}
 TWO_BALLS = {"autobalancer.ball_count": 2}
@@ -212,55 +206,3 @@ def test_damping_that_balls_on_the_heavy_side_need_warns() -> None:
     assert check.status == "warn" and "heavy side" in check.message
     carried = judged("as it is").design.autobalancer.capacity / judged("as it is").design.imbalance.value
     assert bounds.bunched_limit / bounds.damping_limit == pytest.approx(1 + carried, rel=1e-6)
-
-
-def scene(ratio: float, damping: float) -> Scene:
-    length, inertia, omega = 0.3, 0.45, 300.0
-    support = SwingArmSupport(length, inertia, inertia * (ratio * omega) ** 2 / length**2, damping)
-    return Scene("arm", support, omega, 4e-4, 0.0, (race(drag=10.0, mass=0.01),), 1.0, (0.0,), (0.0,))
-
-
-@pytest.mark.parametrize(
-    ("ratio", "damping"),
-    [
-        (0.5, 150.0),
-        pytest.param(1.3, 150.0, marks=pytest.mark.slow),
-        (0.5, 0.05),
-        pytest.param(0.95, 3.0, marks=pytest.mark.slow),
-    ],
-)
-def test_advice_for_a_scene_file(ratio: float, damping: float) -> None:
-    given = scene(ratio, damping)
-    advice = advise_scene(given)
-    assert advice is not None
-    holds = stability(given).stable and damping > (critical_damping(given) or 0.0)
-    assert advice.startswith("nothing to change.") is bool(holds)
-    if not holds:
-        words = dict(part.split(" (")[0].split(" = ") for part in advice.split(". Tried")[0][7:].split(", "))
-        support = SwingArmSupport(
-            0.3, float(words.get("moment_of_inertia_kg_m2", 0.45)), given.support.stiffness,
-            float(words.get("joint_damping_N_s_per_m", damping)),
-        )  # fmt: skip
-        changed = Scene("arm", support, 300.0, 4e-4, 0.0, given.races, 1.0, (0.0,), (0.0,))
-        assert stability(changed).stable and support.damping > (critical_damping(changed) or 0.0)
-
-
-def test_a_scene_whose_arm_nothing_holds() -> None:
-    assert "joint stiffness" in str(advise_scene(scene(0.0, 10.0)))
-
-
-@pytest.mark.parametrize(("moment", "status"), [(20.0, "pass"), (9.0, "fail")])
-def test_a_disk_that_bounces_is_judged_by_the_simulated_arm(moment: float, status: str) -> None:
-    """ABU506; what it advises holds when it is followed."""
-    machine = abu_calc.read("swing-arm-grinder").changed({"swing_arm.pressing_moment_N_m": moment})
-    found = abu_calc.size(machine)
-    (check,) = (check for check in found.checks if check.code == "ABU506")
-    assert check.status == status
-    if status == "pass":
-        assert check.value == 0.0 and "leaves its work until" in check.message
-        return
-    assert check.value is not None and check.value > 10
-    assert check.remedy is not None
-    (advised,) = re.findall(r"Tried: pressing_moment_N_m = (\S+)", check.remedy)
-    followed = abu_calc.size(machine.changed({"swing_arm.pressing_moment_N_m": float(advised)}))
-    assert {check.code: check.status for check in followed.checks}["ABU506"] in ("pass", "warn")
