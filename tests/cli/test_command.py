@@ -3,22 +3,16 @@
 import csv
 import io
 import json
-import re
 import tomllib
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 
-import abu_calc
-from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.foundation.interruption import INTERRUPTED
-from abu_calc.reporting.blocks import number
 from abu_calc.simulation import design_scenes as machine
 from abu_calc.simulation import ensemble
-from abu_calc.sizing import size as size_design
 from tests.cli.runner import abu, again, once
-from tests.remembered import recalled
 from tests.sizing.machines import BASE
 from tests.sizing.test_case import machines
 
@@ -81,127 +75,6 @@ def test_under_load_the_level_does_not_contradict_the_simulation(designs: dict[s
     assert loaded["parts"] and loaded["at_once_stays"]
     assert loaded["level_at_once_db"] == pytest.approx(grinding["level_db"], abs=0.1)
     assert loaded["level_after_db"] < loaded["level_before_db"] < loaded["level_at_once_db"]
-
-
-@pytest.mark.parametrize(
-    ("name", "count", "diameter", "idle"),
-    [
-        ("avtovaz-707-222", 2, 16.0, True),
-        ("avtovaz-707-222", 4, 16.0, False),
-        ("avtovaz-707-370", 3, 16.0, False),
-        ("avtovaz-707-305", 3, 19.844, False),
-    ],
-)
-def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int, diameter: float, idle: bool) -> None:
-    """Two for idling and four under load on the straight machine; three on the others."""
-    pins = {"autobalancer.ball_count": count, "autobalancer.ball_diameter_mm": diameter}
-    design = size_design(abu_calc.read(name).changed(pins | ({"grinding.contact": "face"} if idle else {})).whole())
-    found = design.autobalancer
-    assert (found.ball_count, found.ball_diameter) == (count, pytest.approx(1e-3 * diameter, abs=1e-6))
-    (capacity,) = (check for check in design.checks if check.code == "ABU201")
-    assert capacity.status == "pass", capacity
-
-
-def test_two_balls_do_not_suffice_under_load() -> None:
-    pins = {"autobalancer.ball_count": 2, "autobalancer.ball_diameter_mm": 16.0}
-    design = size_design(abu_calc.read("avtovaz-707-222").changed(pins).whole())
-    assert {check.code for check in design.checks if check.status == "fail"} >= {"ABU201"}
-    assert design.autobalancer.capacity_ratio < 1.2
-
-
-def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
-    seen = once("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
-                "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
-    document = seen.document
-    failed = {check["code"]: check for check in document["checks"] if check["status"] == "fail"}
-    assert seen.status == 1 and {"ABU101", "ABU701"} <= failed.keys()
-    assert "worse" in failed["ABU701"]["message"]
-    assert document["result"]["vibration"]["level_after_db"] is None  # no number that could not be trusted
-    assert {c["code"] for c in document["checks"] if c["status"] == "not-done"} == {"ABU401", "ABU402"}
-    assert document["result"]["frequency"]["region"] == "subcritical"
-    assert not document["result"]["frequency"]["balancing_possible"]
-
-
-def test_a_machine_in_hands_is_simulated_with_them() -> None:
-    smooth = "autobalancer.rolling_friction_mm=0"  # with friction they stop somewhere in its band
-    seen = abu("size", "avtovaz-707-370", "--set", "suspension.model=hands", "--set", smooth, "--json")
-    idle, grinding = seen.document["result"]["simulation"]
-    assert seen.status == 0 and (idle["scene"], grinding["scene"]) == ("idle", "grinding")
-    # Palms, fingers and skin: more than the two coordinates of the axis.
-    states = seen.document["model"]["scenes"]["idle"]["states"]
-    assert states[:2] == ["x", "y"] and states.index("θ1") > 4
-    # At 97 Hz hands change the amplitude by a few per cent only, and the balls do as well in them as on springs.
-    springs = abu("size", "avtovaz-707-370", "--set", smooth, "--json").document["result"]["simulation"][0]
-    assert idle["axis_amplitude_mm"] == pytest.approx(springs["axis_amplitude_mm"], rel=0.1)
-
-
-def test_all_scenes_a_file_calls_for_are_simulated() -> None:
-    document = abu("size", "swing-arm-grinder", "--set", "grinding.press_force_N=45", "--json").document
-    scenes = [run["scene"] for run in document["result"]["simulation"]]
-    assert scenes == ["idle", "grinding", "swing-arm-idle", "swing-arm-cutting"] == list(document["model"]["scenes"])
-    for run in document["result"]["simulation"]:
-        assert all(effect["included"] for effect in run["effects"])
-        assert run["error_estimate"] <= 0.01
-    assert document["model"]["scenes"]["swing-arm-idle"]["states"][:2] == ["arm_angle", "arm_angle'"]
-
-
-def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
-    """An arm that does not stand at the work: the design stands, its other scenes too."""
-    seen = once("size", "swing-arm-grinder", "--set", "swing_arm.contact_angle_deg=5", "--json")
-    document = seen.document
-    (check,) = [check for check in document["checks"] if check["code"] == "ABU703"]
-    assert seen.status == 1 and check["status"] == "not-done" and "swing-arm-cutting" in check["name"]
-    assert [run["scene"] for run in document["result"]["simulation"]] == ["idle", "swing-arm-idle"]
-
-
-def test_wheel_and_work_that_part_are_a_warning() -> None:
-    """c_n E (2MΩ² − …)/… of 90 µm at 0.49 MN/m is 49 N, more than the press of 45; a true wheel does not bounce."""
-    warnings = once("size", "avtovaz-707-222", "--json").document["warnings"]
-    assert [warning for warning in warnings if warning.startswith("grinding: wheel and work part")]
-    warnings = abu("size", "avtovaz-707-222", "--set", "wheel.runout_mm=0.01", "--json").document["warnings"]
-    assert not [warning for warning in warnings if "wheel and work" in warning]
-
-
-def test_report_reads_like_a_calculation_note() -> None:
-    seen = once("size", "avtovaz-707-222", "--full")
-    lines = seen.out.splitlines()
-    assert seen.status == 0 and max(map(len, lines)) <= 80
-    assert lines[1].strip().startswith("PASS")
-    order = [
-        "Checks",
-        "Warnings",
-        "Design",
-        "Frequencies and capacity",
-        "Defaults used (not in the file)",
-        "Provenance",
-    ]
-    places = [lines.index(title) for title in order]
-    assert places == sorted(places)
-
-
-def test_explain_puts_the_numbers_in() -> None:
-    plain, told = once("size", "swing-arm-grinder", "--full").out, once("size", "swing-arm-grinder", "--explain").out
-    assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
-    assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)
-    for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
-        seen = abu("explain", step)
-        assert seen.status == 0 and "Source:" in seen.out
-
-
-def test_the_numbers_put_in_are_those_of_the_result() -> None:
-    result = recalled("size", abu_calc.read("avtovaz-707-222"))
-    model, shown = result.model, [getattr(block, "text", "") for block in explanation_blocks(result)]
-    assert model.runout_part_g_mm > 0 and model.eccentricity_part_g_mm > 0
-    for kg_m, g_mm in (
-        (model.runout_part_kg_m, model.runout_part_g_mm),
-        (model.eccentricity_part_kg_m, model.eccentricity_part_g_mm),
-    ):
-        assert g_mm == pytest.approx(1e6 * kg_m, rel=1e-12)
-    assert 2 * model.ball_radius_mm == result.autobalancer.ball_diameter_mm
-    parts = " + ".join(map(number, (result.imbalance_g_mm, model.runout_part_g_mm, model.eccentricity_part_g_mm)))
-    summed = f"→ m₀e + M·ε·√{{…}} + M·Δ = {parts} = {number(result.required_capacity_g_mm)} g·mm"
-    assert [line for line in shown if line.startswith(summed)]
-    assert [line for line in shown if line.startswith(f"→ sin β = r/(R−r) = {number(model.ball_radius_mm)}/")]
 
 
 def test_json_is_one_document_and_everything_else_is_elsewhere() -> None:

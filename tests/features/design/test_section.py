@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from abu_calc.features.design.section import Vertex, volume_of_revolution
-from abu_calc.features.design.section_drawing import flattened, legend, section_lines
+from abu_calc.features.design.section_drawing import flattened
 from abu_calc.sizing.housing import Design, groove_radius, housing
 from tests.reporting.drawings.samples import MACHINES, result
 
@@ -91,26 +91,3 @@ def test_a_sphere_and_a_torus_by_their_outlines() -> None:
     assert volume_of_revolution(half) == pytest.approx(4 / 3 * math.pi)
     ring = (Vertex(-1, 5, 1.0), Vertex(1, 5, 1.0))
     assert volume_of_revolution(ring) == pytest.approx(2 * math.pi**2 * 5)
-
-
-@pytest.mark.parametrize("name", MACHINES)
-@pytest.mark.parametrize("rows", [4, 6, 9, 15])
-def test_in_characters_every_part_is_seen(name: str, rows: int) -> None:
-    one, section = result(name).autobalancer, result(name).section
-    lines = section_lines(one, section, rows)
-    assert 4 <= len(lines) <= rows
-    assert max(map(len, lines)) <= 61
-    middle = lines[0].index("|")
-    assert all(line[middle] == "|" for line in lines)
-    seen = set("".join(lines))
-    assert {sign.split()[0] for sign in legend(section).split(", ")} - seen <= {"o"}
-    # Mirrored, but for a ball that has none opposite.
-    for line in lines:
-        left, right = line[:middle][::-1], line[middle + 1 :].ljust(middle)
-        assert left.ljust(len(right)) == (right if one.ball_count % 2 == 0 else right.replace("o", " "))
-
-
-def test_too_few_lines_show_nothing() -> None:
-    one = result("one-piece")
-    for rows in (-40, 0, 3):
-        assert section_lines(one.autobalancer, one.section, rows) == []

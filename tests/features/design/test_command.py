@@ -1,0 +1,59 @@
+"""`abu size` of machines whose verdict is known: published balls, a soft and a stiff mount, hands."""
+
+import pytest
+
+import abu_calc
+from abu_calc.sizing import size as size_design
+from tests.cli.runner import abu, once
+
+
+@pytest.mark.parametrize(
+    ("name", "count", "diameter", "idle"),
+    [
+        ("avtovaz-707-222", 2, 16.0, True),
+        ("avtovaz-707-222", 4, 16.0, False),
+        ("avtovaz-707-370", 3, 16.0, False),
+        ("avtovaz-707-305", 3, 19.844, False),
+    ],
+)
+def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int, diameter: float, idle: bool) -> None:
+    """Two for idling and four under load on the straight machine; three on the others."""
+    pins = {"autobalancer.ball_count": count, "autobalancer.ball_diameter_mm": diameter}
+    design = size_design(abu_calc.read(name).changed(pins | ({"grinding.contact": "face"} if idle else {})).whole())
+    found = design.autobalancer
+    assert (found.ball_count, found.ball_diameter) == (count, pytest.approx(1e-3 * diameter, abs=1e-6))
+    (capacity,) = (check for check in design.checks if check.code == "ABU201")
+    assert capacity.status == "pass", capacity
+
+
+def test_two_balls_do_not_suffice_under_load() -> None:
+    pins = {"autobalancer.ball_count": 2, "autobalancer.ball_diameter_mm": 16.0}
+    design = size_design(abu_calc.read("avtovaz-707-222").changed(pins).whole())
+    assert {check.code for check in design.checks if check.status == "fail"} >= {"ABU201"}
+    assert design.autobalancer.capacity_ratio < 1.2
+
+
+def test_below_resonance_it_makes_things_worse_and_says_so() -> None:
+    seen = once("size", "avtovaz-707-370", "--set", "suspension.natural_frequencies_hz=[130.0, 130.0]",
+                "--set", "suspension.damping_ratios=[0.05, 0.05]", "--json")  # fmt: skip
+    document = seen.document
+    failed = {check["code"]: check for check in document["checks"] if check["status"] == "fail"}
+    assert seen.status == 1 and {"ABU101", "ABU701"} <= failed.keys()
+    assert "worse" in failed["ABU701"]["message"]
+    assert document["result"]["vibration"]["level_after_db"] is None  # no number that could not be trusted
+    assert {c["code"] for c in document["checks"] if c["status"] == "not-done"} == {"ABU401", "ABU402"}
+    assert document["result"]["frequency"]["region"] == "subcritical"
+    assert not document["result"]["frequency"]["balancing_possible"]
+
+
+def test_a_machine_in_hands_is_simulated_with_them() -> None:
+    smooth = "autobalancer.rolling_friction_mm=0"  # with friction they stop somewhere in its band
+    seen = abu("size", "avtovaz-707-370", "--set", "suspension.model=hands", "--set", smooth, "--json")
+    idle, grinding = seen.document["result"]["simulation"]
+    assert seen.status == 0 and (idle["scene"], grinding["scene"]) == ("idle", "grinding")
+    # Palms, fingers and skin: more than the two coordinates of the axis.
+    states = seen.document["model"]["scenes"]["idle"]["states"]
+    assert states[:2] == ["x", "y"] and states.index("θ1") > 4
+    # At 97 Hz hands change the amplitude by a few per cent only, and the balls do as well in them as on springs.
+    springs = abu("size", "avtovaz-707-370", "--set", smooth, "--json").document["result"]["simulation"][0]
+    assert idle["axis_amplitude_mm"] == pytest.approx(springs["axis_amplitude_mm"], rel=0.1)
