@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from abu_calc.features.design.sheet import ratio, section_sheet, size_sheets, verdict
-from abu_calc.foundation.checks import Check
+from abu_calc.foundation.checks import Check, Grade
 from abu_calc.reporting.drawings.shapes import SCALES, Text
 from tests.reporting.drawings.samples import result
 
@@ -32,11 +32,13 @@ def test_scales_are_written_as_ratios(scale: float, written: str) -> None:
 
 
 def test_the_verdict_names_each_code_once() -> None:
-    checks = tuple(Check(code, code, status, "", None, None, None, None)
-                   for code, status in (("ABU401", "fail"), ("ABU201", "pass"), ("ABU401", "fail"), ("ABU5", "not-done")))  # fmt: skip
+    grades: tuple[tuple[str, Grade], ...] = (
+        ("ABU401", "fail"), ("ABU201", "pass"), ("ABU401", "fail"), ("ABU501", "not-done"),
+    )  # fmt: skip
+    checks = tuple(Check(code, code, grade, "", None, None, None, None) for code, grade in grades)
     assert verdict(replace(result("one-piece"), checks=checks)) == "FAIL: ABU401"
     assert verdict(replace(result("one-piece"), checks=checks[1:2])) == "PASS"
-    assert verdict(replace(result("one-piece"), checks=checks[3:])) == "NOT DONE: ABU5"
+    assert verdict(replace(result("one-piece"), checks=checks[3:])) == "NOT DONE: ABU501"
 
 
 @pytest.mark.parametrize("name", ["one-piece", "bearing-ring"])

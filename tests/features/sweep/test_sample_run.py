@@ -50,15 +50,15 @@ def test_time_is_limited_in_other_threads_too() -> None:
 
 def test_a_scene_above_its_resonance_balances_and_one_below_does_not() -> None:
     """Two balls of 0.1 each balance 0.1 above the natural frequency of 1; below it they join the imbalance."""
-    above = scene_once(dimensionless(3.0, 0.05, 0.1, 0.3, 0.05, (1.5, -1.7), 400.0), 1e-6)
-    below = scene_once(dimensionless(0.5, 0.05, 0.1, 0.3, 0.05, (1.5, -1.7), 400.0), 1e-6)
+    above = scene_once(dimensionless(3.0, 0.1, 0.1, 0.3, 0.05, (1.5, -1.7), 400.0), 1e-6)
+    below = scene_once(dimensionless(0.5, 0.1, 0.1, 0.3, 0.05, (1.5, -1.7), 400.0), 1e-6)
     assert above.balanced and above.slip < 0.01
     assert not below.balanced and below.response.residual_imbalance > 0.05
 
 
 def test_dry_friction_and_eccentricity_widen_what_is_allowed() -> None:
     """A tenth of the imbalance, and M·Δ of a race that is off by Δ."""
-    scene = dimensionless(3.0, 0.05, 0.1, 0.3, 0.05, (1.5, -1.7), 3.0)
+    scene = dimensionless(3.0, 0.1, 0.1, 0.3, 0.05, (1.5, -1.7), 3.0)
     response = SimpleNamespace(ball_angles=(2.0, -2.0))
     plain = _allowed(scene, response)  # type: ignore[arg-type]
     off = replace(scene, effects=(RaceEccentricityEffect(1e-3, 0.0),))

@@ -1,0 +1,82 @@
+"""The report of `abu grinding`: balls, contact, friction and wear in sentences with their numbers."""
+
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.features.grinding.study import GrindingResult
+from abu_calc.features.grinding.view import (
+    _row,
+    balls_blocks,
+    contact_blocks,
+    friction_blocks,
+    grinding_screen,
+    numbers_that_matter,
+    wear_blocks,
+)
+from abu_calc.reporting.blocks import Block
+from abu_calc.reporting.text import as_text
+from tests.features.grinding.test_command import STRAIGHT, worked
+
+
+def said(blocks: list[Block]) -> str:
+    return " ".join(as_text(tuple(blocks), 80).split())
+
+
+@pytest.fixture(scope="module")
+def golden() -> GrindingResult:
+    return worked(STRAIGHT, "golden")
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "bounds", "part"),
+    [
+        (4.9e5, (1e6, 2e6), "4.9e5 N/m, below 1e6: balls balance, and with them wear centres the wheel"),
+        (1.5e6, (1e6, 2e6), "1.5e6 N/m, from 1e6 to 2e6: there balls add to the imbalance"),
+        (3e6, (1e6, 2e6), "3e6 N/m, above 2e6 N/m: balls balance, and wear drives the wheel off"),
+        (None, (1e6, 2e6), "Rigid, above 2e6 N/m"),
+        (4.9e5, (-1.0, 2e6), "too stiff for balls to balance on any contact below 2e6 N/m"),
+        (4.9e5, (-2.0, -1.0), "too stiff for balls to balance on any contact that gives way"),
+    ],
+)
+def test_the_contact_is_placed_among_its_regions(
+    golden: GrindingResult, stiffness: float | None, bounds: tuple[float, float], part: str
+) -> None:
+    model = replace(golden.model, contact_stiffness_N_per_m=stiffness)
+    assert part in said(contact_blocks(replace(golden, model=model, contact_stiffness_regions_N_per_m=bounds)))
+
+
+def test_balls_are_told_with_their_places(golden: GrindingResult) -> None:
+    here = replace(golden, ball_resultant_g_mm=100.0, ball_angles_deg=(10.0, -20.0), printed=None)
+    assert "The balls balance: 100.0 g·mm, at 10.00°, -20.00° from the imbalance." in said(balls_blocks(here))
+    three = replace(here, ball_angles_deg=(10.0, -20.0, 90.0))
+    assert "one of many arrangements" in said(balls_blocks(three))
+    lost = replace(here, balls="turning", ball_angles_deg=None)
+    assert "The balls come to no rest." in said(balls_blocks(lost))
+
+
+def test_friction_that_is_none_is_told_as_none(golden: GrindingResult) -> None:
+    smooth = replace(golden.friction, threshold_um=0.0)
+    assert said(friction_blocks(replace(golden, friction=smooth))).endswith("None.")
+    thrown = replace(golden.friction, unshaken_um=1.0, shaken_um=9.0)
+    assert "So much of it throws the balls off their places." in said(friction_blocks(replace(golden, friction=thrown)))
+
+
+def test_wear_tells_what_comes_first() -> None:
+    """The golden wheel is driven off, until after 79.3 µm wheel and work part at 91.9 µm of runout."""
+    wear = worked(STRAIGHT, "golden").wear
+    assert wear is not None and wear.stages
+    row = _row("with", wear)
+    assert row[2] == "driven off" and row[3].startswith("wheel and work part after ") and " µm, at " in row[3]
+    timed = replace(wear, ends="halved", depth_um=2500.0, time_min=0.5, centres=True, runout_rate=-0.1)
+    assert _row("with", timed) == ("with", "-0.10", "centred", "runout halved after 2.50 mm (30 s)")
+    assert _row("with", replace(wear, depth_um=0.0))[3] == "wheel and work part already"
+    assert wear_blocks(worked("avtovaz-707-370")) == []
+
+
+def test_levels_stand_in_the_table_and_the_verdict_on_top(golden: GrindingResult) -> None:
+    rows = {row[0]: row[1:] for row in numbers_that_matter(golden).rows}
+    assert rows["level"] == (f"{golden.level_before_db:.1f} dB", "", f"{golden.level_after_db:.1f} dB")
+    assert rows["force, 400 N ±"][2].startswith(f"{golden.reaction.amplitude_N:.0f}"[:2])
+    text = as_text(grinding_screen(replace(golden, level_after_db=None)), 80)
+    assert "not known" in text and golden.verdict.split()[0] in text.splitlines()[1]
