@@ -34,6 +34,6 @@ def test_a_disturbance_opens_every_gap_and_keeps_the_first_ball() -> None:
 
 
 def test_a_stable_state_asks_for_no_run() -> None:
-    calm = dimensionless(3.0, 0.05, 0.05, 0.3, 0.05, (1.5, -1.7), 20.0)
+    calm = dimensionless(3.0, 0.02, 0.02, 0.1, 0.2, (1.5, -1.7), 20.0)
     judged = stability(calm)
     assert judged.stable and consequence(calm, judged) is None
