@@ -20,8 +20,8 @@ def test_the_sources_own_balls_suffice_where_they_found_so(name: str, count: int
     """Two for idling and four under load on the straight machine; three on the others."""
     pins = {"autobalancer.ball_count": count, "autobalancer.ball_diameter_mm": diameter}
     design = size_design(abu_calc.read(name).changed(pins | ({"grinding.contact": "face"} if idle else {})).whole())
-    found = design.autobalancer
-    assert (found.ball_count, found.ball_diameter) == (count, pytest.approx(1e-3 * diameter, abs=1e-6))
+    chosen = design.autobalancer
+    assert (chosen.ball_count, chosen.ball_diameter) == (count, pytest.approx(1e-3 * diameter, abs=1e-6))
     (capacity,) = (check for check in design.checks if check.code == "ABU201")
     assert capacity.status == "pass", capacity
 

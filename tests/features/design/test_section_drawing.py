@@ -13,8 +13,8 @@ from tests.reporting.drawings.samples import MACHINES, result
 @pytest.mark.parametrize("name", MACHINES)
 @pytest.mark.parametrize("rows", [4, 6, 9, 15])
 def test_in_characters_every_part_is_seen(name: str, rows: int) -> None:
-    one, section = result(name).autobalancer, result(name).section
-    lines = section_lines(one, section, rows)
+    design, section = result(name).autobalancer, result(name).section
+    lines = section_lines(design, section, rows)
     assert 4 <= len(lines) <= rows
     assert max(map(len, lines)) <= 61
     middle = lines[0].index("|")
@@ -24,13 +24,13 @@ def test_in_characters_every_part_is_seen(name: str, rows: int) -> None:
     # Mirrored, but for a ball that has none opposite.
     for line in lines:
         left, right = line[:middle][::-1], line[middle + 1 :].ljust(middle)
-        assert left.ljust(len(right)) == (right if one.ball_count % 2 == 0 else right.replace("o", " "))
+        assert left.ljust(len(right)) == (right if design.ball_count % 2 == 0 else right.replace("o", " "))
 
 
 def test_too_few_lines_show_nothing() -> None:
-    one = result("one-piece")
+    design = result("one-piece")
     for rows in (-40, 0, 3):
-        assert section_lines(one.autobalancer, one.section, rows) == []
+        assert section_lines(design.autobalancer, design.section, rows) == []
 
 
 def test_a_half_circle_becomes_chords_on_its_circle() -> None:

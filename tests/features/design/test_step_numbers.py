@@ -12,9 +12,12 @@ from tests.remembered import recalled
 
 
 def test_explain_puts_the_numbers_in() -> None:
-    plain, told = once("size", "swing-arm-grinder", "--full").out, once("size", "swing-arm-grinder", "--explain").out
-    assert told.startswith(plain[:500]) and len(told) > 2 * len(plain)
-    assert "→ m₀e + M·ε" in told and "Printed: Kladiev 1996, (7)" in told and not re.search(r"\{[a-z]+_", told)
+    plain, note = (
+        once("size", "swing-arm-grinder", "--full").out,
+        once("size", "swing-arm-grinder", "--explain").out,
+    )
+    assert note.startswith(plain[:500]) and len(note) > 2 * len(plain)
+    assert "→ m₀e + M·ε" in note and "Printed: Kladiev 1996, (7)" in note and not re.search(r"\{[a-z]+_", note)
     for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
         seen = abu("explain", step)
         assert seen.status == 0 and "Source:" in seen.out

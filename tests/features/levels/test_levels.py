@@ -68,8 +68,8 @@ def test_a_second_half_twice_as_large_is_six_decibels_louder() -> None:
 def test_the_whole_velocity_of_a_sine_is_its_rms(derivative: int) -> None:
     t, omega = np.arange(8192) / 4096, 2 * math.pi * 125
     samples = -np.cos(omega * t) / omega if derivative == -1 else np.sin(omega * t)
-    found = axis_levels("x", Signal(samples, 4096.0, derivative)).velocity
-    assert found == pytest.approx(math.sqrt(0.5), rel=2e-3)
+    velocity = axis_levels("x", Signal(samples, 4096.0, derivative)).velocity
+    assert velocity == pytest.approx(math.sqrt(0.5), rel=2e-3)
 
 
 def test_a_run_is_sampled_fast_enough_and_long_enough() -> None:
