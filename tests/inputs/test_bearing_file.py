@@ -2,8 +2,11 @@
 
 from pathlib import Path
 
-from abu_calc.inputs.machine import BearingFile, MachineFile, expected_tolerances, expected_values
-from tests.inputs.samples import BASIC, BEARINGS, read
+import pytest
+
+from abu_calc.inputs.bearing_file import BearingFile, expected_tolerances, expected_values
+from abu_calc.inputs.machine import MachineFile
+from tests.inputs.samples import BASIC, BEARINGS, read, refused
 
 
 def machine(folder: Path, text: str) -> MachineFile:
@@ -26,3 +29,14 @@ def test_expectations_and_their_tolerances(tmp_path: Path) -> None:
     file = machine(tmp_path, BASIC + more)
     assert expected_values(file) == {"a.b": 3, "status": "pass"} and expected_tolerances(file) == {"a.b": 1e-6}
     assert expected_tolerances(machine(tmp_path, BASIC)) == {}
+
+
+@pytest.mark.parametrize(("line", "key"), [
+    ('"a.b" = inf', 'expected."a.b"'), ('"a.b" = [1, [nan]]', 'expected."a.b"'),
+    ('"a.b" = 2020-01-01', 'expected."a.b"'),
+    ('a.b = 3', "expected.a"), ('"a..b" = 3', 'expected."a..b"'), ('"a.1234567" = 3', 'expected."a.1234567"'),
+    ('x = 1\n[expected.tolerance]\nx = -0.1', "expected.tolerance.x"),
+    ('x = 1\n[expected.tolerance]\ny = 0.1', "expected.tolerance.y"),
+])  # fmt: skip
+def test_what_no_result_can_hold_is_not_expected(tmp_path: Path, line: str, key: str) -> None:
+    assert refused(tmp_path, f"{BEARINGS}[expected]\n{line}\n").place.key == key
