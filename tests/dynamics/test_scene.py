@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
-from abu_calc.dynamics.scene import Race, only, parted_angles, with_parted_balls, without
+from abu_calc.dynamics.scene import only, parted_angles, with_parted_balls, without
 from abu_calc.dynamics.supports.planar import PlanarSupport, planar
 from abu_calc.foundation.errors import InputError
 from tests.dynamics.scenes import dimensionless
@@ -77,15 +77,6 @@ def test_scene_refuses_couple_and_places_where_nothing_tilts():
         replace(SCENE, couple_angle=math.nan)
     with pytest.raises(InputError, match="ball radius"):
         replace(SCENE.races[0], ball_radius=1.5)
-
-
-def test_balls_of_all_races_are_told_race_by_race():
-    second = Race(2.0, (0.3,), 0.1, 1.0, (5.0,), (0.0,))
-    scene = replace(SCENE, races=(*SCENE.races, second))
-    assert scene.ball_masses == (0.05, 0.05, 0.3)
-    assert scene.static_moments == (0.05, 0.05, 0.6)
-    assert scene.start_angles == (0.0, 1.0, 5.0)
-    assert scene.static_moment == pytest.approx(0.7)
 
 
 def test_effects_are_picked_by_name_and_keep_their_order():
