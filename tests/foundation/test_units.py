@@ -42,9 +42,9 @@ def test_ten_times_the_velocity_is_twenty_decibels_more() -> None:
 @pytest.mark.parametrize("angle", [-179.9, -90.0, 0.0, 0.1, 180.0])
 def test_a_wrapped_angle_is_the_same_direction(turns: int, angle: float) -> None:
     given = math.radians(angle + 360 * turns)
-    found = wrapped_deg(given)
-    assert -180 < found <= 180
-    assert cmath.rect(1, math.radians(found)) == pytest.approx(cmath.rect(1, given), abs=1e-13)
+    degrees = wrapped_deg(given)
+    assert -180 < degrees <= 180
+    assert cmath.rect(1, math.radians(degrees)) == pytest.approx(cmath.rect(1, given), abs=1e-13)
 
 
 def test_half_a_turn_back_is_half_a_turn_ahead() -> None:

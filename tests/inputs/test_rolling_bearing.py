@@ -13,8 +13,8 @@ from abu_calc.inputs.rolling_bearing import Bearing
 def test_class_and_series_of_a_bearing_are_defaults_where_no_designation_tells_them(
     given: dict[str, object], told: dict[str, str]
 ) -> None:
-    found = Bearing.model_validate(given).own_defaults()
-    assert {key: found[key] for key in ("series", "bearing_class") if key in found} == told
+    defaults = Bearing.model_validate(given).own_defaults()
+    assert {key: defaults[key] for key in ("series", "bearing_class") if key in defaults} == told
 
 
 def test_a_designation_may_have_its_own_chamfer() -> None:

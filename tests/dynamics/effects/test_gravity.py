@@ -29,8 +29,8 @@ def test_a_ball_in_a_race_that_stands_still_is_a_pendulum(angle: float) -> None:
     heavy = replace(scene(0.0, 0.0), support=planar(1e12, (0.0, 0.0), (0.0, 0.0)))
     equations = assemble(heavy)
     y = np.array([0, 0, 0, 0, angle, angle, 0, 0], dtype=float)
-    found = equations.rhs(np, 0.0, y, equations.acting)[-2:]
-    np.testing.assert_allclose(found, -G * math.cos(angle) / 1.4, atol=1e-9)
+    accelerations = equations.rhs(np, 0.0, y, equations.acting)[-2:]
+    np.testing.assert_allclose(accelerations, -G * math.cos(angle) / 1.4, atol=1e-9)
 
 
 def remarks(speed_of_ball: float) -> tuple[str, ...]:

@@ -163,8 +163,8 @@ def test_space_knows_no_direction(support, rotor, seed, angle, t):
     other = y.copy()
     first = 2 * len(scene.support.names)
     other[first : first + 5] += angle
-    found = rhs_of(turned(scene, angle, turned_effect), t, other)
-    np.testing.assert_allclose(found, rhs_of(scene, t, y), rtol=1e-9, atol=1e-10)
+    computed = rhs_of(turned(scene, angle, turned_effect), t, other)
+    np.testing.assert_allclose(computed, rhs_of(scene, t, y), rtol=1e-9, atol=1e-10)
 
 
 @every_scene()
@@ -178,10 +178,10 @@ def test_mirror_case_turns_the_other_way(support, rotor, seed, t):
     modes = tuple(-mode if isinstance(effect, RunUpEffect) else mode for effect, mode in pairs)
     acting = Acting(replace(seen.parameters, speed=-scene.speed), modes)
     y = state_of(scene, seed)
-    found = seen.rhs(np, t, mirrored_state(scene, y), acting)
+    computed = seen.rhs(np, t, mirrored_state(scene, y), acting)
     # Of a rate, the mirror takes no angle away.
     expected = mirrored_state(scene, straight.rhs(np, t, y, straight.acting)) - mirrored_state(scene, np.zeros(len(y)))
-    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-10)
+    np.testing.assert_allclose(computed, expected, rtol=1e-9, atol=1e-10)
 
 
 @every_scene()
@@ -235,8 +235,8 @@ def test_units_do_not_matter(support, rotor, imbalance):
 def test_an_effect_of_nothing_does_nothing(support, rotor, nothing):
     scene = scene_on(support, *ROTORS[rotor])
     y = state_of(scene, 7)
-    found = rhs_of(with_effects(scene, *scene.effects, nothing), 0.7, y)
-    np.testing.assert_array_equal(found, rhs_of(scene, 0.7, y))
+    computed = rhs_of(with_effects(scene, *scene.effects, nothing), 0.7, y)
+    np.testing.assert_array_equal(computed, rhs_of(scene, 0.7, y))
 
 
 def test_a_rotor_guided_at_constant_speed_is_steady():
@@ -245,9 +245,9 @@ def test_a_rotor_guided_at_constant_speed_is_steady():
         scene = scene_on(support, ECCENTRICITY)
         guided = with_effects(scene, RunUpEffect(0.0, 2.0), ECCENTRICITY)
         y = state_of(scene, 11)
-        found = rhs_of(guided, 0.7, np.array([*y, 0.7 * scene.speed, scene.speed]))
-        np.testing.assert_allclose(found[:-2], rhs_of(scene, 0.7, y), rtol=1e-12, atol=1e-13)
-        assert found[-2:].tolist() == [scene.speed, 0.0]
+        computed = rhs_of(guided, 0.7, np.array([*y, 0.7 * scene.speed, scene.speed]))
+        np.testing.assert_allclose(computed[:-2], rhs_of(scene, 0.7, y), rtol=1e-12, atol=1e-13)
+        assert computed[-2:].tolist() == [scene.speed, 0.0]
 
 
 def test_a_heavy_rotor_hardly_feels_its_balls():
@@ -259,9 +259,9 @@ def test_a_heavy_rotor_hardly_feels_its_balls():
         scene = scene_on(support, MotorEffect(0.0, 1.0, inertia), ECCENTRICITY)
         y = state_of(scene, 13)
         y[-1] = speed
-        found = rhs_of(scene, 0.7, y)
+        computed = rhs_of(scene, 0.7, y)
         steady = replace(with_effects(scene, ECCENTRICITY), speed=speed)
-        np.testing.assert_allclose(found[:-2], rhs_of(steady, y[-2] / speed, y[:-2]), rtol=1e-7, atol=1e-7)
+        np.testing.assert_allclose(computed[:-2], rhs_of(steady, y[-2] / speed, y[:-2]), rtol=1e-7, atol=1e-7)
 
 
 def test_object_arrays_serve_as_well_as_numbers():

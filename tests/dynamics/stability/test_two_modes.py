@@ -20,9 +20,9 @@ SCENE = dimensionless(2.0, BALL, 0.0, ZETA, DRAG, FAN, 10.0, inertia_factor=FACT
 
 def modes(scene: Scene = SCENE) -> TwoModes:
     """Those of a scene whose balls stand where they start."""
-    found = two_modes(BalancedMotion(scene, FAN))
-    assert found is not None
-    return found
+    two = two_modes(BalancedMotion(scene, FAN))
+    assert two is not None
+    return two
 
 
 def equation(s: complex, speed: float) -> complex:

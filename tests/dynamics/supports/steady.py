@@ -34,5 +34,5 @@ def assert_steady(scene: Scene, phasors: np.ndarray, frequency: float | None = N
     omega = scene.speed if frequency is None else frequency
     for t in (0.0, 0.37 / omega, 2.5 / omega):
         turning = phasors * cmath.exp(1j * omega * t)
-        found = acceleration(scene, turning.real, (1j * omega * turning).real, t)
-        np.testing.assert_allclose(found, -(omega**2) * turning.real, rtol=1e-9, atol=1e-12 * omega**2)
+        computed = acceleration(scene, turning.real, (1j * omega * turning).real, t)
+        np.testing.assert_allclose(computed, -(omega**2) * turning.real, rtol=1e-9, atol=1e-12 * omega**2)

@@ -112,8 +112,8 @@ def test_balls_glued_to_their_races_are_rings_of_the_rotor(axial, count):
     spread = math.sqrt((Jp * SPEED) ** 2 + 4 * Jt * kt)
     for omega in ((Jp * SPEED + spread) / (2 * Jt), (Jp * SPEED - spread) / (2 * Jt)):
         tilt = 1e-9
-        found = acceleration(scene, np.array((0, 0, tilt, 0)), np.array((0, 0, 0, omega * tilt)))
-        np.testing.assert_allclose(found / tilt, (0, 0, -(omega**2), 0), atol=1e-6 * omega**2)
+        computed = acceleration(scene, np.array((0, 0, tilt, 0)), np.array((0, 0, 0, omega * tilt)))
+        np.testing.assert_allclose(computed / tilt, (0, 0, -(omega**2), 0), atol=1e-6 * omega**2)
     still = acceleration(scene, np.array((1e-6, 0, 0, 0)), np.zeros(4))
     assert still[0] == pytest.approx(-2 * k * 1e-6 / (MASS + ring), rel=1e-9)
 

@@ -19,8 +19,8 @@ from abu_calc.inputs.reading.plain import DEEPEST, check_nesting, found_as, plai
     (datetime.date(2020, 1, 2), datetime.date(2020, 1, 2)),
 ])  # fmt: skip
 def test_values_of_other_libraries_become_pythons_own(given: object, plain: object) -> None:
-    found = plain_value(given, "key")
-    assert found == plain and type(found) is type(plain)
+    value = plain_value(given, "key")
+    assert value == plain and type(value) is type(plain)
 
 
 @pytest.mark.parametrize("given", [True, "2", None, 2j, Decimal("sNaN"), Fraction(10**400), [1]])

@@ -44,8 +44,8 @@ def test_a_sign_stays_as_it_is() -> None:
 def test_an_acceleration_is_a_level_by_the_speed_alone() -> None:
     """10.8 m/s² rms at 607.37 rad/s is 17.78 mm/s, 111.02 dB re 5e-8 m/s."""
     level = 20 * math.log10(10.8 / (5800 * math.pi / 30) / 5e-8)
-    found = {guess.unit: guess.values for guess in guesses("level_db", [10.8], Usual(60, 135), 5800.0)}
-    assert found["m/s²"] == pytest.approx((level,), rel=1e-12)
+    values = {guess.unit: guess.values for guess in guesses("level_db", [10.8], Usual(60, 135), 5800.0)}
+    assert values["m/s²"] == pytest.approx((level,), rel=1e-12)
     assert "m/s²" not in {guess.unit for guess in guesses("level_db", [10.8], Usual(60, 135))}
 
 

@@ -59,8 +59,8 @@ def written(expression: str) -> tuple[str, list[str]]:
 ])  # fmt: skip
 def test_arithmetic_has_the_instruction_of_its_types(expression: str, kind: str, sign: str) -> None:
     """Only a number that is none differs from itself."""
-    found, lines = written(expression)
-    assert found == kind and any(sign in line for line in lines)
+    result, lines = written(expression)
+    assert result == kind and any(sign in line for line in lines)
 
 
 @pytest.mark.parametrize("expression", ["t + other", "k // k", "not t", "'word'", "t < k < t", "t[0]"])

@@ -58,8 +58,8 @@ def test_balls_are_numbered_round_each_race(support: str) -> None:
     assert sorted(states) == list(range(len(equations.states)))
     np.testing.assert_array_equal(ordered.initial, np.array(equations.initial)[states])
     y = np.array(equations.initial) + 0.1
-    found = ordered.rhs(np, 0.2, y[states], ordered.acting)
-    np.testing.assert_allclose(found, equations.rhs(np, 0.2, y, equations.acting)[states], rtol=1e-10, atol=1e-12)
+    rates = ordered.rhs(np, 0.2, y[states], ordered.acting)
+    np.testing.assert_allclose(rates, equations.rhs(np, 0.2, y, equations.acting)[states], rtol=1e-10, atol=1e-12)
 
 
 def test_balls_in_order_stay_as_they_are() -> None:
