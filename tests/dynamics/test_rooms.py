@@ -10,17 +10,14 @@ import pytest
 
 import abu_calc.dynamics
 from abu_calc.dynamics.effect import Effect, EffectInfluence, Kind
-from abu_calc.dynamics.effects.ball_contact import BallContactEffect
 from abu_calc.dynamics.effects.dry_rolling_friction import DryRollingFrictionEffect
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.transverse_motion import TransverseMotionEffect
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.equations.right_hand_side import motion_of
 from abu_calc.dynamics.integrators import scipy_solvers as scipy_
 from abu_calc.dynamics.integrators.compiled import run as loop
 from abu_calc.dynamics.motion import Levers, Loads, Motion
 from abu_calc.dynamics.parameters import Parameters
-from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
 from abu_calc.dynamics.switching.modes import starting
@@ -29,7 +26,7 @@ from abu_calc.inputs.scene import NEEDED, REFUSED, SceneTable
 from abu_calc.simulation.response import evaluate, needed_times
 from abu_calc.simulation.scene_of_file import SUPPORTS as KINDS
 from tests.dynamics.energy import mass_matrix
-from tests.dynamics.scenes import SUPPORTS, dimensionless, scene_on, with_effects
+from tests.dynamics.scenes import dimensionless, scene_on, with_effects
 from tests.house import structure
 from tests.house.newcomers.rail import Rail
 
@@ -99,17 +96,6 @@ def test_effects_do_not_know_each_other():
 # Slots of the loads
 
 
-def test_forces_add_and_owned_slots_have_one_owner():
-    loads = Loads()
-    loads.add(pull=1.0, frame=2.0)
-    loads.add(pull=0.5)
-    assert (loads.pull, loads.press, loads.frame) == (1.5, None, 2.0)
-    for slot in ("grip", "free", "hold", "mates", "leads", "across", "bound"):
-        loads.own(**{slot: np.zeros(2)})
-        with pytest.raises(InputError, match=slot):
-            loads.own(**{slot: np.zeros(2)})
-
-
 @pytest.mark.parametrize(
     "effect",
     [TransverseMotionEffect(0.7, 0.1), DryRollingFrictionEffect(0.02, 0.1), DryRollingFrictionEffect(0.01, 0.2)],
@@ -131,15 +117,6 @@ def test_effects_set_no_slot_past_the_contract():
 
 
 # What effects tell of themselves
-
-
-def test_what_a_scene_tells_is_what_its_effects_tell():
-    scene = scene_on("planar")
-    assert (scene.rotor, scene.start_speed, scene.run_down, scene.holding) == (STEADY, scene.speed, 0.0, None)
-    scene = scene_on("planar", BallContactEffect(0.1, 0.5), DryRollingFrictionEffect(0.02, 0.1))
-    assert scene.balls_meet and scene.holding.friction == pytest.approx(0.2)
-    scene = scene_on("planar", TransverseMotionEffect(0.7, 0.1))
-    assert scene.ball_states == ("across", "across'")
 
 
 # A new effect
@@ -234,17 +211,3 @@ def test_balls_on_an_arm_weigh_by_how_their_angles_are_counted():
         free.append((to_space.T @ matrix @ to_space)[0, 0])
     assert np.mean(held) == pytest.approx(arm.holding(balls).inertia, rel=1e-12)
     np.testing.assert_allclose(free, arm.small_motion(1.0).carrying(balls).mass[0, 0], rtol=1e-12)
-
-
-@pytest.mark.parametrize("rotor", [STEADY, GUIDED, DRIVEN], ids=lambda rotor: type(rotor).__name__)
-@pytest.mark.parametrize("support", SUPPORTS)
-def test_turn_and_speed_of_a_state(support, rotor):
-    """What carries the rotor adds its own."""
-    scene = scene_on(support)
-    p = replace(assemble(scene).parameters, rotor=rotor)
-    y = np.arange(2 * p.size + 2 * p.balls + 2) / 7.0
-    motion = motion_of(np, 0.7, y, p)
-    turn, speed = (0.7 * scene.speed, scene.speed) if rotor is STEADY else (y[-2], y[-1])
-    carried = (y[0], y[1]) if support == "swing arm" else (0.0, 0.0)
-    assert (motion.turn, motion.speed) == pytest.approx((turn + carried[0], speed + carried[1]))
-    assert motion.own_speed == pytest.approx(speed)

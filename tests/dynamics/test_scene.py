@@ -9,11 +9,9 @@ from hypothesis import strategies as st
 
 from abu_calc.dynamics.effects.gravity import GravityEffect
 from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
-from abu_calc.dynamics.effects.registry import REGISTRY
-from abu_calc.dynamics.scene import Race, only, parted_angles, with_parted_balls, without
+from abu_calc.dynamics.scene import only, parted_angles, with_parted_balls, without
 from abu_calc.dynamics.supports.planar import PlanarSupport, planar
 from abu_calc.foundation.errors import InputError
-from abu_calc.inputs.scene_effects import Effects
 from tests.dynamics.scenes import dimensionless
 
 SCENE = dimensionless(2.0, 0.05, 0.01, 0.01, 0.01, (0.0, 1.0), 10.0)
@@ -24,28 +22,6 @@ SCENE = dimensionless(2.0, 0.05, 0.01, 0.01, 0.01, (0.0, 1.0), 10.0)
 def test_scene_refuses_what_is_no_quantity(name, value):
     with pytest.raises(InputError, match=name):
         replace(SCENE, **{name: value})
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf, -1.0])
-@pytest.mark.parametrize("name", ["pitch_radius", "drag", "inertia_factor"])
-def test_race_refuses_what_is_no_quantity(name, value):
-    with pytest.raises(InputError):
-        replace(SCENE.races[0], **{name: value})
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"ball_masses": (0.05,)},
-        {"ball_masses": (0.05, 0.0)},
-        {"start_angles": (0.0, math.nan)},
-        {"start_speeds": (0.0, math.inf)},
-        {"start_speeds": (0.0,)},
-    ],
-)
-def test_race_refuses_wrong_balls(change):
-    with pytest.raises(InputError):
-        replace(SCENE.races[0], **change)
 
 
 def test_scene_refuses_less_than_one_revolution_and_wrong_starts():
@@ -103,15 +79,6 @@ def test_scene_refuses_couple_and_places_where_nothing_tilts():
         replace(SCENE.races[0], ball_radius=1.5)
 
 
-def test_balls_of_all_races_are_told_race_by_race():
-    second = Race(2.0, (0.3,), 0.1, 1.0, (5.0,), (0.0,))
-    scene = replace(SCENE, races=(*SCENE.races, second))
-    assert scene.ball_masses == (0.05, 0.05, 0.3)
-    assert scene.static_moments == (0.05, 0.05, 0.6)
-    assert scene.start_angles == (0.0, 1.0, 5.0)
-    assert scene.static_moment == pytest.approx(0.7)
-
-
 def test_effects_are_picked_by_name_and_keep_their_order():
     scene = replace(SCENE, effects=(RaceEccentricityEffect(1e-3), GravityEffect()))
     assert only(scene, ["gravity", "race_eccentricity"]) == scene
@@ -120,11 +87,3 @@ def test_effects_are_picked_by_name_and_keep_their_order():
     assert only(scene, []).effects == ()
     with pytest.raises(InputError, match=r"no data.*found motor; allowed: race_eccentricity, gravity"):
         only(scene, ["gravity", "motor"])
-
-
-def test_every_effect_of_the_registry_has_its_table():
-    """Its own, or that of the support it comes with."""
-    names = [name for name, _ in REGISTRY]
-    assert sorted(name for name, kind in REGISTRY if not kind.table) == sorted(Effects.model_fields)
-    assert {kind.table for _, kind in REGISTRY} == {"", "scene.swing_arm"}
-    assert [kind.name for _, kind in REGISTRY] == names

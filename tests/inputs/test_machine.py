@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.inputs.machine import BearingFile, MachineFile, expected_tolerances, expected_values
+from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.reading.table import Table, all_tables
 from abu_calc.inputs.rolling_bearing import Bearing
 from abu_calc.inputs.wheel import QUANTITIES
-from tests.inputs.samples import BASIC, BEARINGS, FULL, document, full_text, read
+from tests.inputs.samples import BASIC, FULL, full_text, read
 
 
 def machine(folder: Path, text: str) -> MachineFile:
@@ -118,73 +118,9 @@ def test_absent_tables_are_none(tmp_path: Path) -> None:
     assert bare.bearing == () and bare.expected == {} and bare.limits.settling_time_s == 1
 
 
-def test_runout_from_either_key(tmp_path: Path) -> None:
-    gauge = BASIC.replace("diameter_mm = 150.0", "diameter_mm = 150.0\nrunout_tir_mm = 0.08")
-    direct = BASIC.replace("diameter_mm = 150.0", "diameter_mm = 150.0\nrunout_mm = 0.04")
-    assert machine(tmp_path, gauge).wheel.runout == machine(tmp_path, direct).wheel.runout == 0.04
-    assert machine(tmp_path, BASIC).wheel.runout == 0
-
-
-@pytest.mark.parametrize(("written", "pair"), [("2", (2, 2)), ("[2]", (2, 2)), ("[2, 3.5]", (2, 3.5))])
-def test_one_number_or_two(tmp_path: Path, written: str, pair: tuple[float, float]) -> None:
-    text = BASIC.replace("[2.5, 2.5]", written).replace("[0.5, 0.5]", written)
-    suspension = machine(tmp_path, text).suspension
-    assert (suspension.frequencies, suspension.dampings) == (pair, pair)
-
-
-def test_hands_bring_their_own_numbers(tmp_path: Path) -> None:
-    start, end = BASIC.index("[suspension]"), BASIC.index("[wheel]")
-    suspension = machine(tmp_path, BASIC[:start] + '[suspension]\nmodel = "hands"\n' + BASIC[end:]).suspension
-    assert suspension.frequencies is None and suspension.dampings is None
-
-
-@pytest.mark.parametrize("grade", ["4000", "1600", "630", "250", "100", "40", "16", "6.3", "2.5", "1", "0.4"])
-def test_balance_grades(tmp_path: Path, grade: str) -> None:
-    wheel = machine(tmp_path, BASIC.replace("imbalance_g_mm = 150.0", f'balance_grade = "G{grade}"')).wheel
-    assert wheel.grade == float(grade) and wheel.imbalance_g_mm is None
-
-
-def test_a_range_holds_the_rated_speed_at_its_ends_too(tmp_path: Path) -> None:
-    for written in ("[5800, 6000]", "[5000, 5800]", "[5000, 6000]"):
-        text = BASIC.replace("speed_rpm = 5800", f"speed_rpm = 5800\nspeed_range_rpm = {written}")
-        assert list(machine(tmp_path, text).machine.speed_range) == document(f"a = {written}")["a"]
-
-
 def test_a_motor_may_reach_the_rated_speed_just(tmp_path: Path) -> None:
     motor = machine(tmp_path, BASIC + "[motor]\nno_load_speed_rpm = 5800\n").motor
     assert motor is not None and motor.no_load_speed_rpm == 5800
-
-
-def test_bearings_alone(tmp_path: Path) -> None:
-    loaded = read(tmp_path, BEARINGS)
-    assert isinstance(loaded.tables, BearingFile)
-    assert [bearing.name for bearing in loaded.tables.bearing] == ["left", "bearing"]
-    assert loaded.tables.limits.vibration_level_db == 109
-    assert dict(loaded.defaults_used)["bearing[1].housing_material"] == "steel"
-    assert loaded.tables.bearing[1].shaft_fit is None  # which to write is the answer, never a default
-
-
-@pytest.mark.parametrize(("given", "told"), [
-    ({"bore_mm": 17.0, "outer_mm": 40.0, "width_mm": 12.0}, {"series": "light", "bearing_class": "0"}),
-    ({"designation": "6203"}, {"bearing_class": "0"}), ({"designation": "6203/P6"}, {}),
-    ({"designation": "6203", "bearing_class": "5"}, {}), ({"designation": "nonsense"}, {}),
-])  # fmt: skip
-def test_class_and_series_of_a_bearing_are_defaults_where_no_designation_tells_them(
-    given: dict[str, object], told: dict[str, str]
-) -> None:
-    found = Bearing.model_validate(given).own_defaults()
-    assert {key: found[key] for key in ("series", "bearing_class") if key in found} == told
-
-
-def test_a_designation_may_have_its_own_chamfer() -> None:
-    assert Bearing(designation="7516", chamfer_mm=2.0).chamfer_mm == 2
-
-
-def test_expectations_and_their_tolerances(tmp_path: Path) -> None:
-    more = '[expected]\n"a.b" = 3\nstatus = "pass"\n[expected.tolerance]\n"a.b" = 1e-6\n'
-    file = machine(tmp_path, BASIC + more)
-    assert expected_values(file) == {"a.b": 3, "status": "pass"} and expected_tolerances(file) == {"a.b": 1e-6}
-    assert expected_tolerances(machine(tmp_path, BASIC)) == {}
 
 
 def test_what_is_told_of_the_file(tmp_path: Path) -> None:

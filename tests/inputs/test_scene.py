@@ -176,24 +176,6 @@ def test_a_support_refuses_what_belongs_to_another(
     assert error.place.key == f"scene.{key}" and words in str(error)
 
 
-def test_a_wheel_of_a_tilting_rotor_has_a_place(tmp_path: Path) -> None:
-    contact = "[scene.effects]\ngrinding_contact = { plane_offset_mm = 60, contact = 'rigid' }\n[scene.tilting]"
-    read_in = read(tmp_path, TILTING.replace("[scene.tilting]", contact)).scene.effects.grinding_contact
-    assert read_in is not None and (read_in.plane_offset_mm, read_in.wheel_radius_mm) == (60, None)
-
-
-def test_balls_that_touch_or_have_no_size_are_read(tmp_path: Path) -> None:
-    """Two balls of radius 707.1 mm on a pitch radius of 1 m span 90° each: at ±45° they touch."""
-    near = SCENE.replace("[90.0, -90.0]", "[45.0, -45.0]")
-    size = "[scene.effects]\nball_contact = { ball_radius_mm = 707.10678 }\n"
-    assert read(tmp_path, near + size).scene.effects.names == ("ball_contact",)
-    error = refused(tmp_path, near.replace("-45.0", "-44.99") + size)
-    assert error.place.key == "scene.race[0].start_angles_deg"
-    assert read(tmp_path, SCENE.replace("-90.0", "90.0")).scene.effects.names == ()
-    third = near.replace("[50.0, 50.0]", "[50, 50, 50]").replace("[45.0, -45.0]", "[45.0, -45.0, 359.0]")
-    assert "balls 2 and 3 overlap" in str(refused(tmp_path, third + size))
-
-
 def test_every_table_and_key_of_the_published_format_is_known_and_read(tmp_path: Path) -> None:
     """And of the tables that it has it lacks no key but one; other tables have their examples in the template."""
     text = PLANAR + TILTING + ARM

@@ -256,39 +256,6 @@ def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_code_is_kept_on_disk_and_rebuilt_where_it_is_damaged(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    equations = assemble(SCENES["friction"])
-    built: list[str] = []
-    original = machine.compiled
-    monkeypatch.setattr(machine, "compiled", lambda text: built.append(text) or original(text))  # type: ignore[func-returns-value]
-    assert not ready.loaded(equations, "rk45")
-    runs = [compiled.integrate(equations, 1e-6, [2.0]).y]
-    assert len(built) == len(list(fresh.iterdir())) == 2
-    assert ready.loaded(equations, "rk45") and not ready.loaded(equations, "dop853")
-    for damages in ((bytes, bytes), (lambda code: code[:-100], lambda code: os.urandom(len(code)))):
-        before = {one: one.read_bytes() for one in fresh.iterdir()}
-        for damage, (place, content) in zip(damages, before.items(), strict=True):
-            place.write_bytes(damage(content))
-        compiled_code._codes.clear()
-        compiled_code._texts.clear()
-        compiled_code._loops.clear()
-        assert not ready.loaded(equations, "rk45")
-        runs.append(compiled.integrate(equations, 1e-6, [2.0]).y)
-        assert {one: one.read_bytes() for one in fresh.iterdir()} == before
-    assert len(built) == 2 + 0 + 2
-    assert all(np.array_equal(one, runs[0]) for one in runs)
-
-
-def test_the_key_tells_numbers_from_outside_apart(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A constant of another file is in the machine code."""
-    text = "def go() -> float:\n return SIZE\n"
-    keys = {compiled_code._key([(text, {"SIZE": size})]) for size in (1.0, 2.0, 1)}
-    keys.add(compiled_code._key([(text + "\n", {"SIZE": 1.0})]))
-    monkeypatch.setattr(machine, "described", lambda: "another processor")
-    keys.add(compiled_code._key([(text, {"SIZE": 1.0})]))
-    assert len(keys) == 5
-
-
 @pytest.mark.usefixtures("fresh")
 @pytest.mark.parametrize("failing", ["_library", "_target"])
 def test_a_compiler_that_does_not_run_is_done_without(failing: str, monkeypatch: pytest.MonkeyPatch) -> None:

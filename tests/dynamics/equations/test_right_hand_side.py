@@ -1,0 +1,292 @@
+"""The right-hand side against Lagrange's equations, and its symmetries."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from abu_calc.dynamics.effect import Effect
+from abu_calc.dynamics.effects.gravity import GravityEffect
+from abu_calc.dynamics.effects.motor import MotorEffect
+from abu_calc.dynamics.effects.race_eccentricity import RaceEccentricityEffect
+from abu_calc.dynamics.effects.run_up import RunUpEffect
+from abu_calc.dynamics.equations.assemble import STEP, assemble
+from abu_calc.dynamics.equations.right_hand_side import motion_of
+from abu_calc.dynamics.parameters import Acting
+from abu_calc.dynamics.rotor import DRIVEN, GUIDED, STEADY
+from abu_calc.dynamics.scene import Scene
+from abu_calc.dynamics.supports.planar import LinearSupport
+from abu_calc.dynamics.supports.swing_arm import SwingArmSupport
+from tests.dynamics.energy import Bodies, demanded, energy, mass_matrix, power, resisting
+from tests.dynamics.scenes import ROTORS, SUPPORTS, coupled_scene, dimensionless, scene_on, with_effects
+from tests.dynamics.transforms import coordinate_units, in_units, mirrored, mirrored_state, reordered, turned
+
+GRAVITY, ECCENTRICITY = GravityEffect(0.9), RaceEccentricityEffect(0.1, 0.3)
+MORE = [(), (ECCENTRICITY,), (GRAVITY,), (ECCENTRICITY, GRAVITY)]
+seeds = st.integers(0, 2**32 - 1)
+moments = st.floats(0, 10)
+
+
+def rhs_of(scene: Scene, t: float, y: np.ndarray) -> np.ndarray:
+    equations = assemble(scene)
+    return equations.rhs(np, t, y, equations.acting)
+
+
+def state_of(scene: Scene, seed: int) -> np.ndarray:
+    """A state at random: anywhere, of either sign, the rotor too; only tilts are small."""
+    names = assemble(scene).states
+    y = np.random.default_rng(seed).uniform(-2, 2, len(names))
+    return np.where([name in ("tilt_x", "tilt_y") for name in names], 0.1 * y, y)
+
+
+def every_scene(*rotors: str) -> pytest.MarkDecorator:
+    """Every support, turned in every way."""
+    cases = [(support, rotor) for support in SUPPORTS for rotor in (rotors or ROTORS)]
+    return pytest.mark.parametrize(("support", "rotor"), cases)
+
+
+@every_scene()
+@settings(deadline=None, derandomize=True, max_examples=5)
+@given(seed=seeds, t=moments, more=st.sampled_from(MORE))
+def test_every_coordinate_obeys_lagrange(support, rotor, seed, t, more):
+    """d/dt ∂L/∂v − ∂L/∂x is what dampers, gyroscopic moments, drag and motor supply."""
+    scene = scene_on(support, *ROTORS[rotor], *more)
+    y = state_of(scene, seed)
+    supplied = resisting(scene, t, y)
+    if rotor == "driven":
+        motor = ROTORS[rotor][0]
+        supplied[-1] += motor.stall_torque * (1 - y[-1] / motor.no_load_speed)
+    free = Bodies(scene).freedoms
+    # Rounding of sums whose terms are near 10.
+    np.testing.assert_allclose(demanded(scene, t, y)[:free], supplied[:free], rtol=1e-10, atol=1e-11)
+
+
+@every_scene()
+@settings(deadline=None, derandomize=True, max_examples=4)
+@given(seed=seeds, t=moments)
+def test_mass_matrix_is_symmetric_and_positive_definite(support, rotor, seed, t):
+    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY)
+    matrix = mass_matrix(scene, t, state_of(scene, seed))
+    assert len(matrix) == len(scene.support.names) + 5 + (rotor == "driven")
+    np.testing.assert_allclose(matrix, matrix.T, rtol=1e-13, atol=1e-15)
+    assert np.linalg.eigvalsh(matrix).min() > 0
+
+
+def test_mass_matrix_of_the_plane_by_hand():
+    """One ball of 0.2 kg at R_p = 0.5 m, J = 1.4, at γ = 0.3 + 2·0.7, on 3 kg."""
+    scene = dimensionless(2.0, 0.2, 0.1, 0.0, 0.0, (0.0,), 10.0, inertia_factor=1.4)
+    scene = replace(
+        scene,
+        support=replace(scene.support, mass=((3.0, 0.0), (0.0, 3.0))),
+        races=(replace(scene.races[0], pitch_radius=0.5),),
+    )
+    s, c = 0.1 * math.sin(1.7), 0.1 * math.cos(1.7)
+    expected = [[3.2, 0, -s], [0, 3.2, c], [-s, c, 1.4 * 0.2 * 0.25]]
+    y = np.array([0.1, 0.2, 0, 0, 0.3, 0])
+    np.testing.assert_allclose(mass_matrix(scene, 0.7, y), expected, rtol=1e-14, atol=1e-16)
+
+
+@every_scene()
+@settings(deadline=None, derandomize=True, max_examples=4)
+@given(seed=seeds, t=moments)
+def test_velocities_are_the_rates_of_places(support, rotor, seed, t):
+    """The kinetic energy is made of slopes over long steps: they are exact."""
+    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY)
+    bodies = Bodies(scene)
+    x, v = bodies.split(t, state_of(scene, seed))
+    slow = replace(scene, support=massless(scene), races=tuple(replace(r, inertia_factor=1.0) for r in scene.races))
+    slow = with_effects(replace(slow, imbalance=0.0, couple=0.0), ECCENTRICITY)
+    moving = bodies.places(x + 1j * STEP * v).imag / STEP
+    kinetic = (np.array(scene.ball_masses) * moving**2).sum() / 2
+    if getattr(scene.support, "axial_inertia", False):  # what a leaning race lacks in radius is told apart
+        going = v[bodies.size : bodies.size + bodies.balls] + v[-1]
+        kinetic -= (np.array(scene.ball_masses) * bodies.sunk(x) * going**2).sum() / 2
+    assert v @ Bodies(slow).mass(x) @ v / 2 == pytest.approx(kinetic, rel=1e-12)
+
+
+def massless(scene: Scene) -> LinearSupport | SwingArmSupport:
+    """The support with next to no mass of its own."""
+    if isinstance(scene.support, SwingArmSupport):
+        return replace(scene.support, inertia=1e-300)
+    return replace(scene.support, mass=tuple(tuple(0.0 for _ in row) for row in scene.support.mass))
+
+
+@every_scene()
+@settings(deadline=None, derandomize=True, max_examples=4)
+@given(seed=seeds, t=moments, more=st.sampled_from(MORE))
+def test_energy_changes_by_the_power_alone(support, rotor, seed, t, more):
+    scene = scene_on(support, *ROTORS[rotor], *more)
+    y = state_of(scene, seed)
+    rate = energy(scene, t + 1j * STEP, y + 1j * STEP * rhs_of(scene, t, y)).imag / STEP
+    assert rate == pytest.approx(power(scene, t, y), rel=1e-10, abs=1e-10)
+
+
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_without_drag_damping_and_torque_energy_is_kept(support):
+    """A rotor that turns freely, with gravity and an eccentric race."""
+    scene = scene_on(support, MotorEffect(0.0, 1.0, 6.0), ECCENTRICITY, GRAVITY)
+    support_ = scene.support
+    idle = 0.0 if isinstance(support_, SwingArmSupport) else tuple((0.0,) * len(row) for row in support_.damping)
+    races = tuple(replace(race, drag=0.0) for race in scene.races)
+    scene = replace(scene, support=replace(support_, damping=idle), races=races)
+    y = state_of(scene, 1)
+    assert power(scene, 0.3, y) == pytest.approx(0, abs=1e-14)
+    assert energy(scene, 0.3, y + 1j * STEP * rhs_of(scene, 0.3, y)).imag / STEP == pytest.approx(0, abs=1e-11)
+
+
+def turned_effect(effect: Effect, angle: float) -> Effect:
+    return replace(effect, angle=effect.angle + angle) if isinstance(effect, RaceEccentricityEffect) else effect
+
+
+def mirrored_effect(effect: Effect, whole: float) -> Effect:
+    """An angle becomes `whole` less the angle; that is 0 where up and down change places."""
+    if isinstance(effect, RaceEccentricityEffect):
+        return replace(effect, angle=whole - effect.angle)
+    if isinstance(effect, GravityEffect) and whole == 0:
+        return replace(effect, acceleration=-effect.acceleration)
+    if isinstance(effect, MotorEffect):
+        return replace(effect, stall_torque=-effect.stall_torque, no_load_speed=-effect.no_load_speed)
+    return effect
+
+
+@pytest.mark.parametrize("rotor", ROTORS)
+@pytest.mark.parametrize("support", [name for name in SUPPORTS if name != "swing arm"])
+@settings(deadline=None, derandomize=True, max_examples=5)
+@given(seed=seeds, angle=st.floats(-3, 3), t=moments)
+def test_space_knows_no_direction(support, rotor, seed, angle, t):
+    """Everything turned, the frame included: support coordinates and relative angles go on as before."""
+    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY)
+    y = state_of(scene, seed)
+    other = y.copy()
+    first = 2 * len(scene.support.names)
+    other[first : first + 5] += angle
+    computed = rhs_of(turned(scene, angle, turned_effect), t, other)
+    np.testing.assert_allclose(computed, rhs_of(scene, t, y), rtol=1e-9, atol=1e-10)
+
+
+@every_scene()
+@settings(deadline=None, derandomize=True, max_examples=5)
+@given(seed=seeds, t=moments)
+def test_mirror_case_turns_the_other_way(support, rotor, seed, t):
+    """All angles and the sense of rotation reversed; a scene itself always turns from +x to +y."""
+    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
+    straight, seen = assemble(scene), assemble(mirrored(scene, mirrored_effect))
+    pairs = zip(scene.effects, straight.first_modes, strict=True)
+    modes = tuple(-mode if isinstance(effect, RunUpEffect) else mode for effect, mode in pairs)
+    acting = Acting(replace(seen.parameters, speed=-scene.speed), modes)
+    y = state_of(scene, seed)
+    computed = seen.rhs(np, t, mirrored_state(scene, y), acting)
+    # Of a rate, the mirror takes no angle away.
+    expected = mirrored_state(scene, straight.rhs(np, t, y, straight.acting)) - mirrored_state(scene, np.zeros(len(y)))
+    np.testing.assert_allclose(computed, expected, rtol=1e-9, atol=1e-10)
+
+
+@every_scene()
+@settings(deadline=None, derandomize=True, max_examples=4)
+@given(seed=seeds, order=st.permutations(range(3)))
+def test_balls_have_no_order(support, rotor, seed, order):
+    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
+    y = state_of(scene, seed)
+    index, first = np.arange(len(y)), 2 * len(scene.support.names)
+    for start in (first, first + 5):
+        index[start : start + 3] = [start + k for k in order]
+    moved = rhs_of(reordered(scene, order), 0.7, y[index])
+    np.testing.assert_allclose(moved, rhs_of(scene, 0.7, y)[index], rtol=1e-10, atol=1e-11)
+
+
+@every_scene()
+def test_races_have_no_order(support, rotor):
+    scene = scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY)
+    y = state_of(scene, 5)
+    first = 2 * len(scene.support.names)
+    index = np.arange(len(y))
+    index[first : first + 10] = first + np.array([3, 4, 0, 1, 2, 8, 9, 5, 6, 7])
+    moved = rhs_of(replace(scene, races=scene.races[::-1]), 0.7, y[index])
+    np.testing.assert_allclose(moved, rhs_of(scene, 0.7, y)[index], rtol=1e-10, atol=1e-11)
+
+
+@every_scene()
+@pytest.mark.parametrize("imbalance", [0.3, 0.0])
+def test_units_do_not_matter(support, rotor, imbalance):
+    """Nor do the scales of the tolerance: they carry the same units, whatever they are taken from."""
+    length, mass, time = 1000.0, 7.0, 60.0
+    scene = replace(scene_on(support, *ROTORS[rotor], ECCENTRICITY, GRAVITY), imbalance=imbalance)
+    plain, other = assemble(scene), assemble(in_units(scene, length, mass, time))
+    u = coordinate_units(scene, length)
+    rotor_units = [] if rotor == "steady" else [1.0, 1 / time]
+    units = np.array([*u, *(u / time), *[1.0] * 5, *[1 / time] * 5, *rotor_units])
+    np.testing.assert_allclose(other.initial, units * np.array(plain.initial), rtol=1e-12)
+    np.testing.assert_allclose(other.scales, units * np.array(plain.scales), rtol=1e-12)
+    y = state_of(scene, 3)
+    np.testing.assert_allclose(
+        other.rhs(np, 0.7 * time, units * y, other.acting),
+        units / time * plain.rhs(np, 0.7, y, plain.acting),
+        rtol=1e-9,
+    )
+
+
+@every_scene()
+@pytest.mark.parametrize(
+    "nothing", [GravityEffect(0.0), RaceEccentricityEffect(0.0, 0.3)], ids=lambda effect: effect.name
+)
+def test_an_effect_of_nothing_does_nothing(support, rotor, nothing):
+    scene = scene_on(support, *ROTORS[rotor])
+    y = state_of(scene, 7)
+    computed = rhs_of(with_effects(scene, *scene.effects, nothing), 0.7, y)
+    np.testing.assert_array_equal(computed, rhs_of(scene, 0.7, y))
+
+
+def test_a_rotor_guided_at_constant_speed_is_steady():
+    """The same accelerations, whether the turn is told or a state."""
+    for support in SUPPORTS:
+        scene = scene_on(support, ECCENTRICITY)
+        guided = with_effects(scene, RunUpEffect(0.0, 2.0), ECCENTRICITY)
+        y = state_of(scene, 11)
+        computed = rhs_of(guided, 0.7, np.array([*y, 0.7 * scene.speed, scene.speed]))
+        np.testing.assert_allclose(computed[:-2], rhs_of(scene, 0.7, y), rtol=1e-12, atol=1e-13)
+        assert computed[-2:].tolist() == [scene.speed, 0.0]
+
+
+def test_a_heavy_rotor_hardly_feels_its_balls():
+    """Of a rotor with very much inertia, the motor alone decides the speed, and the rest goes on as if guided."""
+    for support in SUPPORTS:
+        if support == "swing arm":  # it carries no rotor that is heavier than itself
+            continue
+        speed, inertia = 1.3, 1e9
+        scene = scene_on(support, MotorEffect(0.0, 1.0, inertia), ECCENTRICITY)
+        y = state_of(scene, 13)
+        y[-1] = speed
+        computed = rhs_of(scene, 0.7, y)
+        steady = replace(with_effects(scene, ECCENTRICITY), speed=speed)
+        np.testing.assert_allclose(computed[:-2], rhs_of(steady, y[-2] / speed, y[:-2]), rtol=1e-7, atol=1e-7)
+
+
+def test_object_arrays_serve_as_well_as_numbers():
+    """Symbols come as object arrays; here the symbols are plain numbers."""
+
+    class Namespace:
+        sin = staticmethod(np.frompyfunc(math.sin, 1, 1))
+        cos = staticmethod(np.frompyfunc(math.cos, 1, 1))
+
+    equations = assemble(coupled_scene())
+    y = np.linspace(-1, 2, 14)
+    symbolic = equations.rhs(Namespace, 0.7, y.astype(object), equations.acting)
+    assert symbolic.dtype == object
+    np.testing.assert_allclose(symbolic.astype(float), equations.rhs(np, 0.7, y, equations.acting), rtol=1e-12)
+
+
+@pytest.mark.parametrize("rotor", [STEADY, GUIDED, DRIVEN], ids=lambda rotor: type(rotor).__name__)
+@pytest.mark.parametrize("support", SUPPORTS)
+def test_turn_and_speed_of_a_state(support, rotor):
+    """What carries the rotor adds its own."""
+    scene = scene_on(support)
+    p = replace(assemble(scene).parameters, rotor=rotor)
+    y = np.arange(2 * p.size + 2 * p.balls + 2) / 7.0
+    motion = motion_of(np, 0.7, y, p)
+    turn, speed = (0.7 * scene.speed, scene.speed) if rotor is STEADY else (y[-2], y[-1])
+    carried = (y[0], y[1]) if support == "swing arm" else (0.0, 0.0)
+    assert (motion.turn, motion.speed) == pytest.approx((turn + carried[0], speed + carried[1]))
+    assert motion.own_speed == pytest.approx(speed)

@@ -1,0 +1,46 @@
+"""Entries of features: each names modules, results and figures that are there."""
+
+import importlib
+
+import pytest
+
+from abu_calc.foundation.errors import InputError
+from abu_calc.registry import BY_NAME, FEATURES, Feature, Known, absent, imported, known, named
+
+
+@pytest.mark.parametrize("feature", FEATURES, ids=lambda feature: feature.name)
+def test_all_that_an_entry_names_is_there(feature: Feature) -> None:
+    assert callable(importlib.import_module(f"abu_calc.features.{feature.command}").register)
+    assert all(isinstance(imported(path), type) for path in feature.results)
+    assert bool(feature.figures) == bool(feature.makes_figures)
+    assert not feature.makes_figures or callable(imported(feature.makes_figures))
+
+
+def test_names_of_features_and_of_their_figures_differ() -> None:
+    assert len(BY_NAME) == len(FEATURES)
+    for feature in FEATURES:
+        assert len({entry.name for entry in feature.figures}) == len(feature.figures)
+
+
+@pytest.mark.parametrize(("pattern", "name", "fits"), [
+    ("seats-N", "seats-1", True), ("seats-N", "seats-12", True), ("seats-N", "seats-0", False),
+    ("seats-N", "seats-N", False), ("seats-N", "seats-1x", False), ("level", "level-loaded", False),
+    ("decides-QUANTITY", "decides-fits[0].level_db", True), ("decides-QUANTITY", "decides-", False),
+    ("decides-QUANTITY", "decides-a b", False),
+])  # fmt: skip
+def test_a_name_stands_for_a_number_or_a_word(pattern: str, name: str, fits: bool) -> None:
+    assert Known(pattern).fits(name) is fits
+
+
+def test_a_figure_that_no_result_has_is_refused_with_those_there_are() -> None:
+    with pytest.raises(InputError) as refused:
+        known("accuracy", "orbit")
+    error = refused.value
+    assert (error.place.key, error.found, error.allowed) == ("--figure", "orbit", "precision")
+
+
+def test_a_figure_that_this_result_lacks_is_told_with_the_reason() -> None:
+    when = known("grinding", "hodograph").when
+    assert when and when in str(absent("grinding", "hodograph", ["orbit"]))
+    with pytest.raises(InputError, match="allowed: none"):
+        named("grinding", [], "hodograph")
