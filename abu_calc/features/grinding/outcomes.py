@@ -114,9 +114,9 @@ def groups_of(work: Work, ensemble: LoadedEnsemble) -> tuple[LoadedGroup, ...]:
         by_state: dict[State, list[LoadedOutcome]] = {}
         for outcome in sorted(outcomes, key=lambda candidate: candidate.level):
             by_state.setdefault(state_of(work, outcome), []).append(outcome)
-        groups = [_group(when, state, part, count) for state, several in by_state.items()
+        own = [_group(when, state, part, count) for state, several in by_state.items()
                   for part in _parts(state, several)]  # fmt: skip
-        groups += sorted(groups, key=lambda group: -group.highest)
+        groups += sorted(own, key=lambda group: -group.highest)
     return tuple(groups)
 
 
