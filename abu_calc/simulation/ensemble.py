@@ -18,7 +18,7 @@ from abu_calc.dynamics.scene import Scene, with_parted_balls
 from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.stall import hanging_bounds as bounds_of
 from abu_calc.dynamics.supports.receptance import reference_imbalance
-from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.dynamics.trajectory import Samples, Trajectory
 from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.foundation import patience
 from abu_calc.foundation.errors import NotTrustworthyError
@@ -165,17 +165,30 @@ def run_of_start(
     longer: their run is done again, as long as settling may matter.
     """
     scene, _ = with_parted_balls(chosen(scene_of_member(design, member), accuracy, ALWAYS).scene)
-    outcome, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
-    goes_on = goes_on or _linger(design, scene, outcome.outcome)
-    limit = design.case.table.limits.settling_time_s
-    longest = scene.full_speed + LONGEST_SETTLING * limit
-    late = outcome.outcome.hanging or (outcome.outcome.settling or 0.0) > limit
-    if not goes_on or late or longest <= scene.duration:
-        return outcome
+    first, goes_on = _run_of_scene(design, member, scene, tolerance, work, early_end, wanted)
+    longest = _followed_until(design, scene, first.outcome, goes_on)
+    if longest is None:
+        return first
     longer = replace(scene, duration=longest)
     again, _ = _run_of_scene(design, member, longer, tolerance, work, early_end, wanted)
-    whole = replace(again.outcome, work=outcome.outcome.work + again.outcome.work, duration=longest)
+    whole = replace(again.outcome, work=first.outcome.work + again.outcome.work, duration=longest)
     return again._replace(outcome=whole)
+
+
+def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, goes_on: bool) -> float | None:
+    """Time [s] until which a start case is followed whose balls are not at rest at the end of its scene, if any."""
+    limit = design.case.table.limits.settling_time_s
+    longest = scene.full_speed + LONGEST_SETTLING * limit
+    late = outcome.hanging or (outcome.settling or 0.0) > limit
+    goes_on = goes_on or _linger(design, scene, outcome)
+    return longest if goes_on and not late and longest > scene.duration else None
+
+
+def followed_until(design: Design, scene: Scene, response: Response, samples: Samples) -> float | None:
+    """Time [s] until which a whole run of a design's scene is followed, as its start cases are; None: no longer."""
+    outcome = outcome_of(design, Member("placed", design.case.drag), scene, response)
+    goes_on = Early(scene, scene.full_speed, lambda response, creep, rise: False).goes_on(samples)
+    return _followed_until(design, scene, outcome, goes_on)
 
 
 def _linger(design: Design, scene: Scene, outcome: StartOutcome) -> bool:

@@ -25,8 +25,9 @@ from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.effect_selection import EffectAudit
 from abu_calc.simulation.effect_selection import audit as with_all_effects
+from abu_calc.simulation.ensemble import followed_until
 from abu_calc.simulation.records import SceneModel, SimulatedLevel, SimulatedScene, in_words
-from abu_calc.simulation.response import Response
+from abu_calc.simulation.response import Response, settling_count
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import level_at, levels_at_places, loudest, one_run_checks
@@ -134,6 +135,10 @@ class SimulateResult(SimulatedScene, Result):
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
 
+FOLLOWED: Final = ("idle", "run-up")
+"""Scenes of a machine that are followed until their balls are at rest, as far as settling matters."""
+
+
 @checked
 def simulate(
     source: Source,
@@ -171,6 +176,14 @@ def simulate(
         run = integrated(
             ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator, progress=progress
         )
+        longest = _followed_until(subject, run) if duration_s is None and not len(times) else None
+        if longest is not None:
+            subject = subject.lasting(longest)
+            ledger = subject.ledger(accuracy, with_effects, without_effects)
+            run = integrated(
+                ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator,
+                progress=progress,
+            )  # fmt: skip
         audited = None
         if audit:
             audited = with_all_effects(subject.scene, ledger, run, accuracy, most_evaluations, integrator, progress)
@@ -201,6 +214,14 @@ def simulate(
         view=_view(subject, run),
         run=run,
     )
+
+
+def _followed_until(subject: Subject, run: Simulation) -> float | None:
+    """Time [s] until which a machine's idle scene is followed whose balls are not at rest at its end, as in `size`."""
+    whole = len(run.trajectory.t) > settling_count(run.scene)
+    if subject.design is None or subject.scene.name not in FOLLOWED or run.rung != "equations" or not whole:
+        return None
+    return followed_until(subject.design, run.scene, run.response, run.trajectory)
 
 
 def _at_rated_speed(subject: Subject) -> tuple[str, ...]:
