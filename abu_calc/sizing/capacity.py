@@ -1,6 +1,6 @@
 """Step 3: the capacity that the balls must have, m(R−r)·… ≥ m₀e + Mε, exactly."""
 
-from abu_calc.formulas.balls import SteadyContact
+from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass

@@ -5,8 +5,9 @@ import math
 
 import pytest
 
-from abu_calc.formulas.balls import SteadyContact, best_count, capacity, corrector_mass, half_angle
+from abu_calc.formulas.balls import best_count, capacity, corrector_mass, half_angle
 from abu_calc.formulas.friction_band import friction_band
+from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.swing_arm import (
     Arm,
     contact_gain,

@@ -23,7 +23,7 @@ from abu_calc.foundation.validity import Range
 from tests.cli.runner import abu
 
 PACKAGE = Path(abu_calc.__file__).parent
-ROOMS = ("standards", "formulas", "fits", "sizing")
+ROOMS = ("standards", "formulas", "features/seats", "features/balancing", "features/grinding", "sizing")
 KEYS = [key for step in STEPS.values() for key in step.keys]
 FORMULAS = [formula_of(key) for key in KEYS]
 
@@ -32,7 +32,7 @@ def _computing() -> dict[str, Any]:
     """What computes each formula that is registered anywhere, by key; those of heavy rooms are data alone."""
     for room in ROOMS:
         for path in (PACKAGE / room).glob("*.py"):
-            importlib.import_module(f"abu_calc.{room}.{path.stem}")
+            importlib.import_module(f"abu_calc.{room.replace('/', '.')}.{path.stem}")
     found = {}
     for key in REGISTERED:
         module, _, name = key.partition(":")

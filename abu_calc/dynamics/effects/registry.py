@@ -1,4 +1,4 @@
-"""All effects there are. A new one is a file beside this one, a line here, and its table in `spec.scene_effects`."""
+"""All effects there are. A new one is a file beside this one, a line here, and its table in `inputs.scene_effects`."""
 
 from typing import Final
 

@@ -1,9 +1,9 @@
 """Balancing in two planes: the imbalances behind the readings of a rig, by its data or by trial masses.
 
-    by data      Q = mean over the runs of imbalances(X) − T          formulas/two_planes.py
+    by data      Q = mean over the runs of imbalances(X) − T          formulas.py beside it
     by trials    X = H·(Q + T), H and H·Q by least squares over the runs, T the masses that were on
 
-Numbers in SI; imbalances and motions as complex numbers, as in formulas/two_planes.py.
+Numbers in SI; imbalances and motions as complex numbers, as in formulas.py beside it.
 """
 
 import cmath

@@ -61,7 +61,7 @@ STEPS: Final[Mapping[str, Step]] = {
         (
             "sizing.capacity:required_capacity",
             "sizing.capacity:runout_factor",
-            "formulas.balls:SteadyContact.balancing_imbalance",
+            "formulas.steady_contact:SteadyContact.balancing_imbalance",
             "sizing.capacity:plane_ratio",
         ),
     ),

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Literal
 
 from abu_calc.features.grinding.formulas import characteristic, growing_roots, loaded_stiffness
-from abu_calc.formulas.balls import SteadyContact
+from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import to_si

@@ -16,7 +16,7 @@ BAR: Final = 24
 """Signs of a bar that is full."""
 FULL: Final = "█"
 SIGNS: Final = "·░▒▓█"
-"""No member, up to a quarter and so on, and every member."""
+"""No member, up to a third and so on, and every member."""
 WIDE: Final = 60
 HIGH: Final = 24
 """The most columns and rows of a chart."""

@@ -24,7 +24,7 @@ _TOKEN: Final = re.compile(
 
 def check_nesting(text: str, source: str) -> None:
     """Refuse a text nested more than 32 deep, in time that grows with its length alone."""
-    if text.count(".") + text.count("[") + text.count("{") <= DEEPEST:
+    if text.count(".") + text.count("[") + text.count("{") < DEEPEST:
         return
     line, depth, points = 1, 0, 0
     for token_match in _TOKEN.finditer(text):

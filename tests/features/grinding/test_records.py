@@ -10,7 +10,7 @@ import pytest
 from abu_calc.features.grinding.records import AxisMotion, Orbit, ProfilePoint, TriedRemedy, _nearest
 from abu_calc.features.grinding.steady_contact import SteadyWork
 from abu_calc.features.grinding.work import Remedy
-from abu_calc.formulas.balls import SteadyContact
+from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.sizing.vibration import Levels
 
 CONTACT = SteadyContact(600.0, (-2e6 + 0j, -2e6 + 0j), 0.0, 0.0)

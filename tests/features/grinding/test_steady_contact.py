@@ -27,7 +27,7 @@ from abu_calc.features.grinding.curves import hodograph, largest_runout, loaded_
 from abu_calc.features.grinding.simulation import working
 from abu_calc.features.grinding.steady_contact import RestingBalls, bare, even_fan, fitted, fixed, runout_of, with_balls
 from abu_calc.features.grinding.work import at_work
-from abu_calc.formulas.balls import SteadyContact
+from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.simulation.scene_of_design import grinding_without, scene_of_design
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design

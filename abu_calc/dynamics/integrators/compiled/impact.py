@@ -1,4 +1,4 @@
-"""Impacts of all pairs that touch, one after the other, the fastest first: the rules of `touching.impacts`.
+"""Impacts of all pairs that touch, one after the other, the fastest first: the rules of `ball_impacts.impacts`.
 
 An impulse is that of the equations themselves: what a push on a pair does to all rates, with all balls free.
 

@@ -1,6 +1,6 @@
 """The loop of steps, located events and decisions, until the end or until something needs the general decision.
 
-The names of a method are those of `rk45`; where the loop is built for another method, they are that one's.
+The names of a method are those of `dopri5`; where the loop is built for another method, they are that one's.
 
 The factor on the next step, by the error of the last and the order of the method.
 

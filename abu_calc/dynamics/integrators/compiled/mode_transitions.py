@@ -6,7 +6,7 @@ as it must be, the general decision is asked.
 
 Dry friction's natural next mode: what comes to rest sticks unless it is pulled harder than friction holds.
 
-The same rules as `sticking.decided`, asked of numbers that the equations give in the mode that is tried.
+The same rules as `stick_slip.decided`, asked of numbers that the equations give in the mode that is tried.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (

@@ -38,7 +38,7 @@ class Plain:
 
 
 def _loop(program: Program, method: Method) -> Callable[..., Any]:
-    """`loop.go`, all of whose functions call these equations; the method's names come before those of `rk45`."""
+    """`loop.go`, all of whose functions call these equations; the method's names come before those of `dopri5`."""
     names: dict[str, Any] = {}
     for module in kernels(method):
         for name, value in vars(module).items():
