@@ -47,9 +47,14 @@ def shown_as(quantity: Quantity, unit: str, value: object) -> str:
 
 
 class Heading(NamedTuple):
-    """Starts a section."""
+    """Start of a section.
+
+    `id`: the name by which figures, pages and screens find the section, whatever its text says; unique in a report,
+    empty if nothing refers to it.
+    """
 
     text: str
+    id: str = ""
 
 
 class Paragraph(NamedTuple):

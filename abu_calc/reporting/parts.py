@@ -53,7 +53,7 @@ def check_blocks(checks: Sequence[Check]) -> list[Block]:
     """All checks as a table; those that did not simply pass with their reasons and remedies below."""
     rows = tuple((WORD[check.status], check.code, check.name, _value(check), limit_of(check)) for check in checks)
     table = Grid(("", "code", "check", "value", "limit"), rows, frozenset({3}))
-    return [Heading("Checks"), table, *reasons(checks)]
+    return [Heading("Checks", "checks"), table, *reasons(checks)]
 
 
 def reasons(checks: Iterable[Check]) -> list[Paragraph]:
@@ -92,7 +92,7 @@ def notices(result: Result) -> list[Block]:
 def warning_blocks(warnings: Iterable[str]) -> list[Block]:
     """Warnings, each a paragraph."""
     lines = warning_lines(warnings)
-    return [Heading("Warnings"), *lines] if lines else []
+    return [Heading("Warnings", "warnings"), *lines] if lines else []
 
 
 def warning_lines(warnings: Iterable[str]) -> list[Paragraph]:
@@ -105,7 +105,7 @@ def default_blocks(defaults: Iterable[tuple[str, object]]) -> list[Block]:
     cells = [f"{path} = {written(value)}" for path, value in defaults]
     if not cells:
         return []
-    return [Heading("Defaults used (not in the file)"), *(Paragraph(cell) for cell in cells)]
+    return [Heading("Defaults used (not in the file)", "defaults"), *(Paragraph(cell) for cell in cells)]
 
 
 def provenance_blocks(provenance: Provenance) -> list[Block]:
@@ -113,7 +113,7 @@ def provenance_blocks(provenance: Provenance) -> list[Block]:
     text = f"abu-calc {provenance.version}, {provenance.date}"
     if provenance.file is not None:
         text += f"; {provenance.file}, SHA-256 {(provenance.sha256 or '')[:16]}…"
-    blocks: list[Block] = [Heading("Provenance"), Paragraph(text)]
+    blocks: list[Block] = [Heading("Provenance", "provenance"), Paragraph(text)]
     entries = [entry for key, value in provenance.overrides for entry in _entries(key, value)]
     if entries:
         blocks += [Paragraph("With these entries replaced:"), *(Paragraph(entry, indent=4) for entry in entries)]

@@ -19,8 +19,8 @@ LINES: Final = 48
 LEAST: Final = 8
 """Lines kept for the warnings and for the body, where others ask for all."""
 BLANK: Final[Block] = Paragraph("")
-ELSEWHERE: Final = frozenset({"Checks", "Warnings", "Defaults used (not in the file)", "Conventions", "Provenance"})
-"""Sections of a whole report that a screen words in its own way, or leaves to it."""
+ELSEWHERE: Final = frozenset({"checks", "warnings", "defaults", "conventions", "provenance"})
+"""Ids of the sections of a whole report that a screen words in its own way, or leaves to it."""
 WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
 
 
@@ -47,7 +47,7 @@ def one_screen(
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
     rest = _fitted(warnings, [], room - height([BLANK, *shown]) - 2)
-    below: list[Block] = [Heading("Warnings"), *rest] if rest else []
+    below: list[Block] = [Heading("Warnings", "warnings"), *rest] if rest else []
     drawn = picture(LINES - height([*about, *reasons, *parted, BLANK, *below, *last])) if picture else ()
     return (*about, *reasons, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
 
@@ -156,10 +156,10 @@ def shortened(
 ) -> tuple[Block, ...]:
     """A whole report on one screen: its title and verdict, and the sections that are not worded in another way here.
 
-    `left_out`: titles of further sections that are left to the whole report; `head`: blocks that are never cut.
+    `left_out`: ids of further sections that are left to the whole report; `head`: blocks that are never cut.
     """
     first, *others = sections(whole)
-    kept = [part for part in others if isinstance(part[0], Heading) and part[0].text not in ELSEWHERE | set(left_out)]
+    kept = [part for part in others if section_id(part) not in ELSEWHERE | set(left_out)]
     return one_screen(result, first[:head], [*first[head:], *(block for part in kept for block in part)], more)
 
 
@@ -171,3 +171,8 @@ def sections(blocks: Iterable[Block]) -> list[list[Block]]:
             parts.append([])
         parts[-1].append(block)
     return parts
+
+
+def section_id(part: Sequence[Block]) -> str:
+    """Id of the heading with which a section begins; empty if it has none."""
+    return part[0].id if part and isinstance(part[0], Heading) else ""

@@ -45,13 +45,13 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
         Heading(f"{result.title}: what accuracy costs, the {result.quantity}{of_scene(result.scene)}"),
         Paragraph(_chosen(result), "fail" if result.chosen is None else "pass"),
         Paragraph(sure),
-        Heading("Points"),
+        Heading("Points", "points"),
         _grid(result),
         *(Paragraph(line) for line in _not_computed(result.points)),
         *(skipped if result.skipped else []),
-        Heading("Error against time"),
+        Heading("Error against time", "error-against-time"),
         Picture(tuple(picture(result.points)), _legend(), indent=0),
-        Heading("Conventions"),
+        Heading("Conventions", "conventions"),
         Paragraph(ABOUT),
         *notices(result),
         *provenance_blocks(result.provenance),
@@ -60,7 +60,7 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
 
 def accuracy_screen(result: AccuracyResult) -> tuple[Block, ...]:
     """The answer and the picture."""
-    return shortened(result, accuracy_blocks(result), "Points", more=("--budget SECONDS, more points",))
+    return shortened(result, accuracy_blocks(result), "points", more=("--budget SECONDS, more points",))
 
 
 def _grouped(names: tuple[str, ...]) -> list[str]:
@@ -180,7 +180,7 @@ def _precision(result: AccuracyResult) -> Iterator[Figure]:
     )
     limit = (result.accuracy, f"asked for {result.accuracy:g}")
     chart = Plot("Error against time", text, across, up, lines, marks, limit)
-    yield Figure("precision", "Error against time", chart, caption)
+    yield Figure("precision", "error-against-time", chart, caption)
 
 
 def _name(point: MeasuredPoint) -> str:

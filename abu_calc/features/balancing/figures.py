@@ -92,7 +92,7 @@ def balance_extras(result: BalanceResult) -> Extras:
     """Figures, and the calculation note."""
     drawing = planes_drawing(result.left, result.right, result.turns_from_left)
     figures = (
-        Figure("planes", "As one stands", drawing, DRAWN), *_imbalance(result), *_vibration(result), *_causes(result),
+        Figure("planes", "before-the-roll", drawing, DRAWN), *_imbalance(result), *_vibration(result), *_causes(result),
     )  # fmt: skip
     return Extras(figures, tuple(step_blocks(STEPS["balance"], _numbers(result))))
 
@@ -109,7 +109,7 @@ def _imbalance(result: BalanceResult) -> Iterator[Figure]:
     most = next(iter(permitted)) if len(permitted) == 1 else None
     limit = None if most is None else (most, f"permitted {number(most, 3)} g·mm")
     caption = "Imbalance of each plane now, and as expected after the correction, rms over the errors."
-    yield from _bars("residual", "Planes", "Imbalance before and after", "imbalance [g·mm]", rows, caption, limit)
+    yield from _bars("residual", "planes", "Imbalance before and after", "imbalance [g·mm]", rows, caption, limit)
 
 
 def _vibration(result: BalanceResult) -> Iterator[Figure]:
@@ -128,7 +128,7 @@ def _vibration(result: BalanceResult) -> Iterator[Figure]:
             '"at most" something is wrong.'
         )
         title, axis = f"Vibration at {run.speed_rpm:.0f} rpm, before and after", f"{run.quantity} [{run.unit}], 0–peak"
-        yield from _bars(f"verification-{index}", "Verification run", title, axis, rows, caption)
+        yield from _bars(f"verification-{index}", "verification-run", title, axis, rows, caption)
 
 
 def _causes(result: BalanceResult) -> Iterator[Figure]:
@@ -138,7 +138,7 @@ def _causes(result: BalanceResult) -> Iterator[Figure]:
         for side, value, series in (("left", cause.left_percent, AFTER), ("right", cause.right_percent, NOW))
     ]
     caption = "What each cause makes of the uncertainty, one standard deviation: begin with the longest."
-    yield from _bars("uncertainty", "What makes the uncertainty", "Causes of the uncertainty",
+    yield from _bars("uncertainty", "uncertainty", "Causes of the uncertainty",
                      "share of the plane's imbalance [%]", rows, caption)  # fmt: skip
 
 

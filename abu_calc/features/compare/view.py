@@ -31,20 +31,25 @@ MOST_DIGITS: Final = 15
 
 
 class ComparisonTable(NamedTuple):
-    """A heading, and lines: what an entry is called, and the cell of each machine."""
+    """A part of what is compared, and lines: what an entry is called, and the cell of each machine."""
 
-    heading: str
+    part: Part
     lines: tuple[tuple[str, ...], ...]
+
+    @property
+    def heading(self) -> Heading:
+        """Heading of the table."""
+        return Heading(SECTIONS[self.part])
 
 
 def tables_of(result: CompareResult, rows: Sequence[Difference], *, marked: bool = False) -> list[ComparisonTable]:
     """Each part that has rows under its heading, the checks with value beside grade."""
     tables = []
-    for part, heading in SECTIONS.items():
+    for part in SECTIONS:
         own = [row for row in rows if row.part == part]
         lines = _checks(result, own, marked) if part == "check" else [_cells(row, marked) for row in own]
         if lines:
-            tables.append(ComparisonTable(heading, tuple(lines)))
+            tables.append(ComparisonTable(part, tuple(lines)))
     return tables
 
 
@@ -55,7 +60,7 @@ def table_blocks(letters: Sequence[str], table: ComparisonTable, count: int | No
     """
     lines = table.lines[:count]
     short = [line for line in lines if max(map(len, line[1:])) <= LONGEST_CELL]
-    blocks: list[Block] = [Heading(table.heading), *_grid(letters, short)]
+    blocks: list[Block] = [table.heading, *_grid(letters, short)]
     for label, *cells in (line for line in lines if line not in short):
         blocks.append(Paragraph(label))
         blocks += [Paragraph(f"{k}  {cell}", indent=4, hang=3) for k, cell in zip(letters, cells, strict=True)]
@@ -170,9 +175,9 @@ def _shared_out(result: CompareResult, room: int) -> list[Block]:
     first = _first(designs)
     tables = tables_of(result, [*(row for row in rows if row.part != "design"), *first])
     if designs and not first:
-        tables.append(ComparisonTable(SECTIONS["design"], ()))
+        tables.append(ComparisonTable("design", ()))
     letters, cut_to = [file.letter for file in result.files], dict[int, list[Block]]()
-    further = [len(designs) - len(first) if table.heading == SECTIONS["design"] else 0 for table in tables]
+    further = [len(designs) - len(first) if table.part == "design" else 0 for table in tables]
     least = [height(table_blocks(letters, table)) for table in tables]
     for done, k in enumerate(sorted(range(len(tables)), key=least.__getitem__)):
         share = (room - sum(1 + height(blocks) for blocks in cut_to.values())) // (len(tables) - done)
@@ -187,7 +192,7 @@ def _rows_that_fit(letters: Sequence[str], table: ComparisonTable, room: int, fu
         fitting = [*table_blocks(letters, table, count), *_counted(further + total - count)]
         if height(fitting) <= room:
             return fitting
-    return [Heading(table.heading), *_counted(further + total)]
+    return [table.heading, *_counted(further + total)]
 
 
 def _counted(further: int) -> list[Block]:
@@ -212,7 +217,7 @@ def compare_blocks(result: CompareResult, *, full: bool = True) -> tuple[Block, 
 
 def _about(result: CompareResult) -> list[Block]:
     """Title, verdict, and which machine each letter is."""
-    return [Heading(result.title), verdict_line(result), *(_machine(file) for file in result.files)]
+    return [Heading(result.title, "title"), verdict_line(result), *(_machine(file) for file in result.files)]
 
 
 def _machine(file: ComparedFile) -> Paragraph:
@@ -289,7 +294,7 @@ def _figure(result: CompareResult, quantity: _Compared, rows: dict[str, Differen
     values = [*(bar.value for bar in bars), *([limit[0]] if limit else [])]
     axis = Axis.around(quantity.axis, values) if unit == "dB" else Axis(quantity.axis, 0.0, max(values) or 1.0)
     text = "; ".join(f"{bar.name} {bar.told}" for bar in bars) + (f"; {limit[1]}" if limit else "")
-    yield Figure(quantity.name, result.title, Bars(quantity.title, text, axis, bars, limit), quantity.caption)
+    yield Figure(quantity.name, "title", Bars(quantity.title, text, axis, bars, limit), quantity.caption)
 
 
 def _told(value: Any, unit: str) -> str:

@@ -43,11 +43,11 @@ def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
     scale = next((ratio for ratio in SCALES if ratio * outer <= ROOM), SCALES[-1])
     note = f"drawn to scale {_ratio(scale)}, sizes in mm"
-    yield Figure("section", "Section", section_drawing(result, scale), f"Section through the axis, {note}.")
+    yield Figure("section", "section", section_drawing(result, scale), f"Section through the axis, {note}.")
     face = f"Face with the cover off, {note}; balls evenly round the race."
-    yield Figure("face", "Section", face_drawing(result, scale), face)
+    yield Figure("face", "section", face_drawing(result, scale), face)
     for sheet in arm_sheets(result):
-        yield Figure("arm", "Swing arm", sheet, "Sketch of the swing arm, not to scale.")
+        yield Figure("arm", "swing-arm", sheet, "Sketch of the swing arm, not to scale.")
     yield from seat_figures(result, result.fits)
 
 
@@ -73,7 +73,7 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
         "Velocity level at each place, idle, at the rated speed, 0 dB = 5e-8 m/s rms: what is after (round) should "
         "stand left of the dashed limit; squares: before, lozenge: measured."
     )
-    yield Figure("levels", "Vibration level", Bars("Levels before and after", text, axis, known, limit), caption)
+    yield Figure("levels", "vibration-level", Bars("Levels before and after", text, axis, known, limit), caption)
 
 
 def _over_speed(result: SizeResult) -> Iterator[Figure]:
@@ -93,7 +93,7 @@ def _over_speed(result: SizeResult) -> Iterator[Figure]:
         f"stay below the dashed limit{', and out of shaded speeds, where the balls do not balance' if bands else ''}."
     )
     chart = Plot("Level against speed", text, across, up, (Curve(course),), points, limit, bands)
-    yield Figure("speeds", "Vibration level", chart, caption)
+    yield Figure("speeds", "vibration-level", chart, caption)
 
 
 def _measured(result: SizeResult) -> Iterator[MarkedPoint]:
@@ -134,7 +134,7 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
     )
     text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
     caption = "What keeps the balls from balancing to nothing; the sums should end left of what is permitted (dashed)."
-    yield Figure("budget", "Accuracy budget", Bars("Accuracy budget", text, axis, rows, limit), caption)
+    yield Figure("budget", "accuracy-budget", Bars("Accuracy budget", text, axis, rows, limit), caption)
 
 
 def _motion(result: SizeResult) -> Iterator[Figure]:
@@ -147,7 +147,7 @@ def _motion(result: SizeResult) -> Iterator[Figure]:
         "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
         f"{chosen}"
     )
-    yield Figure("motion", "Simulation: idle", RotorMotionFigure(result.idle_run, "simulated: idle", others), caption)
+    yield Figure("motion", "simulation-idle", RotorMotionFigure(result.idle_run, "simulated: idle", others), caption)
 
 
 def _start(start: StartView) -> str:
@@ -164,7 +164,7 @@ def _settling(result: SizeResult) -> Iterator[Figure]:
         return
     limit = next((check.limit for check in result.checks if check.code == "ABU701"), None)
     caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
-    yield Figure("settling", "Simulation: idle", settling(result.idle_run, limit), caption)
+    yield Figure("settling", "simulation-idle", settling(result.idle_run, limit), caption)
 
 
 def _over_time(result: SizeResult) -> Iterator[Figure]:
@@ -177,11 +177,11 @@ def _over_time(result: SizeResult) -> Iterator[Figure]:
         caption = f"Velocity level over each revolution, idle, {where}"
         caption += ": it should end below the dashed limit." if limit is not None else ": it should fall, and stay low."
         caption += "" if measured is None else f" Lozenge: as measured with the autobalancer, {measured.place}."
-        yield Figure("level", "Simulation: idle", level(result.idle_run, limit, shown), caption)
+        yield Figure("level", "simulation-idle", level(result.idle_run, limit, shown), caption)
     if result.grinding_run is not None:
         caption = f"Velocity level over each revolution at work, {where}: what is left when the balls have settled."
         chart = level(result.grinding_run, None)._replace(title="Level against time, at work")
-        yield Figure("level-loaded", "Simulation: grinding", chart, caption)
+        yield Figure("level-loaded", "simulation-grinding", chart, caption)
 
 
 def _run_up(result: SizeResult) -> Iterator[Figure]:
@@ -192,7 +192,7 @@ def _run_up(result: SizeResult) -> Iterator[Figure]:
                 f"{start.start[0].upper()}{start.start[1:]} from standstill, balls side by side: the imbalance that is "
                 "left should fall, and stay low, when the speed is up."
             )
-            yield Figure("run-up", "Many starts", caught(start.view, start.view.speed_rpm), caption)
+            yield Figure("run-up", "many-starts", caught(start.view, start.view.speed_rpm), caption)
             return
 
 
@@ -219,7 +219,7 @@ def _candidates(result: SizeResult) -> Iterator[Figure]:
         "rows below."
     )
     chart = Plot("Mass against residual", text, across, up, (), points[::-1])
-    yield Figure("candidates", "Runners-up", chart, caption)
+    yield Figure("candidates", "runners-up", chart, caption)
 
 
 def _costs(result: SizeResult) -> Iterator[Figure]:
@@ -234,7 +234,7 @@ def _costs(result: SizeResult) -> Iterator[Figure]:
     caption = (
         "What the level rises by where a tolerance of the drawing is used up: the long bars are worth their money."
     )
-    yield Figure("costs", "For the drawing", Bars("What tolerances cost", text, axis, rows), caption)
+    yield Figure("costs", "for-the-drawing", Bars("What tolerances cost", text, axis, rows), caption)
 
 
 def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:

@@ -65,7 +65,7 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
         *_swing_arm(result),
         *_seats(result),
         *_drawing(result),
-        Heading("Conventions"),
+        Heading("Conventions", "conventions"),
         Paragraph(CONVENTIONS),
         *default_blocks(result.provenance.defaults),
         *provenance_blocks(result.provenance),
@@ -91,7 +91,7 @@ def _section(result: SizeResult) -> list[Block]:
     )
     rows = tuple((part.name, part.material, value_of(part, "mass_g")) for part in section.parts)
     return [
-        Heading("Section"),
+        Heading("Section", "section"),
         *section_picture(result, ROWS),
         facts(section, *names),
         Grid(("part", "material", "mass"), rows, frozenset({2})),
@@ -111,7 +111,7 @@ def _ensemble(result: SizeResult) -> list[Block]:
     )
     rows = tuple((name, _or_never(spread.typical), _or_never(spread.worst), unit) for name, spread, unit in spreads)
     return [
-        Heading("Many starts"),
+        Heading("Many starts", "many-starts"),
         facts(many, "members", "balanced", "hanging"),
         Grid(("", "median", "worst", ""), rows, frozenset({1, 2})),
         Heading("What shortens the balls' way: settling time in s, by start and drag"),
@@ -147,7 +147,7 @@ def _need(result: SizeResult) -> list[Block]:
         Paragraph(_hanging(result)),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
               "required_capacity_compliant_g_mm"),
-        Heading("Accuracy budget, displacements at the wheel"),
+        Heading("Accuracy budget, displacements at the wheel", "accuracy-budget"),
         facts(budget, *(name for name in budget.entries() if name not in silent)),
     ]  # fmt: skip
 
@@ -195,7 +195,8 @@ def _vibration(result: SizeResult) -> list[Block]:
     loaded = result.vibration_loaded
     if loaded is None or loaded.level_at_once_db is None:
         header, *rows = (row[:4] + row[5:] for row in (header, *rows))
-    blocks: list[Block] = [Heading("Vibration level"), Grid(header, tuple(rows), frozenset(range(2, len(header))))]
+    table = Grid(header, tuple(rows), frozenset(range(2, len(header))))
+    blocks: list[Block] = [Heading("Vibration level", "vibration-level"), table]
     if result.vibration.at_idle_speed:
         blocks.append(facts(result.vibration.at_idle_speed))
     if loaded:
@@ -239,7 +240,7 @@ def _scene(scene: SimulatedScene) -> list[Block]:
         if other.settling_time_s is not None
     )
     return [
-        Heading(f"Simulation: {scene.scene}"),
+        Heading(f"Simulation: {scene.scene}", f"simulation-{scene.scene}"),
         facts(scene, "duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db",
               "error_estimate"),
         Facts(others),
@@ -267,7 +268,7 @@ def _alternatives(others: Sequence[AutobalancerRecord]) -> list[Block]:
     names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um", "slowest_decay_per_s")
     rows = tuple((balls(other), *(_bare(other, name) for name in names), other.why_not or "") for other in others)
     header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "decay, 1/s", "why not")
-    return [Heading("Runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4, 5}))]
+    return [Heading("Runners-up", "runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4, 5}))]
 
 
 def _bare(autobalancer: AutobalancerRecord, name: str) -> str:
@@ -301,7 +302,7 @@ def _drawing(result: SizeResult) -> list[Block]:
         "Requirements are engineering practice (assumed)."
     )
     return [
-        Heading("For the drawing"),
+        Heading("For the drawing", "for-the-drawing"),
         Grid(("feature", "requirement", "costs, dB"), rows, frozenset({2})),
         Paragraph(note),
     ]

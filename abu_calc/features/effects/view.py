@@ -49,11 +49,11 @@ def effects_blocks(result: EffectsResult) -> tuple[Block, ...]:
 
 def effects_screen(result: EffectsResult) -> tuple[Block, ...]:
     """The ledger on one screen."""
-    return shortened(result, effects_blocks(result), "Weights", head=1)
+    return shortened(result, effects_blocks(result), "weights", head=1)
 
 
 def _ledger(result: EffectsResult) -> list[Block]:
     if not result.effects:
         return [Paragraph("The file has data for none.")]
     together = f"Left out, all together: {number(result.promise, 2)} of {result.accuracy:g}."
-    return [effects_grid(result.effects), Paragraph(together), Heading("Weights"), Paragraph(WEIGHTS)]
+    return [effects_grid(result.effects), Paragraph(together), Heading("Weights", "weights"), Paragraph(WEIGHTS)]

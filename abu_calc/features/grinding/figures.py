@@ -18,8 +18,6 @@ from abu_calc.reporting.charts.figure import Extras, Figure
 WITH, WITHOUT, FIXED, MEAN = 1, 2, 3, 4
 """Series of lines."""
 SERIES: Final = {"with": WITH, "without": WITHOUT, "balls fixed": FIXED}
-ANGLES, SPEEDS, FORCE, WEAR = "Axis against the angle", "Over the speeds", "Force round the wheel", "Wear: change"
-"""Sections, as their headings begin."""
 
 Course = list[tuple[float, float | None]]
 
@@ -48,7 +46,7 @@ def _levels(result: GrindingResult) -> Iterator[Figure]:
     axis = Axis.around("velocity level at work [dB]", (bar.value for bar in rows))
     chart = Bars("Levels at work", "; ".join(f"{bar.name} {bar.told}" for bar in rows), axis, rows)
     caption = "Velocity level at work, 0 dB = 5e-8 m/s rms: the autobalancer helps where round stands left of square."
-    yield Figure("levels", f"{result.title}: at work", chart, caption)
+    yield Figure("levels", "title", chart, caption)
 
 
 def _orbits(result: GrindingResult) -> Iterator[Figure]:
@@ -66,7 +64,7 @@ def _orbits(result: GrindingResult) -> Iterator[Figure]:
         chart = Plot(f"Motion of the axis, {word}", text, across, up, lines)
         which = f"{paths[0].name} autobalancer, " if len(paths) == 1 else ""
         caption = f"How the axis goes round once at the rated speed, {which}{word}: smaller is better."
-        yield Figure(name, ANGLES, chart, caption)
+        yield Figure(name, "angles", chart, caption)
 
 
 def _reach(points: Iterable[tuple[float, float]]) -> str:
@@ -86,7 +84,7 @@ def _hodograph(result: GrindingResult) -> Iterator[Figure]:
         "Amplitude of the axis along the work and away from it against the angle from imbalance to runout: how much "
         "depends on where the high spot is."
     )
-    yield from _plotted("hodograph", ANGLES, "Axis against the angle of the runout", caption,
+    yield from _plotted("hodograph", "angles", "Axis against the angle of the runout", caption,
                         "runout from the imbalance [°]", "amplitude [µm]", courses)  # fmt: skip
 
 
@@ -102,7 +100,7 @@ def _response(result: GrindingResult) -> Iterator[Figure]:
         "Amplitude of the axis over the speeds, wheel on the work; a line breaks off where balls come to no rest."
         f"{resonance}"
     )
-    yield from _plotted("response", SPEEDS, "Axis over the speeds", caption, "speed [rpm]", "amplitude [µm]", courses)
+    yield from _plotted("response", "speeds", "Axis over the speeds", caption, "speed [rpm]", "amplitude [µm]", courses)
 
 
 def _force(result: GrindingResult) -> Iterator[Figure]:
@@ -116,7 +114,7 @@ def _force(result: GrindingResult) -> Iterator[Figure]:
     )
     mean = result.reaction.mean_N
     limit = (mean, f"mean force {number(mean, 3)} N")
-    yield from _plotted("force", SPEEDS, "Variable force over the speeds", caption, "speed [rpm]", "force [N]",
+    yield from _plotted("force", "speeds", "Variable force over the speeds", caption, "speed [rpm]", "force [N]",
                         courses, limit)  # fmt: skip
 
 
@@ -143,7 +141,7 @@ def _profile(result: GrindingResult) -> Iterator[Figure]:
         "Force on each point of the wheel, from its imbalance; lines as if wheel and work never parted: at the dashed "
         f"line they do. Where it presses harder, it wears faster.{as_simulated}"
     )
-    yield from _plotted("reaction", FORCE, "Force round the wheel", caption, "point of the wheel [°]", "force [N]",
+    yield from _plotted("reaction", "force", "Force round the wheel", caption, "point of the wheel [°]", "force [N]",
                         courses, (0.0, "wheel and work part"), points)  # fmt: skip
 
 
@@ -168,7 +166,7 @@ def _wear(result: GrindingResult) -> Iterator[Figure]:
             f"{title}, {' and '.join(side for side, *_ in courses)} autobalancer (Archard): where it falls, wear "
             "centres the wheel. Lines end where what the table names comes first."
         )
-        yield from _plotted(name, WEAR, title, caption, across, unit, courses)
+        yield from _plotted(name, "wear", title, caption, across, unit, courses)
 
 
 def _plotted(

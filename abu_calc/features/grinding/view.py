@@ -66,7 +66,7 @@ def wear_blocks(result: GrindingResult) -> list[Block]:
         return []
     header = ("", "dε/ds_w", "wheel is", "what comes first")
     title = "Wear: change of the runout ε per depth s_w worn off (Archard)"
-    return [Heading(title), Grid(header, rows, frozenset({1})),
+    return [Heading(title, "wear"), Grid(header, rows, frozenset({1})),
             *_stages(result), *_claim(result)]  # fmt: skip
 
 
@@ -89,7 +89,9 @@ def _minutes(time: float) -> str:
 def _stages(result: GrindingResult) -> list[Block]:
     """The course with and without, as far as closed forms go."""
     blocks: list[Block] = []
-    for wear, name in ((result.wear_without, "without autobalancer"), (result.wear, "with it")):
+    for wear, name, section in (
+        (result.wear_without, "without autobalancer", "wear-without"), (result.wear, "with it", "wear-with"),
+    ):  # fmt: skip
         if wear is None or not wear.stages or not wear.depth_um:
             continue
         rows = tuple(
@@ -98,7 +100,7 @@ def _stages(result: GrindingResult) -> list[Block]:
             for stage in wear.stages
         )  # fmt: skip
         header = ("worn, µm", "runout, µm", "at, °", "imbalance, g·mm", "force ±, N")
-        blocks += [Heading(f"Course of wear {name}"), Grid(header, rows, frozenset(range(5)))]
+        blocks += [Heading(f"Course of wear {name}", section), Grid(header, rows, frozenset(range(5)))]
     return blocks
 
 
@@ -109,7 +111,7 @@ def _claim(result: GrindingResult) -> list[Block]:
     power = ("no power of the force up to 50 does that here" if claim.needed_exponent is None
              else f"wear with the force to the power {number(claim.needed_exponent, 2)}")  # fmt: skip
     return [
-        Heading("The source's claim"),
+        Heading("The source's claim", "claim"),
         Paragraph(
             f"Kladiev 1996 has a wheel last {claim.life_with_min:g} min with an autobalancer, "
             f"{claim.life_without_min:g} without. By this law both last alike: mean wear goes with the mean force. For "
@@ -129,7 +131,7 @@ STEADY: Final = (
 def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
-        Heading(f"{result.title}: at work"),
+        Heading(f"{result.title}: at work", "title"),
         Paragraph(result.verdict, _mark(result)),
         verdict_line(result),
         numbers_that_matter(result),
@@ -145,7 +147,7 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
         *_profile(result),
         *check_blocks(result.checks),
         *notices(result),
-        Heading("Model"),
+        Heading("Model", "model"),
         Paragraph(STEADY),
         *provenance_blocks(result.provenance),
     )
@@ -269,23 +271,23 @@ def _shakes(does: bool) -> str:
 def _simulated(result: GrindingResult) -> list[Block]:
     """The runs, with every effect that counts."""
     blocks: list[Block] = []
-    for simulation, title in (
-        (result.simulation, "Simulated with the autobalancer"),
-        (result.simulation_at_once, "Pressed before the balls have settled"),
-        (result.simulation_without, "Without"),
+    for simulation, title, section in (
+        (result.simulation, "Simulated with the autobalancer", "simulated"),
+        (result.simulation_at_once, "Pressed before the balls have settled", "simulated-at-once"),
+        (result.simulation_without, "Without", "simulated-without"),
     ):
         if simulation is not None:
-            blocks += [Heading(title), facts(simulation)]
+            blocks += [Heading(title, section), facts(simulation)]
     if result.agreement is not None:
-        blocks += [Heading("Contact alone, simulated against the closed form: relative differences"),
-                   facts(result.agreement)]  # fmt: skip
+        title = "Contact alone, simulated against the closed form: relative differences"
+        blocks += [Heading(title, "agreement"), facts(result.agreement)]
     return blocks
 
 
 def _hodograph(result: GrindingResult) -> list[Block]:
     rows = tuple((number(row.runout_angle_deg, 4), *_pair(row.without), *_pair(row.fitted)) for row in result.hodograph)
     header = ("runout at, °", "without: x", "y, µm", "with: x", "y, µm")
-    return [Heading("Axis against the angle from imbalance to runout"), Grid(header, rows, RIGHT)]
+    return [Heading("Axis against the angle from imbalance to runout", "angles"), Grid(header, rows, RIGHT)]
 
 
 def _response(result: GrindingResult) -> list[Block]:
@@ -295,7 +297,7 @@ def _response(result: GrindingResult) -> list[Block]:
         for point in result.response
     )  # fmt: skip
     header = ("rpm", "axis without", "with", "force without", "with", "balls")
-    return [Heading("Over the speeds"), Grid(header, rows, frozenset({0, 1, 2, 3, 4}))]
+    return [Heading("Over the speeds", "speeds"), Grid(header, rows, frozenset({0, 1, 2, 3, 4}))]
 
 
 def _profile(result: GrindingResult) -> list[Block]:
@@ -307,7 +309,7 @@ def _profile(result: GrindingResult) -> list[Block]:
         for point in result.profile
     )  # fmt: skip
     header = ("wheel at, °", "without", "with", "simulated without", "simulated with")
-    return [Heading("Force round the wheel, from its imbalance"), Grid(header, rows, RIGHT)]
+    return [Heading("Force round the wheel, from its imbalance", "force"), Grid(header, rows, RIGHT)]
 
 
 def _pair(axis: AxisMotion) -> tuple[str, str]:
@@ -346,18 +348,10 @@ def _limit(length_mm: float | None) -> str:
 
 
 LEFT_OUT = (
-    "Simulated with the autobalancer",
-    "Pressed before the balls have settled",
-    "Without",
-    "Contact alone, simulated against the closed form: relative differences",
-    "Axis against the angle from imbalance to runout",
-    "Over the speeds",
-    "Force round the wheel, from its imbalance",
-    "The source's claim",
-    "Course of wear without autobalancer",
-    "Course of wear with it",
-    "Model",
+    *("simulated", "simulated-at-once", "simulated-without", "agreement", "angles", "speeds", "force", "claim"),
+    *("wear-without", "wear-with", "model"),
 )
+"""Ids of the sections that are left to the whole report."""
 
 
 def grinding_screen(result: GrindingResult) -> tuple[Block, ...]:

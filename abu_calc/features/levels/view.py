@@ -33,7 +33,7 @@ def levels_blocks(result: LevelsResult) -> tuple[Block, ...]:
         *_axes(result.places),
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
-        Heading("Conventions"),
+        Heading("Conventions", "conventions"),
         Paragraph(CONVENTIONS),
         *default_blocks(result.provenance.defaults),
         *provenance_blocks(result.provenance),

@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 
 from abu_calc.features.seats.records import Clearance, Pair, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
-from abu_calc.features.seats.view import Seats, by_bearing
+from abu_calc.features.seats.view import Seats, by_bearing, section_of
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Figure
 from abu_calc.reporting.drawings.dimensions import extent, leader, roughness, scale_for, sketch
@@ -220,10 +220,10 @@ def _zone_note(seat: SeatResult) -> str:
 
 
 def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:
-    """Figures of each bearing, below its heading; at the end if two of them have one name."""
+    """Figures of each bearing, below its heading."""
     sketches = list(seat_figures(result, result.seats))
     for index, pair in enumerate(by_bearing(result.seats), 1):
-        section = _section(pair, result.seats)
+        section = section_of(index)
         yield sketches[index - 1]._replace(section=section)
         caption = (
             f"Zones of bearing {index} to scale in µm about the zero line, the nominal size: a shaft is tight where it "
@@ -233,12 +233,6 @@ def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:
         yield _interference(index, section, pair)
         if pair[0].internal_clearance is not None:
             yield _clearance(index, section, pair[0].internal_clearance)
-
-
-def _section(pair: Seats, seats: Sequence[SeatResult]) -> str:
-    """Sections are found by how their headings begin."""
-    beginnings = [seat.name for seat in seats[::2] if seat.name.startswith(pair[0].name)]
-    return f"Bearing seats: {pair[0].name}" if len(beginnings) == 1 else ""
 
 
 def _interference(index: int, section: str, pair: Seats) -> Figure:

@@ -300,7 +300,7 @@ def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
         Heading(result.title),
         verdict_line(result),
         *table,
-        *(block for pair in pairs for block in _bearing(pair)),
+        *(block for index, pair in enumerate(pairs, 1) for block in _bearing(index, pair)),
         Paragraph(CONVENTION),
         *check_blocks(result.checks),
         *notices(result),
@@ -308,10 +308,15 @@ def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
     )
 
 
-def _bearing(pair: Seats) -> list[Block]:
+def section_of(index: int) -> str:
+    """Id of the section of a bearing, counted from one."""
+    return f"bearing-{index}"
+
+
+def _bearing(index: int, pair: Seats) -> list[Block]:
     """Verdict, zones, numbers, losses, fields to choose from, drawing, notes of one bearing."""
     return [
-        Heading(f"Bearing seats: {pair[0].name}"),
+        Heading(f"Bearing seats: {pair[0].name}", section_of(index)),
         *map(_verdict, pair),
         *advice_lines(pair),
         *repair_lines(pair),

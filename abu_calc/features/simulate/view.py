@@ -57,6 +57,8 @@ FINAL = (
 )
 
 
+SECTION: Final = "motion"
+"""Id of the section below whose heading the figures stand."""
 MOST_BALLS: Final = 12
 """Largest number of balls whose places a screen shows."""
 MORE: Final = ("--trajectory FILE.csv, the motion",)
@@ -66,7 +68,7 @@ def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
         *_about(result),
-        Heading("Motion"),
+        Heading("Motion", SECTION),
         Facts((*facts(result, *MOTION).rows, *_levels(result))),
         *([Paragraph(UNDER_LOAD)] if _informs(result) else []),
         *measured_after_blocks(result.measured_after),
@@ -78,7 +80,7 @@ def simulate_blocks(result: SimulateResult) -> tuple[Block, ...]:
         Heading("Model"),
         Paragraph(f"{result.description} Start: {result.start}."),
         Paragraph(f"{_rung(result)} {_cost(result.cost)}"),
-        Heading("Conventions"),
+        Heading("Conventions", "conventions"),
         Paragraph(CONVENTIONS),
         *default_blocks(result.provenance.defaults),
         *provenance_blocks(result.provenance),
@@ -229,9 +231,6 @@ class TrajectoryCsv:
             part = slice(first, first + BLOCK)
             rows = np.vstack([column[part] for column in columns.values()]).T
             yield "".join(",".join([f"{value:.{DIGITS}g}" for value in row]) + "\n" for row in rows.tolist())
-
-
-SECTION: Final = "Motion"
 
 
 def simulate_extras(result: SimulateResult) -> Extras:

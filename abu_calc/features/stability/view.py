@@ -19,7 +19,6 @@ from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_bl
 from abu_calc.reporting.screen import shortened
 from abu_calc.simulation.records import StabilityBoundary
 
-CHANGES = "Speeds where stability changes"
 FORBIDDEN = (
     "A speed above the natural frequencies is necessary, not sufficient: balls of finite mass lose the balanced state "
     "well above them, and light damping opens further gaps."
@@ -48,17 +47,17 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
         *([Paragraph(result.consequence.text)] if result.consequence else []),
         *arm_line(result.arm_advice),
         facts(result, "growth_rate_per_s", "critical_damping_N_s_per_m", *rest),
-        *((Heading(BOUNDS), arm_bounds(result.swing_arm)) if result.swing_arm else ()),
+        *((BOUNDS, arm_bounds(result.swing_arm)) if result.swing_arm else ()),
         *(motion_blocks(result.arm_motion) if result.arm_motion else []),
         *_hanging(result.hanging),
-        *_values("Eigenvalues, 1/s", result.eigenvalues),
-        *_values("Floquet multipliers of one revolution", result.floquet_multipliers),
-        Heading(CHANGES),
+        *_values(Heading("Eigenvalues, 1/s", "eigenvalues"), result.eigenvalues),
+        *_values(Heading("Floquet multipliers of one revolution", "multipliers"), result.floquet_multipliers),
+        Heading("Speeds where stability changes", "changes"),
         *_boundaries(result),
         *_crossings(result.crossings_rpm),
         *check_blocks(result.checks),
         *notices(result),
-        Heading("Model"),
+        Heading("Model", "model"),
         Paragraph(FORBIDDEN),
         *(printed_otherwise() if result.arm_motion else []),
         *provenance_blocks(result.provenance),
@@ -85,7 +84,7 @@ def _hanging(stall: Hanging | None) -> list[Block]:
     word = hanging_word(stall) + (f" {WHAT_TELLS}" if stall.doubt else "")
     header = ("balls hang", "below, 1/s", "the drag over it")
     table: list[Block] = [Grid(header, rows, frozenset({1, 2}))] if rows else []
-    return [Heading("Beside the balanced state"), Paragraph(ONE_STATE), Paragraph(word), *table]
+    return [Heading("Beside the balanced state", "beside"), Paragraph(ONE_STATE), Paragraph(word), *table]
 
 
 def _crossings(crossings: Sequence[Crossing] | None) -> list[Block]:
@@ -98,12 +97,12 @@ def _crossings(crossings: Sequence[Crossing] | None) -> list[Block]:
     return [title, Grid(header, rows, frozenset({0, 1, 2})) if rows else Paragraph("None.")]
 
 
-def _values(title: str, values: Sequence[tuple[float, float]] | None) -> list[Block]:
+def _values(heading: Heading, values: Sequence[tuple[float, float]] | None) -> list[Block]:
     """One row for a number and its conjugate."""
     if values is None:
         return []
     rows = tuple((number(re, 5), f"± {number(im, 5)}" if im else "") for re, im in values if im >= 0)
-    return [Heading(title), Grid(("real part", "imaginary part"), rows, frozenset({0, 1}))]
+    return [heading, Grid(("real part", "imaginary part"), rows, frozenset({0, 1}))]
 
 
 def _boundaries(result: StabilityResult) -> list[Block]:
@@ -121,9 +120,10 @@ def _grid(boundaries: Sequence[StabilityBoundary]) -> Grid:
     return Grid(("rpm", "above it"), rows, frozenset({0}))
 
 
-LEFT_OUT = ("Eigenvalues, 1/s", "Floquet multipliers of one revolution")
-FOR_THE_ARM = (BOUNDS, "Beside the balanced state", "Model")
-"""Sections that make room for those of a swing arm."""
+LEFT_OUT = ("eigenvalues", "multipliers")
+"""Ids of the sections that are left to the whole report."""
+FOR_THE_ARM = (BOUNDS.id, "beside", "model")
+"""Ids of the sections that make room for those of a swing arm."""
 
 
 def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
@@ -138,7 +138,7 @@ def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
     if result.hanging:
         first = next(k for k, block in enumerate(blocks) if k and isinstance(block, Heading))
         blocks = (*blocks[:first], Paragraph(hanging_word(result.hanging)), *blocks[first:])
-    left_out = FOR_THE_ARM if asked else (*FOR_THE_ARM, CHANGES)
+    left_out = FOR_THE_ARM if asked else (*FOR_THE_ARM, "changes")
     return shortened(result, blocks, *LEFT_OUT, *left_out, head=3, more=more)
 
 
@@ -181,7 +181,7 @@ def _over_speeds(result: StabilityResult) -> Iterator[Figure]:
     chart = Plot(
         "Growth rate against speed", summary, across, up, (Curve(points),), marks, (0.0, "edge of stability"), bands
     )
-    yield Figure("growth", CHANGES, chart, caption)
+    yield Figure("growth", "changes", chart, caption)
 
 
 def _forbidden(course: Sequence[GrowthAt], result: StabilityResult) -> list[tuple[float, float]]:
@@ -208,7 +208,7 @@ def _eigenvalues(result: StabilityResult) -> Iterator[Figure]:
         "Eigenvalues of small motions about the balanced state at the speed judged: left of the dashed line they die "
         "out, the farther left the faster; up and down: how fast they swing."
     )
-    yield Figure("eigenvalues", "Eigenvalues", chart, caption)
+    yield Figure("eigenvalues", "eigenvalues", chart, caption)
 
 
 def _multipliers(result: StabilityResult) -> Iterator[Figure]:
@@ -225,7 +225,7 @@ def _multipliers(result: StabilityResult) -> Iterator[Figure]:
         "Floquet multipliers of one revolution: inside the dashed circle a disturbance dies out, the nearer to the "
         "middle the faster."
     )
-    yield Figure("multipliers", "Floquet multipliers", chart, caption)
+    yield Figure("multipliers", "multipliers", chart, caption)
 
 
 def _in_words(values: Sequence[tuple[float, float]]) -> str:

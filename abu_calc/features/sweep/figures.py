@@ -8,18 +8,15 @@ from abu_calc.features.sweep.result import Chart, Distribution, Price, Sensitivi
 from abu_calc.features.sweep.view import (
     LIMITS,
     LOOSE,
-    LOOSENED,
     MATTER,
-    TIGHTENED,
     change,
     few,
     fields,
     kind_of,
     label_of,
     percent,
+    section_deciding,
     side_kept,
-    title_deciding,
-    title_of,
     words_of,
 )
 from abu_calc.foundation.units import unit_of
@@ -65,7 +62,7 @@ def _shares(result: SweepResult) -> Iterator[Figure]:
         f"{': for all limits it should end right of the dashed line' if limit else ''}."
     )
     chart = Bars("Share that meets the limits", summary, Axis("share of members [%]", 0.0, 100.0), rows, limit)
-    yield Figure("shares", "Each limit" if len(met.each) > 1 else "", chart, caption)
+    yield Figure("shares", "each-limit" if len(met.each) > 1 else "", chart, caption)
 
 
 def _hundredths(interval: tuple[float, float]) -> tuple[float, float]:
@@ -82,7 +79,7 @@ def _basins(result: SweepResult) -> Iterator[Figure]:
     summary = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
     caption = "Share of starts that balances, by how the machine is switched on; the thin line: 95 % confidence."
     axis = Axis("share of starts [%]", 0.0, 100.0)
-    yield Figure("basins", "Starts that balance", Bars("Starts that balance", summary, axis, rows), caption)
+    yield Figure("basins", "basins", Bars("Starts that balance", summary, axis, rows), caption)
 
 
 def _distributions(result: SweepResult) -> Iterator[Figure]:
@@ -91,7 +88,7 @@ def _distributions(result: SweepResult) -> Iterator[Figure]:
         known = [(share, value) for share, value in zip(curve.percent, curve.values, strict=True) if value is not None]
         if len(known) < 2:
             continue
-        yield Figure(f"percentiles-{name}", "Percentiles", _distribution(name, curve, known), _kept(name, curve, known))
+        yield Figure(f"percentiles-{name}", "percentiles", _distribution(name, curve, known), _kept(name, curve, known))
 
 
 def _distribution(name: str, curve: Distribution, known: Sequence[tuple[float, float]]) -> Plot:
@@ -132,7 +129,7 @@ def _decides(result: SweepResult) -> Iterator[Figure]:
         )
         axis = Axis("share of the variance [1]", 0.0, 1.0)
         chart = Bars(f"What decides the {words_of(name)}", summary, axis, rows)
-        yield Figure(f"decides-{name}", title_deciding(name), chart, caption)
+        yield Figure(f"decides-{name}", section_deciding(name), chart, caption)
 
 
 def _share_of_variance(index: Sensitivity) -> Bar:
@@ -147,7 +144,7 @@ def _tighten(result: SweepResult) -> Iterator[Figure]:
         for price in prices
     ]  # fmt: skip
     if rows:
-        yield Figure("tighten", TIGHTENED, _prices("What tightening gains", rows), (
+        yield Figure("tighten", "tighten", _prices("What tightening gains", rows), (
             "By how much the level that 95 % of the members keep changes where a value is kept to its better half."
         ))  # fmt: skip
 
@@ -157,7 +154,7 @@ def _loosen(result: SweepResult) -> Iterator[Figure]:
             for price in result.prices if price.loosened_db is not None]  # fmt: skip
     if rows:
         of = next(price.loosened_of for price in result.prices if price.loosened_of)
-        yield Figure("loosen", LOOSENED, _prices("What loosening costs", rows), (
+        yield Figure("loosen", "loosen", _prices("What loosening costs", rows), (
             f"By how much the level that 95 % keep of {of} members rises where the scatter of one value is doubled."
         ))  # fmt: skip
 
@@ -184,7 +181,7 @@ def _cells(result: SweepResult) -> Iterator[Figure]:
         summary = f"{what}, of {len(all_of_them)} cells: {all_of_them.count(4)} all, {all_of_them.count(0)} none"
         caption = f"{what[0].upper()}{what[1:]}: the larger the square, the more; a ring: none of the members there."
         field = _field(chart, f"{what[0].upper()}{what[1:]}", summary, classes, words)
-        yield Figure("cells-meets" if index else "cells", title_of(chart), field, caption)
+        yield Figure("cells-meets" if index else "cells", "chart", field, caption)
     levels = [level for row in chart.levels_db or () for level in row if level is not None]
     if not levels or min(levels) == max(levels):
         return
@@ -195,7 +192,7 @@ def _cells(result: SweepResult) -> Iterator[Figure]:
     summary = f"mean level over {len(levels)} cells, from {db(low)} to {db(max(levels))}"
     caption = "Mean velocity level of the members of a cell, 0 dB = 5e-8 m/s rms: the larger the square, the louder."
     field = _field(chart, "Mean level over two values", summary, classes, louder)
-    yield Figure("cells-level", title_of(chart), field, caption)
+    yield Figure("cells-level", "chart", field, caption)
 
 
 def _field(

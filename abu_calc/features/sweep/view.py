@@ -60,7 +60,7 @@ def chart_blocks(chart: Chart, *, short: bool = False) -> list[Block]:
     panels = fields(chart)
     if short:
         panels = [next((panel for panel in panels if len(_kinds(panel[1])) > 1), panels[0])]
-    return [Heading(title_of(chart)), *(_picture(chart, *panel) for panel in panels)]
+    return [Heading(title_of(chart), "chart"), *(_picture(chart, *panel) for panel in panels)]
 
 
 def _kinds(shares: Shares) -> set[int | None]:
@@ -122,7 +122,6 @@ LIMITS = {
     "meets_limits": "all of them",
 }
 LOOSE = "may be loosened"
-TIGHTENED, LOOSENED = "What to tighten", "What may be loosened, as tried"
 TIGHTEN = (
     "By how much the level that 95 % of the members keep changes among those whose value is kept in its better half, "
     "and in the other; told by the members there are. Chance: of so few members chance may do as much."
@@ -197,7 +196,7 @@ def _limits(result: SweepResult) -> list[Block]:
     )
     if len(rows) < 2:
         return []
-    return [Heading("Each limit"), Grid(("", "share", "95 % confidence"), rows, frozenset({1, 2}))]
+    return [Heading("Each limit", "each-limit"), Grid(("", "share", "95 % confidence"), rows, frozenset({1, 2}))]
 
 
 def _numbers(result: SweepResult) -> list[Block]:
@@ -205,7 +204,10 @@ def _numbers(result: SweepResult) -> list[Block]:
         (words_of(name), *(_number(value) for value in (stats.p05, stats.p50, stats.p95, stats.mean)), unit_of(name))
         for name, stats in result.quantities.items()
     )
-    return [Heading("Percentiles"), Grid(("", "5 %", "50 %", "95 %", "mean", ""), rows, frozenset({1, 2, 3, 4}))]
+    return [
+        Heading("Percentiles", "percentiles"),
+        Grid(("", "5 %", "50 %", "95 %", "mean", ""), rows, frozenset({1, 2, 3, 4})),
+    ]
 
 
 def words_of(name: str) -> str:
@@ -228,7 +230,7 @@ def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
     left, rest = len(sensitivities) - len(matter), result.unexplained.get(name, 0.0)
     tail = [f"{many(left, 'other value')} decide less"] if left else []
     tail += [f"{percent(rest)} of the variance is explained by no value or pair of them"] if rest >= MATTER else []
-    head = Heading(title_deciding(name))
+    head = Heading(f"{words_of(name).capitalize()}: what decides", section_deciding(name))
     body: list[Block] = (
         [Grid(("", "", "alone", "in all"), tuple(map(_row, matter)), frozenset({2, 3}))] if matter else []
     )
@@ -238,9 +240,9 @@ def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
     return [head, *body, *([Paragraph(f"{'; '.join(tail)}.")] if tail else [])]
 
 
-def title_deciding(name: str) -> str:
-    """The heading; of no two numbers does one begin with the other."""
-    return f"{words_of(name).capitalize()}: what decides"
+def section_deciding(name: str) -> str:
+    """Id of the section of the values that decide a number."""
+    return f"decides-{name.replace('_', '-')}"
 
 
 def _row(sensitivity: Sensitivity) -> tuple[str, ...]:
@@ -259,12 +261,12 @@ def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
         rows = tuple(map(_tight, sorted(tight, key=lambda price: (price.advice != "tighten", -price.gain_db))))
         header = ("value", "kept", "level", "else", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
-        blocks += [Heading(TIGHTENED), *(() if short else (Paragraph(TIGHTEN),)), grid]
+        blocks += [Heading("What to tighten", "tighten"), *(() if short else (Paragraph(TIGHTEN),)), grid]
     if loose:
         rows = tuple(map(_loose, sorted(loose, key=lambda price: (price.advice != LOOSE, price.loosened_db or 0.0))))
         header = ("value", "tried with", "level", "more fail", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
-        blocks += [Heading(LOOSENED), *(() if short else (_tried(loose[0]),)), grid]
+        blocks += [Heading("What may be loosened, as tried", "loosen"), *(() if short else (_tried(loose[0]),)), grid]
     return blocks
 
 
@@ -304,7 +306,7 @@ def _basins(result: SweepResult) -> list[Block]:
     if len(rows) < 2:
         return []
     header = ("start", "share", "95 % confidence", "starts")
-    return [Heading("Starts that balance"), Grid(header, rows, frozenset({1, 2, 3}))]
+    return [Heading("Starts that balance", "basins"), Grid(header, rows, frozenset({1, 2, 3}))]
 
 
 def _failed(result: SweepResult) -> list[Block]:

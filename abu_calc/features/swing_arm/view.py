@@ -7,7 +7,8 @@ from abu_calc.foundation.validity import bounded
 from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import facts
 
-BOUNDS: Final = "Swing arm"
+BOUNDS: Final = Heading("Swing arm", "swing-arm")
+"""Heading of the bounds of the arm."""
 ROWS: Final = 7
 LEAST: Final = 1e-4
 """Smallest motion [µm] that is stated as a number."""
@@ -67,7 +68,7 @@ def _force(arm: SwingArmRecord) -> str:
 def arm_facts(arm: SwingArmRecord) -> list[Block]:
     """All its numbers."""
     rows = facts(arm).rows[1:]
-    return [Heading(BOUNDS), Paragraph(f"Arm: {arm.advice}"), arm_bounds(arm), Paragraph(""), Facts(rows)]
+    return [BOUNDS, Paragraph(f"Arm: {arm.advice}"), arm_bounds(arm), Paragraph(""), Facts(rows)]
 
 
 def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:

@@ -8,7 +8,7 @@ from typing import Final
 from abu_calc.reporting.blocks import Block, Picture
 from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot
 from abu_calc.reporting.charts.figure import Figure
-from abu_calc.reporting.screen import sections
+from abu_calc.reporting.screen import section_id, sections
 
 WIDE: Final = 60
 HIGH: Final = 12
@@ -30,12 +30,11 @@ def pictured(blocks: Iterable[Block], figures: Sequence[Figure]) -> tuple[Block,
     """Blocks, each chart of the figures below those of its section."""
     output: list[Block] = []
     for part in sections(blocks):
-        title = getattr(part[0], "text", "").strip()
         output += part
         output += (
             Picture(tuple(characters(figure.shown)), f"{figure.shown.title}.{_signs(figure.shown)}", 2)
             for figure in figures
-            if figure.section and title.startswith(figure.section) and isinstance(figure.shown, Plot)
+            if figure.section and figure.section == section_id(part) and isinstance(figure.shown, Plot)
         )
     return tuple(output)
 

@@ -126,7 +126,8 @@ Shown = Plot | Bars | Cells | Drawing | RotorMotionFigure
 class Figure(NamedTuple):
     """Figure with a caption that says what to see.
 
-    `name`: unique among a result's figures; `section`: the heading it stands below, as far as it is given.
+    `name`: unique among a result's figures; `section`: the id of the heading it stands below; if empty, the figure
+    stands at the end of the page.
     """
 
     name: str

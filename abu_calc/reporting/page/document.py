@@ -9,13 +9,15 @@ from abu_calc.reporting.blocks import Block, Heading, Picture
 from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.page.assets import beside, text
 from abu_calc.reporting.page.elements import elements, figure, paragraph
-from abu_calc.reporting.screen import sections
+from abu_calc.reporting.screen import section_id, sections
 
 if TYPE_CHECKING:
     from abu_calc.reporting.outcome import Outcome
 
-LAST: Final = ("Conventions", "Defaults used (not in the file)", "Provenance")
-"""Sections that stand at the end, behind the calculation note."""
+LAST: Final = frozenset({"conventions", "defaults"})
+"""Ids of the sections that stand at the end, behind the calculation note."""
+SOURCE: Final = "provenance"
+"""Id of the section whose blocks stand below "To repeat it"."""
 SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 """Security policy of the page: it never asks a network, not even by mistake."""
 WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
@@ -27,14 +29,15 @@ def page(outcome: "Outcome") -> str:
     parts = sections(outcome.blocks)
     title = _heading(parts[0]) or f"abu {outcome.command}"
     head, *others = parts
-    front = [part for part in others if _heading(part) not in LAST]
-    back = [part for part in others if _heading(part) in LAST]
+    front = [part for part in others if section_id(part) not in LAST | {SOURCE}]
+    back = [part for part in others if section_id(part) in LAST]
+    source = [part for part in others if section_id(part) == SOURCE]
     drawn = [illustration for part in (head, *front) for illustration in figures_of(part, extras.figures)]
     rest = tuple(illustration for illustration in extras.figures if illustration not in drawn)
     repeat = _repeat(outcome)
     named = [_heading(part) for part in front]
     named += ["Figures"] * bool(rest) + ["Calculation note"] * bool(extras.note)
-    named += [name for part in back if (name := _heading(part)) != "Provenance"] + ["To repeat it"]
+    named += [_heading(part) for part in back] + ["To repeat it"]
     body = chain(
         (f"<header><h1>{text(title)}</h1>",),
         elements(_below(head), title),
@@ -43,9 +46,9 @@ def page(outcome: "Outcome") -> str:
         _sections(front, extras.figures),
         (_opened("Figures"), *map(figure, rest), "</section>") if rest else (),
         _note(extras.note),
-        _sections([part for part in back if _heading(part) != "Provenance"], ()),
+        _sections(back, ()),
         (_opened("To repeat it"), *repeat),
-        chain.from_iterable(elements(_below(part), "To repeat it") for part in back if _heading(part) == "Provenance"),
+        chain.from_iterable(elements(_below(part), "To repeat it") for part in source),
         ("</section>", "</main>"),
     )
     return _framed(f"{WORDS[outcome.status]}: {title}", body)
@@ -79,8 +82,8 @@ def _sections(parts: Sequence[Sequence[Block]], figures: Sequence[Figure]) -> It
 
 
 def figures_of(part: Sequence[Block], figures: Sequence[Figure]) -> list[Figure]:
-    """Figures that belong to a section."""
-    return [figure for figure in figures if figure.section and _heading(part).startswith(figure.section)]
+    """Figures that stand below the heading of a section."""
+    return [figure for figure in figures if figure.section and figure.section == section_id(part)]
 
 
 def _note(blocks: Sequence[Block]) -> Iterator[str]:

@@ -51,5 +51,6 @@ def test_any_axis_has_its_numbers(ends: tuple[float, float]) -> None:
 
 def test_pictures_stand_below_their_sections() -> None:
     chart = Plot("A", "told", *AXES, (Curve([(0, 1), (9, 2)]),))
-    found = pictured((Heading("One"), Paragraph("a"), Heading("Two"), Paragraph("b")), [Figure("a", "One", chart, "")])
+    blocks = (Heading("First", "one"), Paragraph("a"), Heading("one", "two"), Paragraph("b"))
+    found = pictured(blocks, [Figure("a", "one", chart, ""), Figure("b", "", chart, "")])
     assert [type(one) for one in found] == [Heading, Paragraph, Picture, Heading, Paragraph]

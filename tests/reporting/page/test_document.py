@@ -11,8 +11,16 @@ from typing import Any
 
 import pytest
 
-from abu_calc.reporting.charts.chart import Axis
-from tests.cli.runner import abu, once
+from abu_calc.features.grinding.view import LEFT_OUT as GRINDING_LEFT_OUT
+from abu_calc.features.stability.view import FOR_THE_ARM, LEFT_OUT
+from abu_calc.reporting.blocks import Block, Heading, Paragraph
+from abu_calc.reporting.charts.chart import Axis, Bar, Bars
+from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.outcome import Outcome
+from abu_calc.reporting.page.document import LAST
+from abu_calc.reporting.page.document import page as page_of
+from abu_calc.reporting.screen import ELSEWHERE
+from tests.cli.runner import abu, again, once
 from tests.reporting.page.pages import ALSO, COMMANDS, PAGES
 from tests.reporting.page.reader import read
 
@@ -136,6 +144,83 @@ def test_command_on_the_page_gives_the_same_result(name: str, written: Any) -> N
     assert again == ["abu", *COMMANDS[name]]
     if name == "check-fit":
         assert abu(*again[1:], "--json").document["result"] == document["result"]
+
+
+GRINDERS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
+REPORTS = {
+    **{f"{name}-{preset}": (name, preset)
+       for name in ("size", "simulate", "stability") for preset in (*GRINDERS, "swing-arm-grinder")},
+    **{f"grinding-{preset}": ("grinding", preset) for preset in GRINDERS},
+    "namesakes": ("check-fit", "mmg-3200k-knife-shaft", "--set", "bearing[1].name=7516 as built"),
+    "tongue": ("stability", "swing-arm-grinder", "--scene", "swing-arm-cutting"),
+    **COMMANDS,
+}  # fmt: skip
+"""Command lines of reports: each command with the presets that it takes, and those whose pages are looked at."""
+AT_THE_END = {"size": {"seats-1", "seats-2"}, "sweep": {"shares"}}
+"""Figures without an id, by commands: the seats of a design, and the share of a sweep with one limit."""
+
+
+def _outcome(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Outcome:
+    """Outcome of a command, before it is delivered."""
+    seen: list[Outcome] = []
+
+    def deliver(outcome: Outcome, how: object, *, wrote: bool) -> int:
+        seen.append(outcome)
+        return outcome.exit_status
+
+    monkeypatch.setattr("abu_calc.cli.command.deliver", deliver)
+    assert again(*arguments).err == ""
+    (outcome,) = seen
+    return outcome
+
+
+def _ids(outcome: Outcome) -> list[str]:
+    return [block.id for block in outcome.blocks if isinstance(block, Heading) and block.id]
+
+
+@pytest.mark.parametrize("name", [*(name for name in REPORTS if name not in COMMANDS), *PAGES])
+def test_each_figure_of_a_report_has_the_id_of_one_heading(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    outcome = _outcome(monkeypatch, *REPORTS[name])
+    ids = _ids(outcome)
+    figures = outcome.extras().figures if outcome.extras else ()
+    assert len(ids) == len(set(ids)) and "provenance" in ids
+    assert [(figure.name, figure.section) for figure in figures if figure.section not in {"", *ids}] == []
+    assert {figure.name for figure in figures if not figure.section} <= AT_THE_END.get(outcome.command, set())
+    assert figures or name == "compare-seats"
+
+
+def test_sections_that_screens_leave_out_are_in_reports(monkeypatch: pytest.MonkeyPatch) -> None:
+    stiffness, works = "grinding.contact_stiffness_N_per_m", ("grinding", "avtovaz-707-222", "--set")
+    grinding = {one for value in ("2e4", "5e6") for one in _ids(_outcome(monkeypatch, *works, f"{stiffness}={value}"))}
+    stability = {one for name in ("arm", "tongue") for one in _ids(_outcome(monkeypatch, *REPORTS[name]))}
+    sized = {*_ids(_outcome(monkeypatch, *REPORTS["size-avtovaz-707-222"]))}
+    assert {*GRINDING_LEFT_OUT} <= grinding
+    assert {*LEFT_OUT, *FOR_THE_ARM} <= stability
+    assert sized >= ELSEWHERE >= LAST
+
+
+@pytest.mark.parametrize("title", ["Levels", "Conventions", "Provenance", "others", ""])
+def test_sections_are_found_by_their_ids_whatever_their_titles_say(title: str) -> None:
+    """A figure below the heading of its id; conventions behind figures without one; the source of the result last."""
+    chart = Bars("A", "told", Axis("x [dB]", 0.0, 1.0), [Bar("a", 1.0, "1")])
+    blocks: tuple[Block, ...] = (
+        Heading("Report"), Paragraph("in the head"),
+        Heading(title, "provenance"), Paragraph("in the source"),
+        Heading(title, "conventions"), Paragraph("in the conventions"),
+        Heading("levels", "others"), Paragraph("in the others"),
+        Heading(title, "levels"), Paragraph("in the levels"),
+        Heading("Provenance"), Paragraph("in the last"),
+    )  # fmt: skip
+    figures = Figure("one", "levels", chart, "of the levels"), Figure("two", "", chart, "of no section")
+    text = page_of(Outcome("test", {}, blocks, extras=lambda: Extras(figures)))
+    parts = [
+        re.findall(r"\b(?:in the|of the|of no) \w+", part) for part in text.partition("<main")[2].split("<section")
+    ]
+    words = [list(dict.fromkeys(part)) for part in parts if part]
+    assert words == [
+        ["in the others"], ["of the levels", "in the levels"], ["in the last"], ["of no section"],
+        ["in the conventions"], ["in the source"],
+    ]  # fmt: skip
 
 
 HOSTILE = "</title></pre><script>alert(1)</script>&\"'<b>\x1b[31m\u202e"
