@@ -191,6 +191,13 @@ def followed_until(design: Design, scene: Scene, response: Response, samples: Sa
     return _followed_until(design, scene, outcome, goes_on)
 
 
+def _felt(design: Design, scene: Scene) -> float:
+    """Effective mass [kg] for the balls: at the race of a machine in hand, or that of its arm, J_O/l²."""
+    if not scene.support.turns:
+        return design.autobalancer.requirement.effective_mass
+    return scene.support.felt_mass + sum(scene.ball_masses)
+
+
 def _linger(design: Design, scene: Scene, outcome: StartOutcome) -> bool:
     """True if balls that friction does not hold stand elsewhere than where they balance; sooner or later they leave.
 
@@ -203,7 +210,7 @@ def _linger(design: Design, scene: Scene, outcome: StartOutcome) -> bool:
         held = held and not shaken_drag(
             case.friction_arm, radius, autobalancer.pitch_radius, scene.speed, case.inertia_factor
         )
-    balanced = autobalancer.requirement.effective_mass * case.race_eccentricity
+    balanced = _felt(design, scene) * case.race_eccentricity
     return not held and abs(outcome.imbalance - balanced) > LINGERING * reference_imbalance(scene)
 
 
@@ -294,6 +301,6 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),
         imbalance=response.residual_imbalance,
-        allowed=allowed_imbalance(design, scene.imbalance),
+        allowed=allowed_imbalance(design, scene.imbalance, _felt(design, scene)),
         ball_angles=response.final.ball_angles,
     )

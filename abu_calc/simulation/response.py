@@ -319,15 +319,17 @@ def slip(response: Response, speed: float) -> float:
     return max(map(abs, response.final.ball_speeds), default=0.0) / speed
 
 
-def allowed_imbalance(design: Design, moved: float) -> float:
+def allowed_imbalance(design: Design, moved: float, felt: float | None = None) -> float:
     """Allowed residual imbalance [kg m]: a tenth of the imbalance, plus unavoidable shares.
 
     Eccentricity and dry friction leave some imbalance in any case. Dry friction counts in its worst
     arrangement, but with it at most half the imbalance is allowed: leaving more would be no balancing. A
     design without worst arrangements takes the friction of evenly spread balls: the least that is allowed.
+
+    `felt`: effective mass for the balls [kg]; None: that of the machine in hand.
     """
     autobalancer = design.autobalancer
-    mass, budget = autobalancer.requirement.effective_mass, autobalancer.budget
+    mass, budget = felt or autobalancer.requirement.effective_mass, autobalancer.budget
     tenth = SETTLED * max(moved, HARDLY * autobalancer.static_moment) + mass * budget.race_eccentricity
     worst = max((each.rolling_friction for each in design.worst), default=0.0)
     return max(tenth + mass * budget.rolling_friction, min(tenth + mass * worst, HALF * moved))

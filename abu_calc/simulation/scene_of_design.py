@@ -156,7 +156,8 @@ def scene_of_design(design: Design, which: str = "idle", start: Start = "bunched
         start_velocity=(0.0,) * len(support.names),
         effects=effects,
     )
-    longer = _taking_up(design) if which == "run-up" or (which, start) == ("idle", "standstill") else 0.0
+    stands = which in ("idle", "swing-arm-idle") and start == "standstill"
+    longer = _taking_up(design) if which == "run-up" or stands else 0.0
     scene = replace(scene, duration=settling + scene.full_speed + longer)
     return scene if which == "run-up" else placed(scene)
 

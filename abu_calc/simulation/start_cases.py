@@ -51,6 +51,8 @@ class Member:
     by_motor: bool = False
     angles: tuple[float, ...] = ()
     """Angles of the balls from the imbalance [rad], if they are `placed`."""
+    on_arm: bool = False
+    """True if the machine idles on its swing arm, off the workpiece."""
 
     @property
     def race_centre_deg(self) -> float:
@@ -62,6 +64,8 @@ class Member:
         """Start case in words, without a speed."""
         if self.by_motor:
             return "run-up by the motor"
+        if self.on_arm:
+            return f"{self.start} on the arm"
         return f"run-up in {self.run_up:g} s" if self.run_up else str(self.start)
 
     @property
@@ -90,6 +94,15 @@ def members(design: Design, doubtful: float = 0.0, shares: tuple[float, ...] = D
                     yield replace(usual, drag=drag, eccentricity=angle, speed=usual.speed or speed)
                 if drag < doubtful and usual.run_up < SLOW:
                     yield Member("bunched", drag, SLOW, angle, speed=speed)
+    yield from members_on_arm(design)
+
+
+def members_on_arm(design: Design) -> Iterator[Member]:
+    """Start cases at full speed on a swing arm that its pivot holds, off the workpiece; none without such an arm."""
+    arm = design.case.table.swing_arm
+    if arm is not None and arm.joint_stiffness_N_per_m:
+        for angle in (ALIKE, OPPOSITE) if design.case.race_eccentricity > 0 else (ALIKE,):
+            yield from (Member(start, design.case.drag, 0.0, angle, on_arm=True) for start in STARTS)
 
 
 def usual_run_up(design: Design) -> Member:
@@ -108,7 +121,7 @@ def idle_speed(case: Case) -> float | None:
 
 def scene_of_member(design: Design, member: Member) -> Scene:
     """The idle scene of a machine started so, with every effect its file has data for."""
-    scene = "run-up" if member.run_up else "idle"
+    scene = "swing-arm-idle" if member.on_arm else "run-up" if member.run_up else "idle"
     return scene_of_design(_with(design, member), scene, member.start, member.eccentricity)
 
 

@@ -27,6 +27,8 @@ from tests.studies.outside_runs import Ending, Start, broken, ended, starts, wit
 from tests.studies.random_machines import FAMILIES, family_of, machine_text
 
 CODES = "ABU401", "ABU701", "ABU702", "ABU704"
+ENOUGH = 200
+"""Machines, the least for a record."""
 EDITION = 2
 """Of the outside equations and starts: another one runs all machines again."""
 
@@ -168,7 +170,7 @@ def main() -> None:
         "broken": [asdict(one) for one in verdicts if one.broken],
     }  # fmt: skip
     print(json.dumps(cases["summary"]), json.dumps(cases["families"]), sep="\n")
-    if count >= 400:
+    if count >= ENOUGH:
         what = "machines that pass without a warning, switched on by equations written outside the product"
         print(keep("verdicts", what, "python -m tests.studies.verdicts", machine("not bound"), first, cases))
 
