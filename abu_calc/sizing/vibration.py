@@ -16,7 +16,7 @@ from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.foundation.units import GRAVITY, from_si
+from abu_calc.foundation.units import from_si
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
 from abu_calc.sizing.capacity import steady_contact
@@ -28,10 +28,7 @@ _friction = lru_cache(maxsize=64)(worst_friction)
 
 @dataclass(frozen=True)
 class WorstResidual:
-    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad].
-
-    `residual`: after balls have come to rest that gravity shakes on a horizontal spindle, see `friction_left`.
-    """
+    """Displacements 0–peak at the wheel [m] at one speed [rad/s]; `angles`: where the balls then stand [rad]."""
 
     speed: float
     rolling_friction: float
@@ -53,25 +50,8 @@ def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> 
     band = case.friction_arm * balls.pitch_radius / balls.radius
     held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
     friction = max(held.displacement, usual.rolling_friction)
-    left, at_rest = friction_left(case, candidate, speed), usual.rolling_friction
-    if left:
-        rest = _friction(balls.count, balls.moment, left * band, carried, sum(flexible) / 2)
-        at_rest = max(at_rest, rest.displacement)
-    parts = usual.race_eccentricity, at_rest, balls.count / 2 * usual.race_ovality, usual.plane_offset
+    parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.plane_offset
     return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.shortfall)
-
-
-def friction_left(case: Case, candidate: Candidate, speed: float) -> float:
-    """Share of dry friction [1] that holds balls off their places, 1 − 1/Λ, at least 0; Λ = k_r R_p Ω²/(r g).
-
-    On a horizontal spindle gravity pulls a ball either way once a revolution by m g. A ball rests only if friction,
-    m (k_r/r) R_p Ω² [N], holds that, too. Below Λ = 1 all balls creep to their places. On a vertical spindle: 1.
-    Source: derived; ends simulated below Λ = 1 scatter by 0.1 µm.
-    """
-    if case.table.machine.spindle_axis != "horizontal":
-        return 1.0
-    held = case.friction_arm * candidate.pitch_radius * speed**2
-    return max(1 - candidate.ball_diameter / 2 * GRAVITY / held, 0.0) if held else 0.0
 
 
 CURVE_STEPS = 6
