@@ -34,7 +34,7 @@ class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
     `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
-    "module:class"; `makes_figures`: function from a result to its figures as "module:function"; `figures`: their names;
+    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `figures`: their names;
     `computes`: whether it loads libraries of numbers.
     """
 
@@ -83,7 +83,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "check-fit",
         "seats.command",
         ("seats.study:CheckFitResult",),
-        "seats.figures:check_fit_figures",
+        "seats.figures:check_fit_extras",
         figures=(
             Known("seats-N", "there is such a bearing", True),
             Known("zones-N", "there is such a bearing", True),
@@ -258,13 +258,18 @@ def absent(command: str, name: str, there: Iterable[str]) -> InputError:
     return InputError(f"this result has no figure {name}{reason}", allowed=", ".join(there) or "none")
 
 
+def extras_of(result: "Result") -> "Extras":
+    """Figures of a result and the calculation note of its page; none if its feature makes none."""
+    from abu_calc.reporting.charts.figure import Extras
+
+    maker = BY_NAME[result.command].makes_figures if result.command in BY_NAME else ""
+    extras: Extras = imported(maker)(result) if maker else Extras()
+    return extras
+
+
 def figures_of(result: "Result") -> "tuple[Figure, ...]":
     """All figures of a result; none if its command shows none."""
-    maker = BY_NAME[result.command].makes_figures if result.command in BY_NAME else ""
-    if not maker:
-        return ()
-    made: Extras | Iterable[Figure] = imported(maker)(result)
-    return tuple(getattr(made, "figures", made))
+    return extras_of(result).figures
 
 
 def names(result: "Result") -> tuple[str, ...]:

@@ -28,10 +28,11 @@ from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, OutputError, Place
 from abu_calc.foundation.patience import limited
 from abu_calc.foundation.progress import Progress, Stage
+from abu_calc.registry import extras_of
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.reporting.charts.figure import Figure
+    from abu_calc.reporting.charts.figure import Figure, MakesExtras
 
 SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
 """Scenes of a machine; written out here so that `--help` loads no numerics."""
@@ -199,7 +200,7 @@ def add_command(
         wanted = {"how": how} if "how" in own else {}
         with _naming_options(options), limited(given.get("patience")):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
-        outcome = replace(outcome, asked=asked(name, own, given))
+        outcome = replace(outcome, asked=asked(name, own, given), extras=_extras(outcome))
         status = deliver(outcome, how, wrote=write_files(outcome, how))
         if status:
             raise typer.Exit(status)
@@ -214,6 +215,12 @@ def add_command(
     run.__doc__ = function.__doc__
     # Given by itself it is wrapped, not cut.
     app.command(name, short_help=inspect.cleandoc(run.__doc__ or "").partition("\n\n")[0])(run)
+
+
+def _extras(outcome: Outcome) -> "MakesExtras | None":
+    """Function that makes the figures and the note of a page, as the registry names it; None without a study."""
+    result = outcome.content
+    return None if isinstance(result, dict) else lambda: extras_of(result)
 
 
 def _shared_by(command: str) -> dict[str, inspect.Parameter]:

@@ -54,14 +54,12 @@ class Outcome:
         view: Callable[[], tuple[Block, ...]],
         short: Callable[[], tuple[Block, ...]] | None = None,
         drawings: "Callable[[], tuple[Drawing, ...]] | None" = None,
-        extras: "MakesExtras | None" = None,
     ) -> "Outcome":
         """Outcome of a study.
 
-        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings, `extras` its page's
-        extras.
+        `view` makes all its blocks, `short` those of one screen, `drawings` its drawings.
         """
-        return cls(result.command, result, view, short=short, drawings=drawings, extras=extras)
+        return cls(result.command, result, view, short=short, drawings=drawings)
 
     @cached_property
     def result(self) -> Any:

@@ -10,8 +10,7 @@ from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.accuracy.study import AccuracyResult
-    from abu_calc.reporting.charts.figure import Extras
+    pass
 
 
 def accuracy(
@@ -45,15 +44,7 @@ def accuracy(
             duration_s=duration_s,
             progress=tell,
         )
-    return Outcome.of(
-        result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result), extras=lambda: _extras(result)
-    )
-
-
-def _extras(result: "AccuracyResult") -> "Extras":
-    from abu_calc.features.accuracy.view import accuracy_extras
-
-    return accuracy_extras(result)
+    return Outcome.of(result, lambda: accuracy_blocks(result), lambda: accuracy_screen(result))
 
 
 def register(app: typer.Typer) -> None:

@@ -8,8 +8,7 @@ from abu_calc.cli.command import Overrides, add_command
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.balancing.study import BalanceResult
-    from abu_calc.reporting.charts.figure import Extras
+    pass
 
 
 def balance(
@@ -22,15 +21,7 @@ def balance(
     from abu_calc.features.balancing.view import balance_blocks, balance_screen
 
     result = study(read_readings(readings, set_ or ()))
-    return Outcome.of(
-        result, lambda: balance_blocks(result), lambda: balance_screen(result), extras=lambda: _extras(result)
-    )
-
-
-def _extras(result: "BalanceResult") -> "Extras":
-    from abu_calc.features.balancing.figures import balance_extras
-
-    return balance_extras(result)
+    return Outcome.of(result, lambda: balance_blocks(result), lambda: balance_screen(result))
 
 
 def register(app: typer.Typer) -> None:

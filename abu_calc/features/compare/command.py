@@ -12,8 +12,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.compare.study import CompareResult
-    from abu_calc.reporting.charts.figure import Extras
+    pass
 
 
 def compare(
@@ -46,14 +45,7 @@ def compare(
         result = study(read, accuracy, tell, os.cpu_count() or 1)
     return Outcome.of(
         result, lambda: compare_blocks(result, full=how.full), lambda: compare_screen(result),
-        extras=lambda: _extras(result),
     )  # fmt: skip
-
-
-def _extras(result: "CompareResult") -> "Extras":
-    from abu_calc.features.compare.view import compare_extras
-
-    return compare_extras(result)
 
 
 def register(app: typer.Typer) -> None:

@@ -13,7 +13,6 @@ from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
-    from abu_calc.reporting.charts.figure import Extras
     from abu_calc.reporting.drawings.shapes import Drawing
 
 
@@ -33,9 +32,7 @@ def size(
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell, os.cpu_count() or 1)
     short = None if explain else lambda: _screen(result)
-    return Outcome.of(
-        result, lambda: _blocks(result, explain), short, lambda: _drawings(result), lambda: _extras(result)
-    )
+    return Outcome.of(result, lambda: _blocks(result, explain), short, lambda: _drawings(result))
 
 
 def _screen(result: "SizeResult") -> tuple[Block, ...]:
@@ -58,12 +55,6 @@ def _drawings(result: "SizeResult") -> "tuple[Drawing, ...]":
     from abu_calc.features.design.sheet import size_sheets
 
     return size_sheets(result)
-
-
-def _extras(result: "SizeResult") -> "Extras":
-    from abu_calc.features.design.figures import size_extras
-
-    return size_extras(result)
 
 
 def register(app: typer.Typer) -> None:

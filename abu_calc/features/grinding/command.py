@@ -10,8 +10,7 @@ from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.grinding.study import GrindingResult
-    from abu_calc.reporting.charts.figure import Extras
+    pass
 
 
 def grinding(how: Delivery, machine: Machine, set_: Overrides = None, accuracy: Accuracy = 0.01) -> Outcome:
@@ -22,15 +21,7 @@ def grinding(how: Delivery, machine: Machine, set_: Overrides = None, accuracy: 
 
     with progress(how) as tell:
         result = study(read_machine(machine, set_ or ()), accuracy, tell)
-    return Outcome.of(
-        result, lambda: grinding_blocks(result), lambda: grinding_screen(result), extras=lambda: _extras(result)
-    )
-
-
-def _extras(result: "GrindingResult") -> "Extras":
-    from abu_calc.features.grinding.figures import grinding_extras
-
-    return grinding_extras(result)
+    return Outcome.of(result, lambda: grinding_blocks(result), lambda: grinding_screen(result))
 
 
 def register(app: typer.Typer) -> None:

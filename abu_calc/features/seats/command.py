@@ -20,7 +20,6 @@ from abu_calc.reporting.outcome import Outcome
 if TYPE_CHECKING:
     from abu_calc.features.seats.study import CheckFitResult
     from abu_calc.inputs.read_machine import Machine
-    from abu_calc.reporting.charts.figure import Extras
     from abu_calc.reporting.drawings.shapes import Drawing
 
 
@@ -155,7 +154,6 @@ def check_fit(
         lambda: _blocks(result, explain),
         short,
         lambda: _drawings(result),
-        lambda: _extras(result),
     )
 
 
@@ -166,31 +164,16 @@ def _screen(result: "CheckFitResult") -> tuple[Block, ...]:
 
 
 def _blocks(result: "CheckFitResult", explain: bool) -> tuple[Block, ...]:
+    from abu_calc.features.seats.figures import seat_note
     from abu_calc.features.seats.view import check_fit_blocks
 
-    return (*check_fit_blocks(result), *(_note(result) if explain else ()))
-
-
-def _note(result: "CheckFitResult") -> tuple[Block, ...]:
-    """Every formula with the numbers of each bearing."""
-    from abu_calc.features.explain.steps import STEPS, step_blocks
-    from abu_calc.features.seats.formula_view import seat_numbers
-    from abu_calc.features.seats.study import bearing_models
-
-    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(result), result.seats)))
+    return (*check_fit_blocks(result), *(seat_note(result) if explain else ()))
 
 
 def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
     from abu_calc.features.seats.figures import seat_sheets
 
     return seat_sheets(result)
-
-
-def _extras(result: "CheckFitResult") -> "Extras":
-    from abu_calc.features.seats.figures import check_fit_figures
-    from abu_calc.reporting.charts.figure import Extras
-
-    return Extras(tuple(check_fit_figures(result)), _note(result))
 
 
 def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]) -> "Machine":

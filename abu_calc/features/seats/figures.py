@@ -16,8 +16,9 @@ from typing import Final, NamedTuple
 from abu_calc.features.seats.records import Clearance, Pair, SeatResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.view import Seats, by_bearing, section_of
+from abu_calc.reporting.blocks import Block
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Figure
+from abu_calc.reporting.charts.figure import Extras, Figure
 from abu_calc.reporting.drawings.dimensions import extent, leader, roughness, scale_for, sketch
 from abu_calc.reporting.drawings.shapes import (
     HEIGHT,
@@ -217,6 +218,20 @@ def _fit(seat: SeatResult) -> str:
 def _zone_note(seat: SeatResult) -> str:
     ring, part = (" … ".join(map(digits, pair)) for pair in (seat.ring_limits_um, seat.part_limits_um))
     return f"{seat.seat}: ring {ring}, {seat.fit} {part}, {_fit(seat)}"
+
+
+def check_fit_extras(result: CheckFitResult) -> Extras:
+    """Figures of each bearing, and every formula with its numbers."""
+    return Extras(tuple(check_fit_figures(result)), seat_note(result))
+
+
+def seat_note(result: CheckFitResult) -> tuple[Block, ...]:
+    """Every formula with the numbers of each bearing."""
+    from abu_calc.features.explain.steps import STEPS, step_blocks
+    from abu_calc.features.seats.formula_view import seat_numbers
+    from abu_calc.features.seats.study import bearing_models
+
+    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(result), result.seats)))
 
 
 def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:

@@ -13,8 +13,7 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.simulate.study import SimulateResult
-    from abu_calc.reporting.charts.figure import Extras
+    pass
 
 SAMPLES: Final = 1001
 
@@ -75,9 +74,7 @@ def simulate(
             samples=(SAMPLES if samples is None else samples) if trajectory else None,
             progress=tell,
         )
-    outcome = Outcome.of(
-        result, lambda: simulate_blocks(result), lambda: simulate_screen(result), extras=lambda: _extras(result)
-    )
+    outcome = Outcome.of(result, lambda: simulate_blocks(result), lambda: simulate_screen(result))
     moved = (Target(trajectory, TrajectoryCsv(result.motion)),) if trajectory and result.motion else ()
     return replace(outcome, further=moved)
 
@@ -95,12 +92,6 @@ def _check_files(how: Delivery, trajectory: Path | None, samples: int | None) ->
         raise InputError("--output and --trajectory name the same file", found=str(trajectory))
     if trajectory.resolve() in {path.resolve() for _, path in how.figures}:
         raise InputError("--figure and --trajectory name the same file", found=str(trajectory))
-
-
-def _extras(result: "SimulateResult") -> "Extras":
-    from abu_calc.features.simulate.view import simulate_extras
-
-    return simulate_extras(result)
 
 
 def register(app: typer.Typer) -> None:

@@ -11,8 +11,7 @@ from abu_calc.foundation.errors import InputError, Place
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
-    from abu_calc.features.stability.study import StabilityResult
-    from abu_calc.reporting.charts.figure import Extras
+    pass
 
 SCENES: Final = ("idle", "swing-arm-idle", "swing-arm-cutting")
 
@@ -47,9 +46,7 @@ def stability(
             read_any(file, set_ or ()), scene, speeds_rpm=speeds, arrangement=arrangement, crossings=crossings,
             progress=tell,
         )  # fmt: skip
-    return Outcome.of(
-        result, lambda: stability_blocks(result), lambda: stability_screen(result), extras=lambda: _extras(result)
-    )
+    return Outcome.of(result, lambda: stability_blocks(result), lambda: stability_screen(result))
 
 
 def _two(text: str) -> tuple[float, float]:
@@ -64,12 +61,6 @@ def _two(text: str) -> tuple[float, float]:
             remedy="Write --speeds 1000:6000.",
         ) from None  # fmt: skip
     return low, high
-
-
-def _extras(result: "StabilityResult") -> "Extras":
-    from abu_calc.features.stability.view import stability_extras
-
-    return stability_extras(result)
 
 
 def register(app: typer.Typer) -> None:

@@ -72,7 +72,6 @@ def sweep(
     ] = 60.0,
 ) -> Outcome:
     """Many machines like this one: share that meets the limits, percentiles, which value decides."""
-    from abu_calc.features.sweep.figures import sweep_extras
     from abu_calc.features.sweep.store_faults import checked_path
     from abu_calc.features.sweep.study import WAIT
     from abu_calc.features.sweep.study import sweep as study
@@ -107,9 +106,7 @@ def sweep(
             command=_command(),
             progress=tell,
         )
-    return Outcome.of(
-        result, lambda: sweep_blocks(result), lambda: sweep_screen(result), extras=lambda: sweep_extras(result)
-    )
+    return Outcome.of(result, lambda: sweep_blocks(result), lambda: sweep_screen(result))
 
 
 def _command() -> str:
