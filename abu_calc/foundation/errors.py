@@ -1,4 +1,4 @@
-"""The tree of errors, and the exit status each one ends a command with.
+"""Errors of abu-calc, the exit status each ends a command with, and text made safe for people to read.
 
     AbuError                         3   no trustworthy number could be computed
     ├── InputError                   2   the file or the options are wrong, nothing was computed
@@ -9,9 +9,8 @@
 
 Statuses 0 and 1 are no errors: they tell whether every check of a result passed.
 
-Text of files and command lines as people may see it: nothing in it acts on a terminal, or breaks a line.
-
-Whatever prints text for people, or writes it to a file, sends it through here.
+Whatever prints text for people, or writes it to a file, sends it through `escaped` or its kin: nothing in it then acts
+on a terminal, or breaks a line.
 """
 
 import re

@@ -1,7 +1,4 @@
-"""Scene that is simulated, from a scene file.
-
-Effects of a scene file, from its tables.
-"""
+"""Scene and effects in SI, from the tables of a scene file."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping

@@ -1,7 +1,4 @@
-"""Checks on a machine at its workpiece that its autobalancer must pass, in `abu grinding`.
-
-Agreement of closed form and simulation for the same machine on its workpiece.
-"""
+"""Checks of `abu grinding`: limits for a machine at its workpiece, and closed form against simulation."""
 
 import cmath
 from dataclasses import replace

@@ -1,11 +1,4 @@
-"""The report of `abu grinding` on one screen.
-
-The start cases of grinding in a report: the motions that they end with, and the share of each.
-
-Wear of the wheel, in the report of `abu grinding`.
-
-The report of `abu grinding`: the verdict, then what stands behind it.
-"""
+"""The report of `abu grinding`, on one screen and whole: verdict, levels, balls, contact, start cases, wear."""
 
 from typing import Final
 

@@ -1,10 +1,7 @@
 """Stability of the balanced state of a scene, and the speeds at which it changes.
 
-Warnings about how the stability of a balanced state was found.
-
-Stalling of balls beside the balanced state, as results hold it: bounds with the drag rate's margin.
-
-Outcome of balls in a growing arrangement, as results hold it.
+The result also holds warnings about the method, bounds on stalling of balls with the margin of the viscous drag rate,
+and the outcome of balls in a growing arrangement.
 """
 
 from collections.abc import Iterator
