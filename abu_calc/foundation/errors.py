@@ -30,44 +30,6 @@ _UNSAFE: Final = re.compile(f"[{_ACTING}{_REST}]")
 _UNSAFE_IN_LINES: Final = re.compile(f"(?!\n)[{_ACTING}{_REST}]")
 
 
-def escaped(text: str) -> str:
-    r"""Text on one line, every character that acts on a terminal spelled out.
-
-    >>> escaped("x\nPASS\x1b[31m \u202e")
-    'x\\nPASS\\x1b[31m \\u202e'
-    """
-    return _UNSAFE.sub(_spelled, text)
-
-
-def escaped_lines(text: str) -> str:
-    """Text whose line breaks are meant."""
-    return _UNSAFE_IN_LINES.sub(_spelled, text)
-
-
-def escaped_toml(text: str) -> str:
-    """TOML whose texts are all basic strings of one line, with the escapes that these know."""
-    return _UNSAFE_IN_LINES.sub(lambda match: _toml_escape(ord(match[0])), text)
-
-
-def shortened(text: str, most: int = LONGEST_FOUND) -> str:
-    """Text cut where it is long."""
-    return text if len(text) <= most else text[: most - 1] + "…"
-
-
-def _spelled(match: re.Match[str]) -> str:
-    return {"\n": "\\n", "\r": "\\r", "\t": "\\t"}.get(match[0]) or _python_escape(ord(match[0]))
-
-
-def _python_escape(code: int) -> str:
-    return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
-
-
-def _toml_escape(code: int) -> str:
-    if 0xD800 <= code < 0xE000:  # half a character: TOML has no word for it
-        return "?"
-    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
-
-
 LONGEST_FILE_NAME: Final = 1000
 """Characters of it that messages show."""
 
@@ -174,3 +136,41 @@ class StoppedError(AbuError):
     def __init__(self, message: str, exit_status: int = 130) -> None:
         super().__init__(message)
         self.exit_status = exit_status
+
+
+def escaped(text: str) -> str:
+    r"""Text on one line, every character that acts on a terminal spelled out.
+
+    >>> escaped("x\nPASS\x1b[31m \u202e")
+    'x\\nPASS\\x1b[31m \\u202e'
+    """
+    return _UNSAFE.sub(_spelled, text)
+
+
+def escaped_lines(text: str) -> str:
+    """Text whose line breaks are meant."""
+    return _UNSAFE_IN_LINES.sub(_spelled, text)
+
+
+def escaped_toml(text: str) -> str:
+    """TOML whose texts are all basic strings of one line, with the escapes that these know."""
+    return _UNSAFE_IN_LINES.sub(lambda match: _toml_escape(ord(match[0])), text)
+
+
+def shortened(text: str, most: int = LONGEST_FOUND) -> str:
+    """Text cut where it is long."""
+    return text if len(text) <= most else text[: most - 1] + "…"
+
+
+def _spelled(match: re.Match[str]) -> str:
+    return {"\n": "\\n", "\r": "\\r", "\t": "\\t"}.get(match[0]) or _python_escape(ord(match[0]))
+
+
+def _python_escape(code: int) -> str:
+    return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def _toml_escape(code: int) -> str:
+    if 0xD800 <= code < 0xE000:  # half a character: TOML has no word for it
+        return "?"
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"

@@ -1,8 +1,8 @@
 """Assembly of the integrated equations of a scene: its numbers, the right-hand side and exact derivatives.
 
-    parameters_of    Scene → Parameters: the numbers that the equations read
-    assemble         Scene → Equations, ready to integrate
-    jacobian         ∂y'/∂y, exact to rounding
+parameters_of    Scene → Parameters: the numbers that the equations read
+assemble         Scene → Equations, ready to integrate
+jacobian         ∂y'/∂y, exact to rounding
 """
 
 import math

@@ -1,8 +1,8 @@
 """Linear supports M q'' + C q' + K q = Pᵀ F, and those whose races are in one plane and move in it.
 
-    planar       a point mass on springs and dampers
-    with_body    a further body on it, such as a casing or a handle that gives
-    in_hands     a machine held in two hands, whose masses move on their own
+planar       a point mass on springs and dampers
+with_body    a further body on it, such as a casing or a handle that gives
+in_hands     a machine held in two hands, whose masses move on their own
 """
 
 import math

@@ -1,7 +1,7 @@
 """The report of `abu simulate`: results, final places of the balls, effects left out, cost; figures and CSV.
 
-    figures    path of the balls; imbalance, level and speed against time; the formulas
-    CSV        the axis in mm, ball angles in degrees, unwrapped, and whatever else of the scene moves
+figures    path of the balls; imbalance, level and speed against time; the formulas
+CSV        the axis in mm, ball angles in degrees, unwrapped, and whatever else of the scene moves
 """
 
 from collections.abc import Iterator, Sequence
