@@ -1,4 +1,4 @@
-"""The features of abu-calc: one entry registers a command, its result and its figures.
+"""Registry of the features of abu-calc: one entry registers a command, its result and its figures.
 
 Modules are named here and imported when they are needed, so that a command loads its own feature alone.
 """

@@ -1,12 +1,12 @@
-"""A command is a function that returns an Outcome; this adds the options that all commands share.
+"""Registration of commands: functions that return an Outcome, with the options that all share.
 
-Its parameters are called like the arguments of the study it asks, so that an error about an argument names the option.
+A parameter of a command is called like the argument of the study it asks, so that an error about an argument names the
+option.
 
-Options that several commands about scenes share; a parameter is called like the argument of the study it becomes.
-
-The command line that gives a result again, from what was asked for.
-
-The files that a command was asked for, written when all is computed.
+    SCENES, File, …    types of options that several commands about scenes share
+    asked              the command line that gives a result again
+    write_files        the files that a command was asked for, written when all is computed
+    add_command        a function made a command
 """
 
 import inspect

@@ -1,6 +1,7 @@
-"""Delivery of a command's outcome, or its error, to people and programs.
+"""Delivery of a command's outcome, or of its error, to people and programs.
 
-`--figure NAME=FILE`: figures as files of their own, refused early where they could not be written.
+`--figure NAME=FILE` asks for figures as files of their own. Names and places that cannot work are refused before
+anything is computed.
 """
 
 import inspect

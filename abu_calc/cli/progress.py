@@ -1,6 +1,6 @@
-"""Long work shows what it is at, how far it is and how long it still takes, on one line of standard error.
+"""Progress of long work on one line of standard error: the current stage, the share done and the time left.
 
-Only where somebody watches: on a terminal, and not with --quiet.
+The line appears on a terminal only, and not with --quiet.
 """
 
 import os

@@ -1,7 +1,7 @@
-"""Standard output and error as they are: closed, broken, full, or without half the signs; none of it ends a command.
+"""Standard output and error that never end a command: closed, broken, full, or without half the signs.
 
-What a command computed stands whether or not somebody reads it. A reader that has gone away wants no more, and is told
-nothing; a disk that is full is told at the end, see `Outlet.fault`.
+The result of a command stands whether or not somebody reads it. A reader that has gone away wants no more and is told
+nothing. A full disk is reported at the end, see `Outlet.fault`.
 """
 
 import codecs

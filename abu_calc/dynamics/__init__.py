@@ -1,6 +1,6 @@
 """Path from a scene to its motion: Scene → Equations → Trajectory, and the closed forms beside them.
 
-Own files hold the nouns and the interfaces, and import no package below them:
+Files of this folder hold the nouns and the interfaces, and import no package below them:
 
 motion.py         places and speeds of everything, loads, all accelerations
 rotor.py          how a rotor turns: steady, guided, driven

@@ -1,7 +1,7 @@
-"""Balls that move together, as chains of joined gaps round each race: sums over chains in as many steps as balls.
+"""Chains of balls that move together: joined gaps round each race, and sums over chains.
 
-A gap is joined, 1, or open, 0, and these are numbers: one way of summing serves all modes. Never all gaps of a race are
-joined, since its balls cannot fill it.
+Sums take as many steps as there are balls. A gap is joined, 1, or open, 0. These are numbers, so one way of summing
+serves all modes. The gaps of a race are never all joined, since its balls cannot fill it.
 """
 
 from functools import cached_property

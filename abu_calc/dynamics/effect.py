@@ -1,7 +1,6 @@
-"""Interface of an effect: one thing that acts in a scene.
+"""Interface of an effect: one thing that acts in a scene besides the support, the races and the imbalance.
 
-Effects act besides the support, the races and the imbalance. They are in `effects/`, one file each;
-`effects/__init__.py` tells how they go together.
+Effects are in `effects/`, one file each; `effects/__init__.py` tells how they go together.
 """
 
 from functools import cached_property

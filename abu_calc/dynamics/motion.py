@@ -1,4 +1,4 @@
-"""Kinematics that the support, the balls and all effects share, and the place where effects leave what they add."""
+"""Kinematics that the support, the balls and all effects share, and the loads that effects add."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -1,4 +1,4 @@
-"""The numbers of a scene, combined once so that an evaluation of the equations needs few operations. SI."""
+"""Numbers of a scene in SI, combined once so that an evaluation of the equations needs few operations."""
 
 from abc import ABC, abstractmethod
 from typing import Any

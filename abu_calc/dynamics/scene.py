@@ -1,4 +1,4 @@
-"""A scene: everything one simulation needs, in SI, nothing optional."""
+"""A scene: everything that one simulation needs, in SI, nothing optional."""
 
 import math
 from collections.abc import Collection

@@ -1,7 +1,7 @@
-"""The circumstances of a scene: all of it but its effects, and what these tell of themselves to each other.
+"""Circumstances of a scene: all of it but its effects, and what effects tell each other.
 
-What an effect may know of a scene is this and no more. Axes x, y are inertial; angles (imbalance, balls) are measured
-in the rotor from its zero mark, which lies on +x at t = 0, in the sense of rotation (from +x to +y).
+An effect may know this of a scene and no more. Axes x, y are inertial; angles (imbalance, balls) are measured in the
+rotor from its zero mark, which lies on +x at t = 0, in the sense of rotation (from +x to +y).
 """
 
 import math

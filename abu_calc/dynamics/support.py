@@ -1,6 +1,7 @@
-"""Interface of a support, which carries a rotor. The kinds are in `supports/`, one file each.
+"""Interface of a support, which carries a rotor.
 
-No other code asks for the kind: whatever a kind needs is behind one of these names.
+The kinds are in `supports/`, one file each. No other code asks for the kind: whatever a kind needs is behind one of
+these names.
 """
 
 from abc import ABC, abstractmethod

@@ -1,6 +1,7 @@
 """Trajectory that an integrator returns, and the samples that are requested from it.
 
-Equations at many samples in the calls of one: NumPy's calls cost the same for one number as for hundreds.
+`at_samples` evaluates a function of one state at many samples in the calls of one: NumPy's calls cost the same for one
+number as for hundreds.
 """
 
 import operator

@@ -1,4 +1,4 @@
-"""Balls side by side in a race: their half angle, their mass and rolling inertia, and the imbalance they can hold."""
+"""Balls side by side in a race: their half angle, mass and rolling inertia, and the imbalance they can hold."""
 
 import math
 from typing import Final

@@ -1,7 +1,4 @@
-"""Largest distance at which dry rolling friction can hold the axis, over all ball arrangements.
-
-Largest distance from its place at which dry rolling friction can hold the axis.
-"""
+"""Largest displacement at which dry rolling friction can hold the axis, over all ball arrangements."""
 
 import math
 from itertools import pairwise

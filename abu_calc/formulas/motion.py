@@ -1,4 +1,4 @@
-"""Equations of motion and criteria of a simulation, as data.
+"""Equations of motion and criteria of a simulation, registered as data.
 
 These are formulas of modules that are heavy to import.
 """

@@ -1,4 +1,4 @@
-"""Speeds at which a motor's torque, linear in speed, equals what idling and cutting take."""
+"""Speeds at which a motor's torque, linear in speed, equals the load of idling and cutting."""
 
 from collections.abc import Callable
 

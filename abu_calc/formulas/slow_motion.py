@@ -1,16 +1,15 @@
-"""Balls that hang: drags above which no state stands beside the balanced one in which balls lag behind the rotor.
-
-Balls that lag and go round near a natural frequency drive the support as an imbalance of their own; what it dissipates
-brakes them, the drag of the race pulls them on (the Sommerfeld effect of the balls). Each bound suffices and none is
-necessary: below them balls may hang or not, and the start decides.
-
-The averaged, slow motion of balls about the balanced state: stiffness, rates, settling, best drag.
+"""Averaged slow motion of the balls about the balanced state: stiffness, rates, settling, best drag, stalling.
 
 Averaging the balls' equation over a revolution leaves J θ_k'' + h₀ θ_k' = (Ω²/R_p) Im(F e^{−iθ_k}), F the forward
 circular part of the axis' motion. About F = 0 that is J δθ'' + h₀ δθ' + K δθ = 0 with K_kj = κ_j cos(θ_k − θ_j)
 (Kladiev 1996, eq. (7), is the condition κ > 0). K has rank two: with more than two balls the rest are neutral.
 Leading order in Σm/M: real rates differ by about (m/M)^{1/2}, and a lightly damped pair needs in addition
 (Ω − ω)/Ω > (2m/(J M))^{1/3}.
+
+Stalling: bounds on the viscous drag rate above which balls cannot lag behind the rotor in a state beside the balanced
+one. Balls that lag and go round near a natural frequency drive the support as an imbalance of their own. The support's
+dissipation brakes them, the drag of the race pulls them on (the Sommerfeld effect of the balls). Each bound suffices
+and none is necessary: below them balls may stall or not, and the start decides.
 """
 
 import cmath

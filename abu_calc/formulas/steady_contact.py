@@ -1,4 +1,4 @@
-"""Wheel and work in steady contact: phasors of axis and force, rigid contact being one without compliance.
+"""Steady contact of wheel and workpiece: phasors of axis and force; rigid contact is one without compliance.
 
 Conventions: x = Re(X e^{iΩt}), y = Re(Y e^{iΩt}); U total imbalance [kg m] and E runout [m] in the rotor, the real axis
 along the imbalance; D dynamic stiffness per axis [N/m]; q = 1/c_n compliance [m/N]; T = s·f·N friction along x.

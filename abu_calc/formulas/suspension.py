@@ -1,7 +1,6 @@
 """Suspension of the machine, seen from the wheel plane: two hands, or springs by natural frequencies.
 
-Two hands on a machine's handles as masses and elements: what both sizing and the equations of motion start from.
-
+Two hands on a machine's handles are masses and elements: sizing and the equations of motion both start from them.
 Source: ISO 10068:2012, Annex C, model 2; how its elements connect is assumed.
 """
 

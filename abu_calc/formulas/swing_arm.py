@@ -1,11 +1,12 @@
-"""An arm whose imbalance is not balanced: its forced motion, how fast it dies out, and where it grows.
+"""A machine on a swing arm: stiffness added by the contact, resonances, forced motion, decay, and instability.
 
-(1 + 2κ_a cos Ωt) φ_f'' + 2 φ_f' (h_a − κ_aΩ sin Ωt) + ω₀² φ_f = Ω²κ_a sin Ωt, φ_f the arm's angle from rest [rad],
-κ_a = l·m₀e/J_O, h_a = h_sh·l²/(2J_O), ω₀ its natural frequency. Source: Kovalenko 2010, (8), corrected.
+Forced motion of an arm whose imbalance is not balanced:
 
-A machine on a swing arm: what the contact adds to its stiffness, its resonances, and where it grows.
+    (1 + 2κ_a cos Ωt) φ_f'' + 2 φ_f' (h_a − κ_aΩ sin Ωt) + ω₀² φ_f = Ω²κ_a sin Ωt
 
-Source: Kovalenko 2010, corrected.
+φ_f is the arm's angle from rest [rad], κ_a = l·m₀e/J_O, h_a = h_sh·l²/(2J_O), ω₀ its natural frequency.
+
+Source: Kovalenko 2010, (8) for this equation, corrected.
 """
 
 import itertools

@@ -1,1 +1,1 @@
-"""Ground of the package: units, symbols, formulas as registered, checks, errors, records with quantities, progress."""
+"""Ground of the package: units, symbols, registered formulas, checks, errors, records, progress."""

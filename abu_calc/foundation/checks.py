@@ -1,8 +1,7 @@
-"""A check of a design and the status of several: what every step of the way may hand on beside its numbers.
+"""Checks of a design and the status of several, with the meaning of each check code.
 
-Meaning of each check code: its question, its criterion, its action; `abu explain ABU203` shows it.
-
-The texts are in check_data/, one file for each hundred, read when one of its codes is first requested.
+A code has its question, its criterion and its action; `abu explain ABU203` shows it. The texts are in check_data/, one
+file for each hundred, read when one of its codes is first requested.
 """
 
 import tomllib

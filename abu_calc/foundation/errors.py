@@ -1,4 +1,4 @@
-"""The tree of errors, and the exit status each one ends a command with.
+"""Errors of abu-calc, the exit status each ends a command with, and text made safe for people to read.
 
     AbuError                         3   no trustworthy number could be computed
     ├── InputError                   2   the file or the options are wrong, nothing was computed
@@ -9,9 +9,8 @@
 
 Statuses 0 and 1 are no errors: they tell whether every check of a result passed.
 
-Text of files and command lines as people may see it: nothing in it acts on a terminal, or breaks a line.
-
-Whatever prints text for people, or writes it to a file, sends it through here.
+Whatever prints text for people, or writes it to a file, sends it through `escaped` or its kin: nothing in it then acts
+on a terminal, or breaks a line.
 """
 
 import re
@@ -29,44 +28,6 @@ _REST: Final = "\ud800-\udfff\U000e0000-\U000e007f"
 # Control characters, those that turn the direction of writing or take no room, and what no encoding knows.
 _UNSAFE: Final = re.compile(f"[{_ACTING}{_REST}]")
 _UNSAFE_IN_LINES: Final = re.compile(f"(?!\n)[{_ACTING}{_REST}]")
-
-
-def escaped(text: str) -> str:
-    r"""Text on one line, every character that acts on a terminal spelled out.
-
-    >>> escaped("x\nPASS\x1b[31m \u202e")
-    'x\\nPASS\\x1b[31m \\u202e'
-    """
-    return _UNSAFE.sub(_spelled, text)
-
-
-def escaped_lines(text: str) -> str:
-    """Text whose line breaks are meant."""
-    return _UNSAFE_IN_LINES.sub(_spelled, text)
-
-
-def escaped_toml(text: str) -> str:
-    """TOML whose texts are all basic strings of one line, with the escapes that these know."""
-    return _UNSAFE_IN_LINES.sub(lambda match: _toml_escape(ord(match[0])), text)
-
-
-def shortened(text: str, most: int = LONGEST_FOUND) -> str:
-    """Text cut where it is long."""
-    return text if len(text) <= most else text[: most - 1] + "…"
-
-
-def _spelled(match: re.Match[str]) -> str:
-    return {"\n": "\\n", "\r": "\\r", "\t": "\\t"}.get(match[0]) or _python_escape(ord(match[0]))
-
-
-def _python_escape(code: int) -> str:
-    return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
-
-
-def _toml_escape(code: int) -> str:
-    if 0xD800 <= code < 0xE000:  # half a character: TOML has no word for it
-        return "?"
-    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
 LONGEST_FILE_NAME: Final = 1000
@@ -175,3 +136,41 @@ class StoppedError(AbuError):
     def __init__(self, message: str, exit_status: int = 130) -> None:
         super().__init__(message)
         self.exit_status = exit_status
+
+
+def escaped(text: str) -> str:
+    r"""Text on one line, every character that acts on a terminal spelled out.
+
+    >>> escaped("x\nPASS\x1b[31m \u202e")
+    'x\\nPASS\\x1b[31m \\u202e'
+    """
+    return _UNSAFE.sub(_spelled, text)
+
+
+def escaped_lines(text: str) -> str:
+    """Text whose line breaks are meant."""
+    return _UNSAFE_IN_LINES.sub(_spelled, text)
+
+
+def escaped_toml(text: str) -> str:
+    """TOML whose texts are all basic strings of one line, with the escapes that these know."""
+    return _UNSAFE_IN_LINES.sub(lambda match: _toml_escape(ord(match[0])), text)
+
+
+def shortened(text: str, most: int = LONGEST_FOUND) -> str:
+    """Text cut where it is long."""
+    return text if len(text) <= most else text[: most - 1] + "…"
+
+
+def _spelled(match: re.Match[str]) -> str:
+    return {"\n": "\\n", "\r": "\\r", "\t": "\\t"}.get(match[0]) or _python_escape(ord(match[0]))
+
+
+def _python_escape(code: int) -> str:
+    return f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def _toml_escape(code: int) -> str:
+    if 0xD800 <= code < 0xE000:  # half a character: TOML has no word for it
+        return "?"
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"

@@ -1,8 +1,7 @@
-"""Formulas as registered data: what `abu explain` shows, `help()` says, and the code checks, each written once.
+"""Registry of formulas and of their signs: `abu explain`, `help()` and range checks are made of it.
 
-A formula is registered where it stands, by the decorator of the function (or class) that computes it.
-
-The signs of formulas: each means one thing in all of abu-calc; its unit as files have it, and in SI.
+A formula is registered where it stands, by the decorator of the function (or class) that computes it. A sign means one
+thing in all of abu-calc; its unit is given as files have it, and in SI.
 """
 
 import importlib

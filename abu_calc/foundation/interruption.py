@@ -1,4 +1,4 @@
-"""Signals that ask a command to end: it ends in good order, with a line and 128 and the number of the signal.
+"""Signals that ask a command to end: it ends in good order, with a line and 128 plus the signal's number.
 
 A signal is never lost. One that arrives during an import waits for its end: extension modules turn whatever is raised
 then into ImportError, and are broken for good. One that a library swallows is raised again until the command heeds it.

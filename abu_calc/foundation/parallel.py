@@ -1,7 +1,7 @@
-"""The same work on many things, side by side in threads, and pools of processes for any other work.
+"""The same work on many things: side by side in threads for compiled code, and pools of processes for any other.
 
 Compiled code lets go of the interpreter, so its runs go side by side in threads. Plain Python gains nothing by them.
-The outcome does not depend on how many there are.
+The outcome does not depend on the number of threads.
 """
 
 import os

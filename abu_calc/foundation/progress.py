@@ -1,4 +1,4 @@
-"""Long work reports what it is at, and how far it has come."""
+"""Progress of long work: reports of the current stage and of the share done."""
 
 from collections.abc import Callable
 from typing import Final, Self

@@ -1,4 +1,4 @@
-"""Records: the parts a result is made of, whose fields say what they are.
+"""Records: parts of a result whose fields carry unit, label, symbol, digits and meaning.
 
     @record
     class Autobalancer(Record):

@@ -1,4 +1,4 @@
-"""The range in which a formula holds, as data that the code checks."""
+"""Range in which a formula holds, as data that the code checks."""
 
 import math
 

@@ -1,1 +1,1 @@
-"""What people write: the tables of files as strict models, in the units of their keys."""
+"""Tables of the files that people write, as strict models in the units of their keys."""

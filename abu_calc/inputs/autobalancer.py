@@ -1,4 +1,4 @@
-"""The autobalancer: the room there is for it, how it is made, and what may be pinned."""
+"""The table of the autobalancer: the room for it, how it is made, and values that may be pinned."""
 
 from typing import Literal, Self
 

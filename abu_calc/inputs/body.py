@@ -1,4 +1,4 @@
-"""The machine itself, what it hangs on, and what is asked of it."""
+"""Tables of the machine itself, of its suspension, and of the requirements on it."""
 
 from typing import Annotated, ClassVar, Final, Literal, Self
 

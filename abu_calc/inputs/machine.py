@@ -1,6 +1,6 @@
 """A machine file as a whole, and the rules between its tables.
 
-Numbers of a machine that do not go together, though each may stand alone.
+`larger_than_its_wheel` and `rim_too_fast` name numbers that do not go together, though each may stand alone.
 """
 
 from collections.abc import Iterator

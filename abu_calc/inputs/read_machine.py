@@ -1,8 +1,6 @@
-"""Bearings given key by key, with no file: read as a file of those bearings would be.
+"""Reading of machine files, and of files of any kind: document → overrides → tables, faults with their places.
 
-Reading a file of whichever kind.
-
-Machine files, read and found right: document → overrides → tables, every fault with its place.
+Bearings given key by key, with no file, are read as a file of those bearings would be.
 """
 
 import os

@@ -1,6 +1,6 @@
-"""Meaning of a column's name in a recorded motion: time or motion, its quantity, its unit.
+"""A recorded motion: equally spaced samples of up to three axes of one place, and the meaning of its columns.
 
-A recorded motion: equally spaced samples of up to three axes of one place, from a CSV or a WAV file.
+A column's name tells whether it is time or motion, its quantity and its unit.
 """
 
 import hashlib

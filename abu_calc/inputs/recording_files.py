@@ -1,8 +1,8 @@
-"""Reading a recorded motion: which kind of file it is, and what is wrong with it before it is looked into.
+"""Reading of a recorded motion from a CSV or a WAV file.
 
-CSV files of a motion: a column of time, and columns of acceleration, velocity or displacement with their units.
-
-WAV files: samples of whole numbers or floats, full scale ±1; what they stand for is told by a scale.
+CSV: a column of time, and columns of acceleration, velocity or displacement with their units. WAV: samples of whole
+numbers or floats, full scale ±1; a scale gives their quantity. The kind of a file and its faults are told before it is
+looked into.
 """
 
 import io

@@ -1,7 +1,4 @@
-"""A rolling bearing and its two seats.
-
-A rolling bearing: what it is, and the load on its rings.
-"""
+"""The table of a rolling bearing: the bearing itself, the load on its rings, and its two seats."""
 
 import itertools
 from typing import Annotated, ClassVar, Final, Literal, Self

@@ -1,6 +1,6 @@
-"""Reading a scene file, and files that may hold either a scene or a machine.
+"""A scene file: one simulation given outright, the rules between its tables, and its reading.
 
-A scene file: one simulation given outright, and the rules between its tables.
+`read_any` reads a file that may hold either a scene or a machine.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""The effects of a scene: each is on when its table is there."""
+"""Tables of the effects of a scene: each effect is on when its table is there."""
 
 from typing import Self
 

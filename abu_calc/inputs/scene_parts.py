@@ -1,7 +1,4 @@
-"""Supports of a scene's rotor beyond springs in the plane.
-
-A race of a scene and its balls.
-"""
+"""Tables of a scene: races with their balls, and supports of the rotor beyond springs in the plane."""
 
 import math
 from typing import Annotated, ClassVar, Final, Literal, Self

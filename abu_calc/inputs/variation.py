@@ -1,10 +1,7 @@
-"""The tables of a file with some of its values replaced, again and again: read once, checked each time.
+"""The table [sweep] of a file: many machines like this one, and the variation of each value among them.
 
-Variation of a value among the samples of a sweep: `LOW:HIGH:N`, a list, or a distribution.
-
-The module reads it as it is written.
-
-[sweep]: a study of many machines like this one, as a table of its file.
+A variation is written as `LOW:HIGH:N`, a list, or a distribution; it is read here as it is written. `Variants` puts
+values into a file again and again: the file is read once, its tables are checked each time.
 """
 
 import copy

@@ -1,6 +1,6 @@
-"""The wheel, and where its imbalance is known from.
+"""The table of the wheel, with the sources of its imbalance and instrument readings of the idle machine.
 
-Instrument readings of the idle machine in a file: keys of [wheel] and of [measured_after] alike.
+Instrument readings are keys of [wheel] and of [measured_after] alike.
 """
 
 from typing import Annotated, Any, ClassVar, Final, Literal, Self

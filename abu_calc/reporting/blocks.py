@@ -1,7 +1,4 @@
-"""Building blocks of a report: a few kinds, the same for every command and every format of text.
-
-Numbers as text, the same wherever they are shown.
-"""
+"""Building blocks of a report, and numbers as text: the same for every command and every format of text."""
 
 from typing import NamedTuple
 

@@ -1,6 +1,6 @@
-"""Levels as instruments show them, and what was measured beside what is predicted, for every report of levels.
+"""Blocks that several reports share: facts of a record, checks, defaults, warnings, provenance, levels.
 
-Blocks that several reports share: facts of a record, checks, defaults, warnings, where a result comes from.
+Levels stand as instruments show them, and measured ones beside predicted ones.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

@@ -1,5 +1,6 @@
-"""A report on one screen: verdict, what it is about, what failed or warns with remedies, the numbers that matter, where
-to look next. What there is no room for is counted, never left out in silence.
+"""A report on one screen: verdict, subject, failed checks with actions, main numbers, next commands.
+
+Parts without room are counted, never left out in silence.
 """
 
 from bisect import bisect_right

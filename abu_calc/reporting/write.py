@@ -1,4 +1,4 @@
-"""Files are written whole or not at all, and never over what somebody else has put there meanwhile."""
+"""Writing of files: whole or not at all, and never over another's file that appeared meanwhile."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""Arguments of studies, refused before anything is computed; the key of such an error is the argument's name."""
+"""Checks of a study's arguments before anything is computed; the key of such an error is the argument's name."""
 
 import sys
 from collections.abc import Callable, Collection, Mapping, Sequence

@@ -1,7 +1,4 @@
-"""Duration of a scene, within bounds of work.
-
-A machine's scene lasts until its slowest transient has died out.
-"""
+"""Duration of a scene, within bounds of work: a machine's scene lasts until its slowest transient has died out."""
 
 import math
 from collections.abc import Callable

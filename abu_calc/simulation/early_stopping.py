@@ -1,4 +1,4 @@
-"""Early stopping of a run: the balls rest where they balance, and the imbalance left no longer moves."""
+"""Early stopping of a run: the balls are at rest and balance, and the residual imbalance no longer changes."""
 
 import math
 from collections.abc import Callable

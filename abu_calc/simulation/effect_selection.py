@@ -1,6 +1,6 @@
-"""An audit: the same scene once more with every effect in, and what that really changed.
+"""Choice of the effects to simulate: those whose absence would be seen at the requested accuracy.
 
-Choice of the effects to simulate: those whose absence would be seen at the requested accuracy.
+`audit` simulates the same scene once more with every effect in, and gives the true difference.
 """
 
 from collections.abc import Sequence

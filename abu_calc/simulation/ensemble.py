@@ -1,6 +1,6 @@
-"""One design switched on in many ways: which starts balance, how soon, how loud, and which leave balls hanging.
+"""One design switched on from many start cases: which balance, how soon, how loud, and where balls stall.
 
-The closed bounds on hanging balls of a design, idle, over its whole speed range.
+`hanging_bounds` gives the closed bounds on stalling of a design, idle, over its whole speed range.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Checks on the many start cases of an idle machine that its design must pass, in `abu size`."""
+"""Checks of `abu size` on the many start cases of an idle machine."""
 
 import math
 from collections.abc import Callable, Iterable

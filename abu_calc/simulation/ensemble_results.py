@@ -1,7 +1,4 @@
-"""Outcomes of the start cases of one design.
-
-They tell which cases are worst, and which decide the design's checks and must be confirmed.
-"""
+"""Outcomes of the start cases of one design: the worst, and those to be confirmed because they decide checks."""
 
 import math
 import statistics

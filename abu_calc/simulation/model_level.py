@@ -1,4 +1,4 @@
-"""The rungs of the ladder that integrate no equations of motion: closed form and envelope, and what that may be off."""
+"""Model levels that do not integrate the equations of motion: closed form and envelope, with their errors."""
 
 import math
 from dataclasses import replace

@@ -1,6 +1,7 @@
-"""Why no tolerance reached an accuracy: a motion that amplifies errors, or a settling that hangs on them.
+"""Differences between two runs of one scene, and the reason why no tolerance reached an accuracy.
 
-Differences between two runs of one scene, measured as accuracy measures errors.
+Differences are measured as accuracy measures errors. Reasons: a motion that amplifies errors, or a settling time that
+depends on them.
 """
 
 import math

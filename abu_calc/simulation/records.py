@@ -1,7 +1,4 @@
-"""One scene that was simulated, as results hold it.
-
-The SI numbers and states of a scene that is integrated, and what it is in words.
-"""
+"""One simulated scene as results hold it: its numbers in SI and states, and the scene in words."""
 
 import math
 from collections.abc import Mapping, Sequence

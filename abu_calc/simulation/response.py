@@ -1,10 +1,7 @@
-"""Criteria by which the balls of a design count as balancing it, for one run and for many.
+"""Results of one run: amplitude, velocity, level, settling time, residual imbalance and final state.
 
-Residual history of a run, read as it goes on: three numbers of each sample.
-
-Settling and the largest amplitude need no more of a run.
-
-Results of one run: amplitude, velocity, level, settling, residual imbalance and final state.
+The residual history is read while the run goes on: three numbers of each sample, all that the settling time and the
+largest amplitude need. The file also holds the criteria by which balls count as balancing, for one run and for many.
 """
 
 import math

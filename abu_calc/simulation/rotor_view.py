@@ -1,4 +1,4 @@
-"""A run as who turns with the rotor sees it: balls on their way to rest, the axis, and what imbalance is left."""
+"""A run as seen in the turning rotor: balls on their way to rest, the axis, and the residual imbalance."""
 
 from collections.abc import Callable
 from contextlib import suppress

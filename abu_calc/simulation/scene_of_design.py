@@ -1,8 +1,6 @@
-"""Scenes of a design.
+"""Scenes of a design: idle, at work, running up, on springs, in hands or on a swing arm.
 
 Parts that few files ask for (swing arm, motor, balls across their race) are imported on demand.
-
-The swing arm of a design as the support of its scenes.
 """
 
 import math

@@ -1,8 +1,6 @@
-"""A simulation whose accuracy is known: by the envelope where it has it, or by two runs of the equations that agree.
+"""Simulation of known accuracy: by the envelope if that suffices, otherwise by two runs that agree.
 
-Remarks of the effects on a run, once each.
-
-Added is what the scene leaves out, whichever effects act in it.
+Remarks of the effects on a run are given once each, with those on effects that the scene leaves out.
 """
 
 import math

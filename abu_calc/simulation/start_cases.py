@@ -1,6 +1,6 @@
-"""One machine built and switched on once: where its balls lie, how warm the oil is, which way the race stands off.
+"""Start cases of a machine: places of its balls, speed, temperature of the oil, side of the race eccentricity.
 
-The many ways in which one machine is switched on: from where its balls start, how fast, with oil warm or cold.
+`members` lists those that a design is judged by. `scene_switched_on` gives the scene of any one machine switched on.
 """
 
 import math

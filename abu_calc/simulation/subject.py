@@ -1,7 +1,7 @@
 """Subject of a scene's study: a scene of a sized machine, of a scene file, or made in a script.
 
-All keep every effect there is data for. The estimated influence of the effects decides which of them are
-simulated, see `Subject.ledger`.
+All keep every effect there is data for. The estimated influence of the effects decides which of them are simulated, see
+`Subject.ledger`.
 """
 
 from collections.abc import Sequence

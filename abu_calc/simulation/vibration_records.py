@@ -1,7 +1,4 @@
-"""Levels as instruments show them, and what was measured beside what is predicted.
-
-Measurement with the autobalancer, beside the prediction for the same place.
-"""
+"""Levels as instruments show them, and the measurement with the autobalancer beside its prediction."""
 
 import math
 from typing import Annotated, ClassVar, Self

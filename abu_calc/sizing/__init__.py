@@ -1,4 +1,4 @@
-"""The pipeline of `abu size`: one step after another, then their checks in the order a reader wants them.
+"""Steps of `abu size`, one after another, then their checks in the order in which a reader needs them.
 
 Steps of the swing arm are imported only if the machine has one.
 """

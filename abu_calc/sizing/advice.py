@@ -1,4 +1,4 @@
-"""The checks of the chosen autobalancer, and what a reader must be warned of."""
+"""Checks of the chosen autobalancer, and warnings that no check gives."""
 
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.units import from_si

@@ -1,6 +1,6 @@
-"""Step 5: which balls, how many, on which race radius.
+"""Step 5: choice of the balls, their number and the race radius, among stock sizes that fit the envelope.
 
-Choices of the search: the envelope, stock sizes, and values that the file has pinned.
+Values that the file has pinned are kept.
 """
 
 from bisect import bisect_left

@@ -1,4 +1,4 @@
-"""Step 4: what keeps a real autobalancer from 40 dB: race eccentricity, friction, an oval race, one off the wheel."""
+"""Step 4: residual-displacement budget: race eccentricity, friction, two-lobe ovality, distance from the wheel."""
 
 import math
 from bisect import bisect_left

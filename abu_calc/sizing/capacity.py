@@ -1,4 +1,4 @@
-"""Step 3: the capacity that the balls must have, m(R−r)·… ≥ m₀e + Mε, exactly."""
+"""Step 3: required capacity of the balls, m(R−r)·… ≥ m₀e + Mε, exactly."""
 
 from abu_calc.formulas.steady_contact import SteadyContact
 from abu_calc.formulas.suspension import dynamic_stiffness

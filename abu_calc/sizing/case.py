@@ -1,6 +1,6 @@
-"""A machine file in SI. Elsewhere sizing asks the tables only which of several ways people have chosen.
+"""A machine file in SI, and the effective mass at places along the spindle axis.
 
-The mass that really moves: the machine as a rigid body, felt at places along its spindle axis.
+The machine is a rigid body. Elsewhere sizing asks the tables only which of several ways people have chosen.
 """
 
 from typing import Final, Literal

@@ -1,6 +1,6 @@
-"""One machine built to a design: its own balls, race, wheel and hands, the choice of the design kept.
+"""The finished design: every step's frozen result, side by side; and one machine built to it.
 
-The finished design: every step's frozen result, side by side.
+A built machine has its own balls, race, wheel and hands, and keeps the choices of the design.
 """
 
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Step 10: what the drawing must say, each tolerance with the dB it costs."""
+"""Step 10: drawing requirements, each tolerance with the dB it costs."""
 
 import math
 

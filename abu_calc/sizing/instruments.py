@@ -1,4 +1,4 @@
-"""One spinning imbalance as instruments show it: velocity, displacement, acceleration, weighted, one axis or three."""
+"""One rotating imbalance as instruments show it: velocity, displacement, acceleration, weighted, per axis."""
 
 import math
 from statistics import fmean

@@ -1,7 +1,4 @@
-"""Check of the working speeds against the motor's torque curve.
-
-Step 1: is balancing possible at these speeds at all?
-"""
+"""Step 1: whether balancing is possible at the speeds of the file, and their check against the motor's torque."""
 
 from typing import Literal
 

@@ -1,10 +1,6 @@
-"""Two-lobe ovality that balls cause in their race.
+"""Forces and stresses of balls, race and housing at the highest speed, and the two-lobe ovality of the race.
 
-An oval race has two lobes, and these hold balls in their places.
-
-Forces and stresses of balls, race and housing.
-
-Strength of balls, race and rim under their forces at the highest speed.
+The lobes of the race hold balls in their places.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Changes of a swing arm, with their size, that meet its bounds: stiffness first, damping second.
+"""Step 9: bounds for a machine on a swing arm, over all contact angles, and changes that meet them.
 
-Step 9: bounds for a machine on a swing arm, over all contact angles (Kovalenko 2010, corrected).
+Changes come with their size: stiffness first, damping second. Source: Kovalenko 2010, corrected.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Step 6: the race and what it bears."""
+"""Step 6: the race (called track in JSON) and its load."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Changes of the file with which the best candidate meets what it misses.
+"""Trials of changes to the file with which the best candidate meets its missed requirements.
 
 The same search tries each of them.
 """

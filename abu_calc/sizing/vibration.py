@@ -1,8 +1,7 @@
-"""The idle level against its limit over the speed range, and what a truer race would do to it.
+"""Step 7: velocity levels before and after, idle and under load, at every handle, and over the speed range.
 
-Worst residual displacement: friction holds the axis farthest off, and all parts are in line.
-
-Step 7: velocity levels before and after, idle and under load, at every handle.
+The idle level is held against its limit, also with a truer race. The worst residual displacement counts too: friction
+holds the axis farthest off, and all parts are in line.
 """
 
 import cmath

@@ -1,7 +1,4 @@
-"""Hardness of steel: Rockwell C to Vickers.
-
-Balls: stock diameters and materials.
-"""
+"""Balls: stock diameters and materials, with the conversion of hardness from Rockwell C to Vickers."""
 
 from bisect import bisect_left
 from functools import cache

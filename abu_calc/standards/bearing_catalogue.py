@@ -1,8 +1,7 @@
-"""Suffixes behind the basic number of a bearing's designation: seals, clearance, accuracy.
+"""Rolling bearings by designation: boundary dimensions, suffixes, and radial internal clearance.
 
-Boundary dimensions of rolling bearings by designation.
-
-Radial internal clearance of deep groove ball bearings, before mounting.
+Suffixes stand behind the basic number: seals, clearance, accuracy. The clearance is that of deep groove ball bearings
+before mounting.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Reading the data files: each once, when first asked for."""
+"""Reading of the data files of standards: each once, when first asked for."""
 
 import difflib
 import tomllib

@@ -1,6 +1,6 @@
-"""Tolerance classes that a bearing maker's catalogue recommends for shafts and housings; basic load ratings.
+"""Limits of size (ISO 286-2 for shafts and housings, ISO 492 for bearing rings) and makers' tolerance classes.
 
-Limits of size: ISO 286-2 for shafts and housings, ISO 492 for the rings of bearings.
+A bearing maker's catalogue recommends the classes of shafts and housings; it also gives basic load ratings.
 """
 
 from functools import cache, lru_cache

@@ -1,8 +1,6 @@
-"""The hand as a mechanical system, as data; `sizing` says how its elements connect.
+"""Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure, hands, balance grades.
 
-Vibration of hand-held machines: limits by octaves, weighting by frequency, exposure.
-
-Balance quality grades.
+The hand is a mechanical system, as data; `formulas.suspension` says how its elements connect.
 """
 
 import math

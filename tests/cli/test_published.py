@@ -1,6 +1,6 @@
 """Published cases, from a scene file through the command line to the numbers in the sources.
 
-Stability boundaries and eigenvalues of the planar rotor stand in test_stability.py.
+Stability boundaries and eigenvalues of the planar rotor stand in tests/dynamics/stability.
 """
 
 import cmath

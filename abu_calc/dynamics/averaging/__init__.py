@@ -1,1 +1,1 @@
-"""Averaged slow motion of the balls, and where it holds."""
+"""Averaged slow motion of the balls, and the conditions under which it holds."""

@@ -1,21 +1,23 @@
-"""The run that an envelope stands for, sampled as those of the integrators are.
-
-The averaged equations of the balls of a scene: their coefficients, and where they hold.
-
-Source: Kladiev 1996, (4)–(7), generalised; Blekhman 1988, ch. 2 (vibrational moments). The terms of the next order are
-derived here.
-
-The averaged slow motion of the balls: what is left of the equations when everything that goes round is averaged out.
+"""Averaged slow motion of the balls: the equations of motion, averaged over a revolution.
 
     J θ_k'' + h₀ θ_k' = (1/R_p) Im((Σ_j K_ij U_j − i K'_ij U_j' + Ω² Δ e^{iφ}) e^{−iθ_k}),    K_ij = ν⁴ h⁺_ij at ν = Ω
 
 i is the race of ball k; U_j the imbalance of rotor, couple and balls in the plane j, U of a race Σ m R_p e^{iθ} and
 m Δ e^{iφ} of its offset; h⁺ = ½(h_xx + h_yy + i(h_yx − h_xy)) the forward receptance of the support with the balls'
-mass, K' = dK/dν. The second term is what slowly moving balls change; it is of the order of their rate over the distance
-of the speed from the natural frequencies, as is the change of their speed by the support's free motion at the start.
-`order` 1 leaves out both. It is as slow as the balls, so it costs a small share of the equations.
+mass, K' = dK/dν. The second term is the change by slowly moving balls. It is of the order of their rate over the
+distance of the speed from the natural frequencies, as is the change of their speed by the support's free motion at the
+start. `order` 1 leaves out both. The motion is as slow as the balls, so it costs a small share of the equations.
 
-Range: constant speed, linear supports or a swing arm idling, and no effect may switch: see `averages`.
+    averages        coefficients of the equations for a scene
+    not_averaged    the reason why they do not hold, if any
+    envelope        the slow motion by LSODA
+    motion          states of the full equations that the envelope stands for
+    followed        both, sampled as the runs of the integrators are
+
+Range: constant speed, linear supports or a swing arm idling, and no effect may switch: see `not_averaged`.
+
+Source: Kladiev 1996, (4)–(7), generalised; Blekhman 1988, ch. 2 (vibrational moments). The terms of the next order are
+derived here.
 """
 
 import cmath

@@ -1,4 +1,4 @@
-"""The graph of all expressions that the equations are made of, while the one right-hand side runs on symbols.
+"""Graph of all expressions of the equations, recorded while the one right-hand side runs on symbols.
 
 Every expression stands in the graph once. Those of parameters alone are worked out once for each mode (`setup`); the
 code of the equations finds them by their slots.

@@ -1,12 +1,11 @@
-"""The equations of a scene as plain Python on numbers: for few balls, several times as fast as arrays.
+"""Trace of the equations of a scene as straight-line code, and plain Python on numbers made of it.
 
-NumPy's calls cost a microsecond whatever they do, and an evaluation for a handful of balls is all calls. The one
-right-hand side is traced; the result is straight-line code, equal expressions once. SciPy's methods run on it.
+One trace serves all scenes of one structure and all their modes. The structure decides how the code looks: number of
+balls, kind of support, effects, zero elements of matrices. All other numbers are parameters of the code. Equal
+expressions stand in the code once.
 
-The equations of a scene in another language: one trace serves all scenes of one structure and all their modes.
-
-Structure is what decides how the code looks: number of balls, kind of support, effects, which matrix elements are zero.
-All other numbers are parameters of the code.
+SciPy's methods run on the plain Python. NumPy's calls cost a microsecond whatever they do, and an evaluation for a
+handful of balls is all calls. For few balls plain Python is several times as fast as arrays.
 """
 
 import copy

@@ -1,6 +1,6 @@
-"""Effects: what acts in a scene beside its support, its races and the imbalance. One effect, one file.
+"""Effects that act in a scene besides its support, its races and the imbalance: one effect, one file.
 
-How they go together, which tests hold them to:
+Rules of how they go together, to which tests hold them:
 
 An effect READS the kinematics (`Motion`), the levers, its own numbers, mode and states, the numbers of the scene
 (`Parameters`), and what is known of the scene (`Circumstances`: speed, races, support, how the rotor turns, how

@@ -1,4 +1,4 @@
-"""Balls of one race cannot pass each other: they meet, press and part.
+"""Ball contact: balls of one race cannot pass each other; they meet, press and lose contact.
 
     gap between neighbours ≥ 2β,    sin β = r/R_p
 

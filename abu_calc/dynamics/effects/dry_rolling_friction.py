@@ -1,4 +1,4 @@
-"""Dry rolling friction: a ball stands still in its race until it is pulled harder than f times its normal force.
+"""Dry rolling friction: a ball stands still in its race until the pull exceeds f times its normal force.
 
     |F| ≤ f |n| on a ball that sticks,    F = −f |n| θ'/|θ'| on one that rolls,    f = k_r/r
 

@@ -1,4 +1,4 @@
-"""Grinding contact: the wheel is pressed to the work on the −y side, where it cuts.
+"""Grinding contact: the wheel is pressed to the workpiece on the −y side, where it cuts.
 
     N along +y,    T = s f N along x,    h = y_w + ε sin(turn + φ₀): how far the wheel's surface stands off its place
 
@@ -12,7 +12,8 @@ on the centre of the wheel's surface, ε e^{i(turn + φ₀)} off the axis, R_w a
 
     ε (N cos − T sin)(turn + φ₀) + T R_w,    face: s f N₀ R_w
 
-Where T brakes a driven rotor it turns round with the sliding, and at rest holds by up to f N, see `switching.cutting`.
+If T brakes a driven rotor, it turns round with the sliding, and at rest holds by up to f N, see
+`switching.contact_stop`.
 
 Source: Kladiev 1996, (1), (3), (10). Printed: N < 0 is not excluded; rigid contact is given as printed, and a remark
 tells where that cannot be. There T = s f N may feed the balls: N grows with the square of their speed and their power

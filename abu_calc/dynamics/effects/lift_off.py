@@ -1,7 +1,7 @@
-"""Lift-off: the work presses the disk of a swing arm away, and never pulls it.
+"""Lift-off: the workpiece presses the disk of a swing arm away and never pulls it.
 
-The stiffness of the work stands in the support, see `swing_arm.cutting_arm`, whose linear theory is that of an arm that
-stays on its work. Where the arm has left it, the effect takes that moment back:
+The stiffness of the workpiece stands in the support, see `swing_arm.cutting_arm`, whose linear theory is that of an arm
+that stays on its workpiece. If the arm has left it, the effect takes that moment back:
 
     touching    φ beyond φ₀     nothing to add
     apart       φ before φ₀     + c l² (φ − φ₀),    c = c_n g(Z)

@@ -1,4 +1,7 @@
-"""All effects there are. A new one is a file beside this one, a line here, and its table in `inputs.scene_effects`."""
+"""Registry of all effects.
+
+A new effect is a file beside this one, a line here, and its table in `inputs.scene_effects`.
+"""
 
 from typing import Final
 

@@ -1,8 +1,8 @@
-"""Run-up and run-down: the rotor's speed rises from 0 to Ω at an even pace, and falls to 0 at the end of the run.
+"""Run-up and run-down: the rotor's speed rises from 0 to Ω at an even pace, and falls to 0 at the end.
 
     Ω' = Ω/T_up for t < T_up,   0,   −Ω/T_down for t > duration − T_down
 
-After the run-up the speed may dip: fall to a lower one, pause there, and rise again.
+After the run-up the speed may be reduced for a while: it falls to a lower one, stays there, and rises again.
 
 A rolling ball is turned by the race that accelerates: (J − 1) r Ω'/R_p on θ''. Source: derived from the rolling energy
 ½ (J − 1) m (r·turn' − R_p θ')². In a steady ramp a ball lags by θ' = −(1 − (J − 1) r/R_p) Ω'/h₀. What drives the

@@ -1,4 +1,4 @@
-"""Transverse motion: balls roll across the race too, in its groove, by w along the spindle.
+"""Transverse motion: balls also roll across the race, in its groove, by w along the spindle.
 
 Geometry, to second order in w/b, b = R_g − r the radius of the curve of the balls' centres across a groove of R_g:
 

@@ -1,4 +1,4 @@
-"""The one set of equations of motion, and how y flows through them.
+"""Equations of motion of any scene: one set, and the order in which its parts are evaluated.
 
     y = (q, q', θ, θ', states of effects, turn, speed)
         │

@@ -1,8 +1,8 @@
-"""Exact derivatives of the equations of motion.
+"""Assembly of the integrated equations of a scene: its numbers, the right-hand side and exact derivatives.
 
-Conversion of a scene to the numbers that its equations read.
-
-Assembly of the integrated equations from a scene.
+parameters_of    Scene → Parameters: the numbers that the equations read
+assemble         Scene → Equations, ready to integrate
+jacobian         ∂y'/∂y, exact to rounding
 """
 
 import math

@@ -1,8 +1,7 @@
-"""All accelerations from kinematics, levers and loads: the balls are eliminated, the frame solved, the balls put back.
+"""Accelerations from kinematics, levers and loads: balls eliminated, the frame solved, the balls put back.
 
-See `right_hand_side` for the equations.
-
-Small linear systems by plain arithmetic, so that numbers, complex numbers and symbols are all solved alike.
+See `right_hand_side` for the equations. Small linear systems are solved by plain arithmetic, so that numbers, complex
+numbers and symbols are all solved alike.
 """
 
 from collections.abc import Sequence

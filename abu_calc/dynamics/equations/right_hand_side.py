@@ -1,4 +1,4 @@
-"""The one set of equations of motion, composed of a support, races of balls, and the effects of a scene.
+"""Right-hand side of the equations of motion, composed of a support, races of balls, and the effects of a scene.
 
 A support is felt by the balls as a frame of d accelerations A. Ball k of mass m stands at the angle θ_k in the rotor,
 γ_k = θ_k + (turn of the rotor), e_r = (cos γ, sin γ), e_t = (−sin γ, cos γ). With T_k and N_k the acceleration of its

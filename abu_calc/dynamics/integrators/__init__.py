@@ -1,4 +1,6 @@
-"""Ways through the equations, each with `integrate(equations, tolerance, sample_times) -> Trajectory`.
+"""Integrators of the equations of motion.
+
+Each has `integrate(equations, tolerance, sample_times) -> Trajectory`.
 
 choice.py          the method for a scene, and why
 work_estimates.py  how fast a scene's motion dies out and oscillates, and how much work that makes

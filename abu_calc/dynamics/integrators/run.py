@@ -1,6 +1,6 @@
-"""Common parts of all integrators: the way from event to event, and how a run is refused or ends.
+"""Common parts of all integrators: the way from event to event, samples, and how a run is refused or ends.
 
-Samples on their way from an integrator to who reads and who holds them: memory is taken for what is held alone.
+`Recorder` hands samples from an integrator to their readers. Memory is taken only for samples that are held.
 """
 
 from abc import ABC, abstractmethod

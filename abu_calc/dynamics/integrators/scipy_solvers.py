@@ -1,7 +1,8 @@
-"""Integration by SciPy: DOP853 (Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.5), and
-Radau IIA of order 5 where the equations are stiff (Hairer & Wanner 1996, the second volume, IV.8).
+"""Integration by SciPy: explicit steps for smooth motion, implicit ones for stiff equations, and located events.
 
-Events of SciPy's runs: the times at which one of the watched numbers falls below zero, on the dense output.
+DOP853: Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.5. Radau IIA of order 5 for stiff
+equations: Hairer & Wanner 1996, the second volume, IV.8. Events are the times at which a watched number falls below
+zero, on the dense output.
 """
 
 import importlib

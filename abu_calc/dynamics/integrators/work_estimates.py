@@ -1,8 +1,7 @@
-"""About how much work a scene is, by counting: nothing is timed, so that a scene has one answer on every machine.
+"""Work of integrating a scene, estimated from the decay and oscillation rates of its motion at the start.
 
-Decay and oscillation rates of a scene's motion at its start.
-
-An integrator has to follow them, or to step over them.
+An integrator has to follow these rates, or to step over them. Work is counted in evaluations and nothing is timed, so
+that a scene has one answer on every machine.
 """
 
 import math

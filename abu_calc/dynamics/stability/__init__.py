@@ -1,1 +1,1 @@
-"""The balanced state: where balls rest, small motions about it, and whether they die out."""
+"""The balanced state: resting places of the balls, small motions about them, and whether these die out."""

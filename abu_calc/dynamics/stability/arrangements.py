@@ -1,4 +1,4 @@
-"""Arrangements of balls that balance: of more than two in a race, n − 2 angles are free."""
+"""Arrangements of balls that balance: with n > 2 balls in a race, n − 2 angles are free."""
 
 import math
 from collections.abc import Iterator, Sequence

@@ -1,8 +1,7 @@
-"""Speeds at which the balanced state of a scene gains or loses its stability.
+"""Stability boundaries: speeds at which the balanced state of a scene gains or loses its stability.
 
-Growth rates over a range of speeds, and the speeds at which they change sign.
-
-Eigenvalues that cross the edge of stability with the speed.
+Growth rates are computed over a range of speeds. A boundary is a speed at which the rate changes sign, or at which an
+eigenvalue or multiplier crosses the edge of stability.
 """
 
 import math

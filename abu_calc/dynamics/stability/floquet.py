@@ -1,8 +1,10 @@
-"""The edge of the arm's tongue by Floquet theory: what averaging says of it only for a small imbalance.
+"""Floquet theory: growth of a linear system over one period of its matrix, and a swing arm's instability edge.
 
-(1 + 2κ cos t) z'' + 2κ (kσ − sin t) z' + k² z = 0 over one revolution; Kovalenko 2010, (17), κσ = h/ω₀, k = ω₀/ω.
+Averaging gives that edge for a small imbalance only. The arm's free motion over one revolution:
 
-Floquet theory: what a linear system does over one period of its matrix.
+    (1 + 2κ cos t) z'' + 2κ (kσ − sin t) z' + k² z = 0
+
+Source: Kovalenko 2010, (17), κσ = h/ω₀, k = ω₀/ω.
 """
 
 import math

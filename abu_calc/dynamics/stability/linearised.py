@@ -6,10 +6,8 @@ machines are alike.
 
 Linear supports are seen from the rotor: their coordinates are taken in pairs along x and y, in the order in which they
 stand, and turned with it. On an isotropic support A is constant then, which is how one is known; on any other it
-repeats with every half turn. Pairs that are none cost time, not truth: any such turning is a change of coordinates.
-Supports with an odd number of coordinates, and those that turn with the rotor, stay as they are.
-
-Matrices put together of blocks, and the directions that rows span.
+repeats with every half turn. Pairs that do not belong together cost time, not truth: any such turning is a change of
+coordinates. Supports with an odd number of coordinates, and those that turn with the rotor, stay as they are.
 """
 
 import math

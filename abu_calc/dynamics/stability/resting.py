@@ -1,9 +1,7 @@
 """Resting places at which balls balance, however many and however unequal they are.
 
-Needed resultants of balls at rest in the rotor (Kladiev 1996, eq. (4), in the right quadrant).
-
-Imbalances are complex numbers U e^{iφ} [kg m], φ from the zero mark. The rotor is idle and freely
-suspended.
+The resultants that balls at rest in the rotor need: Kladiev 1996, eq. (4), in the right quadrant. Imbalances are
+complex numbers U e^{iφ} [kg m], φ from the zero mark. The rotor is idle and freely suspended.
 """
 
 import cmath

@@ -1,6 +1,7 @@
-"""The worst arrangement on an anisotropic support or a swing arm, searched in the family of all that balance.
+"""Search for the worst arrangement of balls: the one whose small motions die out most slowly.
 
-Growth rates of small motions: which of several is the worst, and what is taken for no growth.
+The search is needed on an anisotropic support or a swing arm. It covers the family of all arrangements that balance.
+`worst` compares several; growth below a stated bound counts as none.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Bounds on stalling in a scene: the closed bounds of `formulas.hanging` on any linear support."""
+"""Bounds on stalling in a scene: the closed bounds of `formulas.slow_motion` on any linear support."""
 
 import math
 from typing import Final

@@ -1,4 +1,4 @@
-"""Small motions about balls that balance in one race: of all they can do, the support feels two modes.
+"""Small motions about balls that balance in one race, reduced to the two modes that the support feels.
 
     α = Σ δ cos θ,  β = Σ δ sin θ,  counted from the axis of Σ e^{2iθ},  of which  χ = |Σ e^{2iθ}|/n  is all that counts
     support   M D²q + C D q + K q + m Pᵀ D²(B η) = 0,     D = d/dt + Ω × (seen from the rotor),  η = R_p (α, β)
@@ -8,7 +8,8 @@ On an isotropic support that is, with X = J s² + h₀ s, a = s + iΩ, b = s −
 
     X² D(a)D(b) − (N/2)(a⁴D(b) + b⁴D(a)) X + (N/2)²(1 − χ²) a⁴b⁴ = 0
 
-The same as `linearised` finds for any support and any balls, in a fraction of the time. Source: derived.
+The result equals that of `linearised`, which takes any support and any balls, in a fraction of the time. Source:
+derived.
 """
 
 import math

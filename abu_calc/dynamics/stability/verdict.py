@@ -75,7 +75,7 @@ def stability(scene: Scene, half_angle: float = 0.0, arrangement: Arrangement = 
 def critical_damping(scene: Scene) -> float | None:
     """Damping of the support [N·s/m] that parametric resonance cannot overcome as long as nothing is balanced.
 
-    None where there is none: see `SwingArm.critical_damping`.
+    None where there is none: see `SwingArmSupport.critical_damping`.
     """
     return scene.support.critical_damping(scene.imbalance, scene.balls)
 

@@ -1,10 +1,8 @@
-"""A machine held in two hands, whose masses move on their own.
+"""Linear supports M q'' + C q' + K q = Pᵀ F, and those whose races are in one plane and move in it.
 
-Common parts of all linear supports M q'' + C q' + K q = Pᵀ F.
-
-A rotor whose races are in one plane, and move in it.
-
-A planar rotor with a further body on it, such as a casing or a handle that gives.
+planar       a point mass on springs and dampers
+with_body    a further body on it, such as a casing or a handle that gives
+in_hands     a machine held in two hands, whose masses move on their own
 """
 
 import math
@@ -302,7 +300,7 @@ def _joined(ground: list[float], link: list[float]) -> AnyArray:
 
 
 def in_hands(mass: float, axes: tuple[Hand, Hand]) -> PlanarSupport:
-    """A point mass [kg] in two hands that move alike, `axes` the hand along x and along y; see `formulas.hands`.
+    """A point mass [kg] in two hands that move alike, `axes` the hand along x and along y; see `formulas.suspension`.
 
     Its receptance is 1/(`handle_reaction` − mΩ²). Mass positive; raises RangeError.
 

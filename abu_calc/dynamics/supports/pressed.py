@@ -1,6 +1,6 @@
-"""Action of a wheel pressed to its workpiece: the change of the axis's motion, and remarks on a run.
+"""Action of a wheel pressed to its workpiece: the change of spindle displacement, and remarks on a run.
 
-Equations and signs are those of a `GrindingContact`.
+Equations and signs are those of a `GrindingContactEffect`.
 """
 
 from typing import Final

@@ -1,4 +1,4 @@
-"""The steady motion of the support without balls, and what amplitudes are compared with."""
+"""Steady motion of a support without balls, and the amplitudes with which errors are compared."""
 
 from functools import lru_cache
 

@@ -1,4 +1,4 @@
-"""A rotor at the end of a swing arm, of which small angles are not assumed."""
+"""A rotor at the end of a swing arm; small angles are not assumed."""
 
 import math
 from collections.abc import Sequence

@@ -1,6 +1,6 @@
-"""Balls that touch: what impacts do to all speeds, and which touching pairs press.
+"""Balls that touch: changes of all speeds by impacts, and which touching pairs press.
 
-Accelerations are linear in torques on the balls, so unit torques tell all that is needed of the mass matrix, whatever
+Accelerations are linear in torques on the balls, so unit torques give all that is needed of the mass matrix, whatever
 the support and the other effects. Balls that touch pass on torques about the race's centre: their angles are bound.
 """
 

@@ -1,9 +1,9 @@
-"""Wheel and work: whether they touch, and how a rotor that a motor drives slides over the work, or stands on it.
+"""Wheel and workpiece: whether they touch, and whether a driven rotor slides over the workpiece or stands on it.
 
     |T| ≤ f N on a wheel that stands,    T = −f N v/|v| on one that slides,    v = x_w' + Ω (R_w − ε sin(turn + φ₀))
 
-v is the speed of the wheel's surface over the work. Standing is exact: v is 0, and an event ends it. Source: Coulomb's
-friction, as for balls in `sticking`.
+v is the speed of the wheel's surface over the workpiece. Standing is exact: v is 0, and an event ends it. Source:
+Coulomb's friction, as for balls in `stick_slip`.
 """
 
 from dataclasses import replace

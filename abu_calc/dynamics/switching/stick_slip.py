@@ -1,4 +1,4 @@
-"""Balls that stick by dry friction: which of them go on sticking, which roll, and to which side of their race.
+"""Balls under dry friction: which of them go on sticking, which roll, and to which side of their race.
 
 `f` is the friction per normal force. The normal forces are part of the motion, so directions and sides are tried, from
 all slow balls at rest, until they and the accelerations that follow from them agree.

@@ -1,1 +1,1 @@
-"""`abu accuracy`: what accuracy costs in time."""
+"""`abu accuracy`: computing time against accuracy."""

@@ -1,4 +1,4 @@
-"""`abu accuracy MACHINE|SCENE`: what accuracy costs in time."""
+"""`abu accuracy MACHINE|SCENE`: computing time against accuracy."""
 
 from typing import TYPE_CHECKING, Annotated
 

@@ -1,8 +1,6 @@
-"""Figures of `abu accuracy`: error against time, a line for each way to compute.
+"""The report of `abu accuracy`: the price list as a table and as a picture in plain characters, and its figure.
 
-They also define settling and accuracy.
-
-The price list of a scene as a table, and as a picture in plain characters.
+The figure shows error against time, a line for each way to compute. Its note defines settling and accuracy.
 """
 
 import math

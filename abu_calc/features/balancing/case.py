@@ -1,4 +1,4 @@
-"""Numbers in SI from a file of readings: the roll on its rig, its runs, the errors; records evaluated."""
+"""Readings in SI: the roll on its rig, its runs and their errors, with recorded runs evaluated."""
 
 import hashlib
 import math

@@ -1,7 +1,4 @@
-"""Warnings about a correction in two planes and about the way it was found.
-
-Checks of readings, rig and roll before a correction is trusted, each with the number behind it.
-"""
+"""Checks and warnings on readings, rig, roll and correction, each with the number behind it."""
 
 from collections.abc import Iterator, Sequence
 from typing import Final

@@ -1,9 +1,11 @@
-"""Corrections in a plane: remove metal at the heavy spot, add it opposite, or split it over places.
+"""Possible error of a two-plane answer, and corrections in a plane as masses at places.
 
-Possible error of a two-plane answer: each input number is moved by its standard deviation.
+Each input number is moved by its standard deviation:
 
-Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2, variance Σ Δ_i²; the errors of all numbers are
-independent
+    Δ_i = (answer(p_i + σ_i) − answer(p_i − σ_i))/2,    variance Σ Δ_i²
+
+The errors of all numbers are independent. A correction removes metal at the heavy spot, or adds it opposite, or is
+split over given places.
 """
 
 import cmath

@@ -1,6 +1,7 @@
 """Figures of `abu balance`: corrections, before and after, causes of uncertainty, the formulas.
 
-Both planes of a roll as one stands before its ends: zero mark on top, the heavy spot, what is to be done.
+`planes_drawing` shows both planes of a roll as one stands before its ends: zero mark on top, the heavy spot, the
+correction.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""A roll on two supports that move to and fro: what its imbalances in two planes do to them, and back.
+"""Formulas of a roll on two supports that move to and fro: motion from imbalances in two planes, and back.
 
 An imbalance of mass q at radius R, its heavy spot the angle φ behind the zero mark, is the complex number
 Q = q·R·e^{−iφ}: it pulls along the sensors with the real part of Q·Ω²·e^{iΩt}, t from the passage of the mark. A motion

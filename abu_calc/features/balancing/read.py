@@ -1,4 +1,4 @@
-"""Reading a file of readings, and the records it names."""
+"""Reading of a file of readings and of the records that it names."""
 
 import os
 from collections.abc import Mapping, Sequence

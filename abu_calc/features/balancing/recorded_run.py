@@ -1,11 +1,10 @@
-"""A recorded run: amplitude and phase of both sensors at the speed of rotation.
+"""A recorded run: its CSV file, and amplitude and phase of both sensors at the speed of rotation.
 
     x = Σ of offset, its drift, A·cos(θ − α) with a steady change of A, and the next harmonics, θ the rotor's angle
 
 θ comes from the passages of the mark, so that a drifting speed smears nothing; the sum is fitted by least squares over
-the whole revolutions between the first passage and the last, evenly sampled or not.
-
-A recorded run: a CSV file with the columns time, left, right, mark.
+the whole revolutions between the first passage and the last, evenly sampled or not. Columns of the file: time, left,
+right, mark.
 """
 
 import io

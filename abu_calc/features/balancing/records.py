@@ -1,4 +1,4 @@
-"""Records of a result of balancing in two planes."""
+"""Parts of the result of `abu balance`, in user units."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Results of the readings: the solution, its possible error, and what that leaves; in SI."""
+"""Solution of a file of readings in SI: the correction, its possible error, and the imbalance that it leaves."""
 
 import cmath
 import math

@@ -1,6 +1,6 @@
-"""Balancing in two planes: from readings of a roll on a rig to what to take off or put on, where, and how sure.
+"""Balancing in two planes: from readings of a roll on a rig to corrections, their places and their errors.
 
-The parts of a result of balancing, in user units, made of what was found.
+The result has user units; functions here convert its parts from SI.
 """
 
 import cmath

@@ -1,8 +1,7 @@
-"""A file of readings: the rig, the roll on it, the runs, and what the balanced roll is held to.
+"""Tables of a file of readings: the rig, the roll on it, the runs, and the tolerance of the balanced roll.
 
-Errors that readings and data of the rig may have.
-
-A run on the rig: what was read, or the record it is taken from, and the trial masses that were on.
+A run holds what was read, or the record it is taken from, and the trial masses that were on. `Errors` holds the errors
+that readings and data of the rig may have.
 """
 
 from collections.abc import Iterator

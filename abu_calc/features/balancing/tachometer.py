@@ -1,6 +1,6 @@
-"""Passages of the zero mark at its sensor.
+"""Passages of the zero mark at its sensor: times of revolutions from pulses.
 
-Pulses of either polarity, square or rounded, give the times of revolutions.
+Pulses have either polarity and are square or rounded.
 """
 
 from typing import Final, Literal

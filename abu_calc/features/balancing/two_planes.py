@@ -1,4 +1,4 @@
-"""Balancing in two planes: the imbalances behind the readings of a rig, by its data or by trial masses.
+"""Imbalances in two planes behind the readings of a rig, by the rig's data or by trial masses.
 
     by data      Q = mean over the runs of imbalances(X) − T          formulas.py beside it
     by trials    X = H·(Q + T), H and H·Q by least squares over the runs, T the masses that were on

@@ -1,6 +1,7 @@
-"""The report of `abu balance`: what to do in both planes, drawn, how sure it is, and what the next run will show.
+"""The report of `abu balance`: the correction in both planes, drawn, its error, and the next run expected.
 
-Both planes as one sees them who stands before the roll's end: the mark on top, what is to be done on the circle.
+The drawing shows both planes as seen by somebody who stands before the roll's end: the mark on top, the correction on
+the circle.
 """
 
 import cmath

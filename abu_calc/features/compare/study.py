@@ -1,7 +1,4 @@
-"""Machines, or variants of one, side by side: what differs in their files, designs and checks.
-
-Values of several machines side by side: which differ, and which do not.
-"""
+"""Machines, or variants of one, side by side: differences in their files, designs and checks."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace

@@ -1,8 +1,7 @@
-"""Figures of `abu compare`: the main numbers of each machine as bars.
+"""The report of `abu compare`: differences on one screen, the whole comparison as tables, and its figures.
 
-Entries of several machines as tables: one column for each machine, one row for each entry.
-
-The report of `abu compare`: one screen of what differs, and the whole of what is compared.
+A table has one column for each machine and one row for each entry. The figures show the main numbers of each machine as
+bars.
 """
 
 import math

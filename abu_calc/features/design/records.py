@@ -1,6 +1,6 @@
-"""The section of a sized autobalancer as results hold it: every length that its drawing shows, and the outlines.
+"""Parts of the result of `abu size`: candidates, budget, levels, section; SI in, user units out.
 
-The parts of a sized design, as results hold them: SI in, user units out.
+The section holds every length that its drawing shows, and the outlines.
 """
 
 from dataclasses import replace

@@ -1,6 +1,7 @@
-"""The frequency region of a machine without approximations: where its idle balanced state is stable.
+"""Stability of the idle machine over its speeds without approximations, and starts that dry friction ends.
 
-Starts of a design at whose end dry friction holds every ball at rest in its race.
+`true_region` gives the frequency region in which the idle balanced state is stable, by eigenvalues. `stuck_balls`
+counts the start cases at whose end dry friction holds every ball at rest in its race.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""The report of `abu size` on one screen, and the lines with which the whole one begins."""
+"""The report of `abu size` on one screen, and the lines with which the whole report begins."""
 
 import math
 from typing import Final, NamedTuple

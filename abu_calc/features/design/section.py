@@ -1,4 +1,4 @@
-"""The section through the axis: the outlines of the parts that make the housing, by the rules of its design.
+"""Section through the axis: outlines of the parts that make the housing, by the rules of its design.
 
 Outlines lie in the half plane above the axis: x along it [m], from the closed web's face, r from it [m]. A vertex
 carries the bulge of the edge that leaves it, the tangent of a quarter of its arc, positive counter-clockwise.

@@ -1,6 +1,7 @@
-"""A section in characters for a terminal: the axis stands upright, so that the long side lies along the lines.
+"""Drawings of the autobalancer: section through its axis, face with the cover off, section in characters.
 
-The autobalancer: its section through the axis, and its face with the cover off, to scale with dimensions.
+The drawings are to scale with dimensions. In characters, for a terminal, the axis stands upright, so that the long side
+lies along the lines.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""A sheet to hand over: both views of the autobalancer, notes from the drawing table, list of parts, title block."""
+"""Drawing sheet of the autobalancer: both views, notes from the drawing table, list of parts, title block."""
 
 import textwrap
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,8 @@
-"""Starts that nobody listed: a designed set over the whole race, then a search round the slowest and the loudest.
+"""Search for start cases beyond the listed ones: a designed set over the whole race, then round the worst.
 
-The listed starts decide what fails. These find what they miss: balls that lie together at any angle to the imbalance,
-as they do at the bottom of a horizontal race, balls anywhere, each at full speed and in run-ups of several times.
+The listed start cases decide the checks. The search looks for worse ones: balls together at any angle to the imbalance,
+as they lie at the bottom of a horizontal race, and balls anywhere, each at full speed and in run-ups of several times.
+The neighbourhood of the slowest and of the loudest is searched last.
 """
 
 import math

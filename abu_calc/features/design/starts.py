@@ -1,8 +1,6 @@
-"""Results of many start cases of one design, as results hold them.
+"""Start cases of a design as results hold them, and those that are run again to be shown.
 
-Starts of an ensemble run once more, to be looked at: the worst, a typical one, each kind.
-
-Ways in which one machine was switched on, to be looked at: run again when somebody asks, which few do.
+Shown are the worst start case, a typical one and one of each kind. They are run again on request only.
 """
 
 import math

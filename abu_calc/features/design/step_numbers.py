@@ -1,4 +1,4 @@
-"""The formulas of each step with the numbers of a sized machine put in: lines, or None where it has no such step."""
+"""Formulas of each step with the numbers of a sized machine put in: lines, or None if it has no such step."""
 
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final

@@ -1,6 +1,6 @@
-"""A machine sized: region, imbalance, capacity, balls, track, budget, seats, arm, and a simulation of the design.
+"""A machine sized: region, imbalance, capacity, balls, race, budget, seats, arm, and a simulation of the design.
 
-The SI numbers behind a sized design, for those who check it by hand.
+`SizeModel` holds the SI numbers behind a sized design, for those who check it by hand.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,8 +1,7 @@
-"""The design whose starts all balance: the first of the candidates that does, and remedies that were tried.
+"""Verification of a design: the first candidate that balances from every start case, and tried remedies.
 
-Small changes of a machine with which its design passes from every start case.
-
-Each change is tried before it is named.
+Remedies are small changes of a machine with which its design passes from every start case. Each is tried before it is
+named.
 """
 
 import math

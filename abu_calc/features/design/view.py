@@ -1,4 +1,4 @@
-"""The whole report of `abu size`: verdict, checks, warnings, design, then what it rests on."""
+"""The whole report of `abu size`: verdict, checks, warnings, design, then the reasons."""
 
 from collections.abc import Iterator, Sequence
 

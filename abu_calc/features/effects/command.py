@@ -1,4 +1,4 @@
-"""`abu effects [MACHINE|SCENE]`: the effects there are; with a file, which of them are simulated, and why."""
+"""`abu effects [MACHINE|SCENE]`: all effects; with a file, those that are simulated, and why."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""The effects there are; of a scene: which are simulated, what each weighs, and why."""
+"""Effects of the model; of a scene those that are simulated, their estimated influence, and the reasons."""
 
 from collections.abc import Sequence
 from typing import Annotated, ClassVar

@@ -1,4 +1,4 @@
-"""Effects as text: those there are, and the ledger of a scene."""
+"""Effects as text: those of the model, and the list of effects of a scene."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""`abu explain [STEP|CODE|EFFECT]`: a step's formulas, what a check asks or what an effect is, without a machine."""
+"""`abu explain [STEP|CODE|EFFECT]`: formulas of a step, question of a check, or an effect, without a machine."""
 
 from typing import Annotated
 

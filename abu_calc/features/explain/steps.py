@@ -1,4 +1,4 @@
-"""Explanations of steps, formulas and checks.
+"""Explanations of steps, formulas and checks as text.
 
 Equation, units, range, source and misprints of a formula are registered beside its function.
 """

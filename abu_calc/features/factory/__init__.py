@@ -1,1 +1,1 @@
-"""`abu factory`: machines that a factory measured, beside what is predicted of them."""
+"""`abu factory`: levels that a factory measured of its machines, beside predictions."""

@@ -1,4 +1,4 @@
-"""`abu factory`: the machines that a factory measured, beside what is predicted of them."""
+"""`abu factory`: levels that a factory measured of its machines, beside predictions."""
 
 import typer
 

@@ -1,6 +1,6 @@
-"""The factory's machines: what was measured beside what is predicted, by one set of assumptions.
+"""The factory's machines: measured levels beside predicted ones, by one set of assumptions.
 
-Makers' measurements of machines with autobalancers.
+`factory_rows` gives the maker's measurements of machines with autobalancers.
 """
 
 from typing import Annotated, ClassVar

@@ -1,4 +1,4 @@
-"""The report of `abu factory`: one table, and a word on each row."""
+"""The report of `abu factory`: one table, and a remark on each row."""
 
 from collections.abc import Sequence
 

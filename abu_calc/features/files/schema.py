@@ -1,4 +1,4 @@
-"""`abu schema [machine|scene|readings|result]`: the JSON Schema of files, for editors, or of results, for programs."""
+"""`abu schema [machine|scene|readings|result]`: JSON Schema of files, for editors, or results, for programs."""
 
 from typing import Annotated, Any
 

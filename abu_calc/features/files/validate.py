@@ -1,8 +1,6 @@
 """`abu validate FILE…`: check files and nothing else.
 
-Early refusal of files that cannot be computed with.
-
-A file that its own commands would refuse, seconds later, is refused at once.
+A file that its own commands would refuse, seconds later, is refused at once (`refuse_unusable`).
 """
 
 from typing import Annotated

@@ -1,7 +1,4 @@
-"""Checks on a machine at its workpiece that its autobalancer must pass, in `abu grinding`.
-
-Agreement of closed form and simulation for the same machine on its workpiece.
-"""
+"""Checks of `abu grinding`: limits for a machine at its workpiece, and closed form against simulation."""
 
 import cmath
 from dataclasses import replace
@@ -54,73 +51,6 @@ class Agreement:
     def apart(self) -> float | None:
         """The largest."""
         return max((each for each in (self.axis, self.reaction, self.imbalance) if each is not None), default=None)
-
-
-def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
-    """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
-
-    Balls that do not get to their places from there, or not within what is simulated, are started at them: they must
-    stay. None where wheel and work part or balls do not balance: the closed form does not speak of these. A face leaves
-    balls where they stand.
-    """
-    steady = work.fitted.steady
-    if (
-        not contact_presses(work.design.case)
-        or work.fitted.parts
-        or steady.balls is None
-        or steady.balls.places != "balanced"
-        or steady.axis is None
-    ):
-        return None
-    scene = only_contact(scene_of_design(work.design, "grinding", "settled"))
-    sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
-    slowest = min(loaded_rate(work.design, each) for each in (steady.balls.stiffness, steady.balls.worst))
-    if min(slowest, sway) * LONGEST >= LONG:
-        comparison = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
-        if comparison.apart is not None and comparison.apart <= AGREES:
-            return comparison
-    there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
-    return replace(there, reached=False)
-
-
-def _lasting(scene: Scene, rate: float) -> Scene:
-    """Until what dies out at a rate [1/s] is gone, within bounds."""
-    longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
-    return replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
-
-
-def _placed(scene: Scene, balls: RestingBalls) -> Scene:
-    """Started where the closed form has its balls."""
-    return replace(scene, races=tuple(replace(race, start_angles=balls.angles) for race in scene.races))
-
-
-def _compared(work: Work, scene: Scene, accuracy: float, progress: Progress) -> Agreement:
-    try:
-        run = working(scene, accuracy, progress)
-    except NotTrustworthyError as error:
-        return Agreement(failure=str(error).splitlines()[0])
-    return compared(work.fitted.steady, run, work.design.autobalancer.static_moment)
-
-
-def loaded_rate(design: Design, stiffness: tuple[complex, complex]) -> float:
-    """Slowest decay rate of the balls under load [1/s]; below zero where they flutter or go away."""
-    drag, inertia = design.case.drag, design.case.inertia_factor
-    return min((drag - abs(cmath.sqrt(drag**2 - 4 * inertia * k).real)) / (2 * inertia) for k in stiffness)
-
-
-def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Agreement:
-    """Differences relative to the larger of what is compared and what the imbalance that the balls carry would cause.
-
-    `moment` Σ m·R_p [kg m].
-    """
-    axis, total = steady.axis or (0j, 0j), steady.imbalance or 0j
-    carried = max(abs(total - steady.own), 0.01 * moment)
-    force = carried * steady.contact.speed**2
-    off = max(abs(simulated - calculated) for simulated, calculated in zip(run.axis, axis, strict=True))
-    usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
-    reaction = steady.reaction or 0j
-    pressed = abs(run.reaction - reaction) / max(abs(reaction), force) if len(run.force) else None
-    return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)
 
 
 def work_checks(
@@ -293,3 +223,70 @@ def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
         message += "; balls started there, since from where they stand at idle they do not get there, or not in time"
     return (coded("ABU425", verdict(True, near and compared.reached), message,
                   100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip
+
+
+def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agreement | None:
+    """Closed form against the simulation of the same contact, ideal race and balls, from where the balls stand at idle.
+
+    Balls that do not get to their places from there, or not within what is simulated, are started at them: they must
+    stay. None where wheel and work part or balls do not balance: the closed form does not speak of these. A face leaves
+    balls where they stand.
+    """
+    steady = work.fitted.steady
+    if (
+        not contact_presses(work.design.case)
+        or work.fitted.parts
+        or steady.balls is None
+        or steady.balls.places != "balanced"
+        or steady.axis is None
+    ):
+        return None
+    scene = only_contact(scene_of_design(work.design, "grinding", "settled"))
+    sway, _ = free_rates(scene.support, scene.races[0], scene.speed)
+    slowest = min(loaded_rate(work.design, each) for each in (steady.balls.stiffness, steady.balls.worst))
+    if min(slowest, sway) * LONGEST >= LONG:
+        comparison = _compared(work, _lasting(scene, min(slowest, sway)), accuracy, progress)
+        if comparison.apart is not None and comparison.apart <= AGREES:
+            return comparison
+    there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
+    return replace(there, reached=False)
+
+
+def _lasting(scene: Scene, rate: float) -> Scene:
+    """Until what dies out at a rate [1/s] is gone, within bounds."""
+    longer = min(LONG / rate if rate > 0 else LONGEST, LONGEST)
+    return replace(scene, name="grinding, contact alone", duration=max(scene.duration, longer))
+
+
+def _placed(scene: Scene, balls: RestingBalls) -> Scene:
+    """Started where the closed form has its balls."""
+    return replace(scene, races=tuple(replace(race, start_angles=balls.angles) for race in scene.races))
+
+
+def _compared(work: Work, scene: Scene, accuracy: float, progress: Progress) -> Agreement:
+    try:
+        run = working(scene, accuracy, progress)
+    except NotTrustworthyError as error:
+        return Agreement(failure=str(error).splitlines()[0])
+    return compared(work.fitted.steady, run, work.design.autobalancer.static_moment)
+
+
+def loaded_rate(design: Design, stiffness: tuple[complex, complex]) -> float:
+    """Slowest decay rate of the balls under load [1/s]; below zero where they flutter or go away."""
+    drag, inertia = design.case.drag, design.case.inertia_factor
+    return min((drag - abs(cmath.sqrt(drag**2 - 4 * inertia * k).real)) / (2 * inertia) for k in stiffness)
+
+
+def compared(steady: SteadyWork, run: WorkSimulation, moment: float) -> Agreement:
+    """Differences relative to the larger of what is compared and what the imbalance that the balls carry would cause.
+
+    `moment` Σ m·R_p [kg m].
+    """
+    axis, total = steady.axis or (0j, 0j), steady.imbalance or 0j
+    carried = max(abs(total - steady.own), 0.01 * moment)
+    force = carried * steady.contact.speed**2
+    off = max(abs(simulated - calculated) for simulated, calculated in zip(run.axis, axis, strict=True))
+    usual = max(*map(abs, axis), force / min(map(abs, steady.contact.dynamic_stiffness)))
+    reaction = steady.reaction or 0j
+    pressed = abs(run.reaction - reaction) / max(abs(reaction), force) if len(run.force) else None
+    return Agreement(off / usual, pressed, abs(run.imbalance - total) / carried)

@@ -1,4 +1,4 @@
-"""`abu grinding MACHINE`: does the autobalancer help at work, and how does the wheel wear?"""
+"""`abu grinding MACHINE`: effect of the autobalancer at work, and wear of the wheel."""
 
 from typing import TYPE_CHECKING
 

@@ -1,10 +1,9 @@
-"""Curves and bounds of a machine at its work by steady contact: hodograph, speeds, separation, friction shaken out.
+"""Curves and bounds of a machine at work by steady contact: hodograph, speeds, separation, dry friction.
 
-Residual displacement by dry friction at work, with and without shaking of the balls, by simulation.
-
-The model has only the balls, their friction and the shaking. An axial runout of a face wheel moves the
-machine along its spindle, so that balls roll across their race. A runout in the plane moves the race
-along the balls' path. Source of the question: Kladiev 1996.
+`shaken` simulates the residual displacement by dry friction, with and without shaking of the balls. That model has only
+the balls, their friction and the shaking. An axial runout of a face wheel moves the machine along its spindle, so that
+balls roll across their race. A runout in the plane moves the race along the balls' path. Source of the question:
+Kladiev 1996.
 """
 
 import cmath

@@ -1,13 +1,12 @@
-"""Stability of balls of finite mass under load: growing roots of the characteristic equation, counted.
+"""Formulas of balls under load: resting places as published, flutter, contacts they bear, friction shaken out.
 
-The balls' slow motion is no longer slow if a natural frequency of the machine on its contact is near the
-speed. The whirl then follows with its own dynamics, G at Ω − is instead of Ω.
+Conventions of `formulas.steady_contact`; angles in the rotor, from the imbalance in the sense of rotation.
 
-Balls of a machine at work: where the source puts them, what lets them flutter, which contacts they bear.
+Stability of balls of finite mass: growing roots of the characteristic equation are counted. The balls' slow motion is
+no longer slow if a natural frequency of the machine on its contact is near the speed. The whirl then follows with its
+own dynamics, G at Ω − is instead of Ω.
 
-Conventions of `formulas.contact`; angles in the rotor, from the imbalance in the sense of rotation.
-
-Shaking that frees balls from dry rolling friction in a race: it moves them faster than they creep.
+Shaking frees balls from dry rolling friction in a race if it moves them faster than they creep.
 """
 
 import cmath

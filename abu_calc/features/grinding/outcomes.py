@@ -1,6 +1,6 @@
-"""Levels under load that are lower bounds, because the model lacks what sets the level on the shop floor.
+"""Motions that the start cases of grinding end with, sorted into groups, and levels that are lower bounds.
 
-The motions that the start cases of grinding end with, sorted into groups, and what the groups say of the level.
+A level under load is a lower bound if the model lacks the excitation that sets the level on the shop floor.
 """
 
 import cmath
@@ -92,7 +92,7 @@ def _without_friction(work: Work, outcome: LoadedOutcome) -> complex:
     """Imbalance [kg m] of wheel and balls in the race plane with which the centre of the race does not whirl forward.
 
     G·U + runout's part + Δ·e^{iβ} = 0 with the whirl G per imbalance: U = U₀ − Δ·e^{iβ}/G, where U₀ is that of a
-    race on the axis. Source: derived, from `formulas.contact`; race in the plane of the wheel.
+    race on the axis. Source: derived, from `formulas.steady_contact`; race in the plane of the wheel.
     """
     steady, case, autobalancer = work.fitted.steady, work.design.case, work.design.autobalancer
     centre = cmath.rect(case.race_eccentricity, outcome.start.member.eccentricity)

@@ -1,4 +1,4 @@
-"""The parts of the result of `abu grinding`, in user units."""
+"""Parts of the result of `abu grinding`, in user units."""
 
 import cmath
 import math

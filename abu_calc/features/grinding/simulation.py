@@ -1,11 +1,8 @@
-"""Statistics of long runs of a machine whose wheel bounces on its workpiece without repeating.
+"""Simulation of a machine at its workpiece: displacement, contact force and normal force of the last turns.
 
-If errors grow without end, no run can be computed twice alike, nor does it happen twice on the shop
-floor. The mean stays the same from run to run; the scatter of the runs shows how well it is known.
-
-Results of a simulation of a machine at its workpiece.
-
-They are phasors of axis and contact force, and the normal force.
+Displacements and forces are phasors. `bouncing` gives statistics of long runs of a wheel that bounces without
+repeating. If errors grow without end, no run can be computed twice alike, nor does it happen twice on the shop floor.
+The mean stays the same from run to run; the scatter of the runs shows how well it is known.
 """
 
 import math

@@ -1,7 +1,7 @@
 """One machine pressed to its workpiece from many start cases: the level and the motion that each ends with.
 
-Each start case of the idle machine is pressed in two ways: when its balls have settled at idle, as one works, and at
-once. From the same start, contact and friction may lead to different motions; one run cannot show that.
+Each start case of the idle machine is pressed in two ways: after its balls have settled at idle, as in practice, and at
+once. From the same start case, contact and friction may lead to different motions, which one run cannot show.
 """
 
 import math

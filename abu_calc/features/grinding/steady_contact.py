@@ -1,7 +1,7 @@
-"""A machine at its work by steady contact: where its balls go, how its axis moves, how wheel and work press.
+"""Steady contact of a machine at work: places of its balls, spindle displacement, force of wheel and workpiece.
 
-Everything in the rotor's frame, angles from the imbalance; phasors as in `formulas.contact`. The race is taken to be
-in the plane of the wheel.
+Everything is in the rotor's frame, angles from the imbalance; phasors as in `formulas.steady_contact`. The race is
+taken to be in the plane of the wheel.
 """
 
 import cmath

@@ -1,6 +1,6 @@
-"""A machine at its work: whether its autobalancer helps there, what its wheel feels, and how that wears.
+"""A machine at work: effect of its autobalancer there, forces on its wheel, and the wear of the wheel.
 
-The SI numbers behind a machine at its work, for those who check it by hand.
+`GrindingModel` holds the SI numbers behind it, for those who check them by hand.
 """
 
 import cmath

@@ -1,7 +1,4 @@
-"""Verdict on a machine at its workpiece, in words.
-
-It tells whether the autobalancer helps, why, and what would change that.
-"""
+"""Verdict on a machine at its workpiece, in words: whether the autobalancer helps, why, and which changes help."""
 
 import math
 from collections.abc import Sequence

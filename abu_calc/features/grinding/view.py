@@ -1,11 +1,4 @@
-"""The report of `abu grinding` on one screen.
-
-The start cases of grinding in a report: the motions that they end with, and the share of each.
-
-Wear of the wheel, in the report of `abu grinding`.
-
-The report of `abu grinding`: the verdict, then what stands behind it.
-"""
+"""The report of `abu grinding`, on one screen and whole: verdict, levels, balls, contact, start cases, wear."""
 
 from typing import Final
 
@@ -18,108 +11,6 @@ from abu_calc.foundation.checks import Status
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.parts import check_blocks, facts, measured_after_blocks, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened, verdict_line
-
-
-def start_blocks(starts: LoadedStarts | None) -> list[Block]:
-    """The motions that the start cases end with, and the share of each."""
-    if starts is None:
-        return []
-    rows = tuple(
-        (
-            WHEN[group.pressed],
-            f"{group.count} of {group.total}",
-            group.state + ("" if group.steady else ", still changing"),
-            _range(group),
-        )
-        for group in starts.outcomes
-    )
-    lost = f"; {starts.without_answer} gave no answer" if starts.without_answer else ""
-    return [
-        Heading(f"Start cases under load: {starts.count} simulated{lost}"),
-        Grid(("pressed", "share", "motion", "level"), rows, frozenset({1, 3})),
-    ]
-
-
-def _range(group: LoadedOutcomeGroup) -> str:
-    """The level, or the lowest and the highest of several."""
-    low, high = f"{group.lowest_db:.1f}", f"{group.highest_db:.1f}"
-    return f"{high} dB" if low == high else f"{low} to {high} dB"
-
-
-ENDS: Final = {
-    "halved": "runout halved after",
-    "limit": "level above its limit after",
-    "parted": "wheel and work part after",
-    "settled": "settled after",
-    "worn out": "worn out after",
-}
-
-
-def wear_blocks(result: GrindingResult) -> list[Block]:
-    """Wear with and without autobalancer, at this contact and a rigid one; then the claim of the source."""
-    both = ((result.wear_without, "without"), (result.wear, "with"))
-    rigid = ((result.wear_rigid_without, "rigid, without"), (result.wear_rigid, "rigid, with"))
-    bouncing = ((result.wear_bouncing_without, "bouncing, without"), (result.wear_bouncing, "bouncing, with"))
-    named = (*both, *bouncing, *(rigid if result.contact != "rigid" else ()))
-    rows = tuple(_row(name, wear) for wear, name in named if wear is not None)
-    if not rows:
-        return []
-    header = ("", "dε/ds_w", "wheel is", "what comes first")
-    title = "Wear: change of the runout ε per depth s_w worn off (Archard)"
-    return [Heading(title, "wear"), Grid(header, rows, frozenset({1})),
-            *_stages(result), *_claim(result)]  # fmt: skip
-
-
-def _row(name: str, wear: WearCourse) -> tuple[str, ...]:
-    turned = "centred" if wear.centres else "driven off"
-    if wear.ends is None or wear.depth_um is None:
-        return name, f"{wear.runout_rate:+.2f}", turned, ""
-    if wear.depth_um == 0:
-        return name, "", "", "wheel and work part already"
-    time = "" if wear.time_min is None else f" ({_minutes(wear.time_min)})"
-    depth = f"{number(wear.depth_um, 3)} µm" if wear.depth_um < 1000 else f"{number(wear.depth_um / 1e3, 3)} mm"
-    left = f", at {number(1e3 * wear.stages[-1].runout_mm, 3)} µm" if wear.ends != "halved" else ""
-    return name, f"{wear.runout_rate:+.2f}", turned, f"{ENDS[wear.ends]} {depth}{time}{left}"
-
-
-def _minutes(time: float) -> str:
-    return f"{number(60 * time, 2)} s" if time < 1 else f"{number(time, 3)} min"
-
-
-def _stages(result: GrindingResult) -> list[Block]:
-    """The course with and without, as far as closed forms go."""
-    blocks: list[Block] = []
-    for wear, name, section in (
-        (result.wear_without, "without autobalancer", "wear-without"), (result.wear, "with it", "wear-with"),
-    ):  # fmt: skip
-        if wear is None or not wear.stages or not wear.depth_um:
-            continue
-        rows = tuple(
-            (number(stage.depth_um, 3), number(1e3 * stage.runout_mm, 4), number(stage.runout_angle_deg, 4),
-             number(stage.imbalance_g_mm, 4), number(stage.variable_force_N, 3))
-            for stage in wear.stages
-        )  # fmt: skip
-        header = ("worn, µm", "runout, µm", "at, °", "imbalance, g·mm", "force ±, N")
-        blocks += [Heading(f"Course of wear {name}", section), Grid(header, rows, frozenset(range(5)))]
-    return blocks
-
-
-def _claim(result: GrindingResult) -> list[Block]:
-    claim = result.claim
-    if claim is None:
-        return []
-    power = ("no power of the force up to 50 does that here" if claim.needed_exponent is None
-             else f"wear with the force to the power {number(claim.needed_exponent, 2)}")  # fmt: skip
-    return [
-        Heading("The source's claim", "claim"),
-        Paragraph(
-            f"Kladiev 1996 has a wheel last {claim.life_with_min:g} min with an autobalancer, "
-            f"{claim.life_without_min:g} without. By this law both last alike: mean wear goes with the mean force. For "
-            f"the claim it would take {power}; or a mean force of {number(claim.needed_press_N, 3)} N, a calmer "
-            "machine being pressed less; or wheels that are thrown away for their runout."
-        ),
-    ]  # fmt: skip
-
 
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
 MARKS: Final[dict[bool | None, Status]] = {True: "pass", False: "fail", None: "not-done"}
@@ -357,3 +248,104 @@ LEFT_OUT = (
 def grinding_screen(result: GrindingResult) -> tuple[Block, ...]:
     """Verdict, numbers that matter, balls, contact, wear, friction; curves are left to the whole report."""
     return shortened(result, grinding_blocks(result), *LEFT_OUT, head=3)
+
+
+def start_blocks(starts: LoadedStarts | None) -> list[Block]:
+    """The motions that the start cases end with, and the share of each."""
+    if starts is None:
+        return []
+    rows = tuple(
+        (
+            WHEN[group.pressed],
+            f"{group.count} of {group.total}",
+            group.state + ("" if group.steady else ", still changing"),
+            _range(group),
+        )
+        for group in starts.outcomes
+    )
+    lost = f"; {starts.without_answer} gave no answer" if starts.without_answer else ""
+    return [
+        Heading(f"Start cases under load: {starts.count} simulated{lost}"),
+        Grid(("pressed", "share", "motion", "level"), rows, frozenset({1, 3})),
+    ]
+
+
+def _range(group: LoadedOutcomeGroup) -> str:
+    """The level, or the lowest and the highest of several."""
+    low, high = f"{group.lowest_db:.1f}", f"{group.highest_db:.1f}"
+    return f"{high} dB" if low == high else f"{low} to {high} dB"
+
+
+ENDS: Final = {
+    "halved": "runout halved after",
+    "limit": "level above its limit after",
+    "parted": "wheel and work part after",
+    "settled": "settled after",
+    "worn out": "worn out after",
+}
+
+
+def wear_blocks(result: GrindingResult) -> list[Block]:
+    """Wear with and without autobalancer, at this contact and a rigid one; then the claim of the source."""
+    both = ((result.wear_without, "without"), (result.wear, "with"))
+    rigid = ((result.wear_rigid_without, "rigid, without"), (result.wear_rigid, "rigid, with"))
+    bouncing = ((result.wear_bouncing_without, "bouncing, without"), (result.wear_bouncing, "bouncing, with"))
+    named = (*both, *bouncing, *(rigid if result.contact != "rigid" else ()))
+    rows = tuple(_row(name, wear) for wear, name in named if wear is not None)
+    if not rows:
+        return []
+    header = ("", "dε/ds_w", "wheel is", "what comes first")
+    title = "Wear: change of the runout ε per depth s_w worn off (Archard)"
+    return [Heading(title, "wear"), Grid(header, rows, frozenset({1})),
+            *_stages(result), *_claim(result)]  # fmt: skip
+
+
+def _row(name: str, wear: WearCourse) -> tuple[str, ...]:
+    turned = "centred" if wear.centres else "driven off"
+    if wear.ends is None or wear.depth_um is None:
+        return name, f"{wear.runout_rate:+.2f}", turned, ""
+    if wear.depth_um == 0:
+        return name, "", "", "wheel and work part already"
+    time = "" if wear.time_min is None else f" ({_minutes(wear.time_min)})"
+    depth = f"{number(wear.depth_um, 3)} µm" if wear.depth_um < 1000 else f"{number(wear.depth_um / 1e3, 3)} mm"
+    left = f", at {number(1e3 * wear.stages[-1].runout_mm, 3)} µm" if wear.ends != "halved" else ""
+    return name, f"{wear.runout_rate:+.2f}", turned, f"{ENDS[wear.ends]} {depth}{time}{left}"
+
+
+def _minutes(time: float) -> str:
+    return f"{number(60 * time, 2)} s" if time < 1 else f"{number(time, 3)} min"
+
+
+def _stages(result: GrindingResult) -> list[Block]:
+    """The course with and without, as far as closed forms go."""
+    blocks: list[Block] = []
+    for wear, name, section in (
+        (result.wear_without, "without autobalancer", "wear-without"), (result.wear, "with it", "wear-with"),
+    ):  # fmt: skip
+        if wear is None or not wear.stages or not wear.depth_um:
+            continue
+        rows = tuple(
+            (number(stage.depth_um, 3), number(1e3 * stage.runout_mm, 4), number(stage.runout_angle_deg, 4),
+             number(stage.imbalance_g_mm, 4), number(stage.variable_force_N, 3))
+            for stage in wear.stages
+        )  # fmt: skip
+        header = ("worn, µm", "runout, µm", "at, °", "imbalance, g·mm", "force ±, N")
+        blocks += [Heading(f"Course of wear {name}", section), Grid(header, rows, frozenset(range(5)))]
+    return blocks
+
+
+def _claim(result: GrindingResult) -> list[Block]:
+    claim = result.claim
+    if claim is None:
+        return []
+    power = ("no power of the force up to 50 does that here" if claim.needed_exponent is None
+             else f"wear with the force to the power {number(claim.needed_exponent, 2)}")  # fmt: skip
+    return [
+        Heading("The source's claim", "claim"),
+        Paragraph(
+            f"Kladiev 1996 has a wheel last {claim.life_with_min:g} min with an autobalancer, "
+            f"{claim.life_without_min:g} without. By this law both last alike: mean wear goes with the mean force. For "
+            f"the claim it would take {power}; or a mean force of {number(claim.needed_press_N, 3)} N, a calmer "
+            "machine being pressed less; or wheels that are thrown away for their runout."
+        ),
+    ]  # fmt: skip

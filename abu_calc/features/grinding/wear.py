@@ -1,13 +1,14 @@
-"""Wear of the wheel of a machine at its workpiece, in user units.
+"""Wear of the wheel of a machine at its workpiece by Archard's law: wear at a point goes with the force on it.
 
-Wear of a wheel at its work by Archard's law: what is worn off a point goes with the force on it.
+s is the mean depth worn off, the same over the wheel's life whatever moves. The surface's centre moves by
+dE/ds = −H/N₀ (H the pressure of `steady_contact.SteadyWork`), and the mass worn off one side is missing there:
+dU₀/ds = m_w dE/ds, m_w the wheel's mass as a disc of one density. Without separation H is linear in E, so that both are
+exponentials of s. However hard the wheel bounces, |H| ≤ 2N₀: the runout changes by at most twice the depth worn off.
 
-s is the depth worn off on average, the same round the wheel's life whatever moves. The surface's centre moves by
-dE/ds = −H/N₀ (H the pressure of `under_load.Steady`), and what is taken off one side is missing there: dU₀/ds = m_w
-dE/ds, m_w the wheel's mass as a disc of one density. Without separation H is linear in E, so that both are exponentials
-of s. However hard the wheel bounces, |H| ≤ 2N₀: the runout changes by at most twice the depth worn off.
-Source: Archard 1953 (wear in proportion to force and way); the rest is derived. Printed: Kladiev 1996 takes the wheel
-to be centred at a rigid contact, where it is driven off.
+Source: Archard 1953 (wear in proportion to force and distance); the rest is derived. As published, Kladiev 1996 takes
+the wheel to be centred at a rigid contact, where it is driven off centre.
+
+`wear_course`, `rigid_course`, `bouncing_course` and `claim` give the results, in user units.
 """
 
 import cmath
@@ -299,7 +300,7 @@ def wear_course(work: Work, steady: SteadyWork) -> WearCourse | None:
 
 
 def rigid_course(work: Work, moving: Callable[..., SteadyWork]) -> WearCourse | None:
-    """The same at a contact that does not give, where it moves as `under_load.fitted` or `bare` says."""
+    """The same at a contact that does not give, where it moves as `steady_contact.fitted` or `bare` says."""
     design = work.design
     return (
         wear_course(work, moving(design, runout_of(design.case), rigid=True)) if contact_presses(design.case) else None

@@ -1,6 +1,6 @@
-"""Levels under load in `abu size`: those that `abu grinding` finds of the same design.
+"""A machine at its workpiece with and without its autobalancer: levels, and remedies that were tried.
 
-A machine at its work, with and without its autobalancer: levels, and remedies that were tried.
+`loaded_levels` gives the levels under load in `abu size`: those that `abu grinding` computes of the same design.
 """
 
 import math

@@ -1,9 +1,6 @@
-"""Loads on each hand of a machine that is held still in the air.
+"""Checks of levels against limits, and loads on each hand of a machine that is held still in the air.
 
-Checks of levels against limits.
-
-They cover octaves, the weighted overall level (GOST 17770-86) and the daily exposure (Directive
-2002/44/EC).
+Limits: octaves, the weighted overall level (GOST 17770-86) and the daily exposure (Directive 2002/44/EC).
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Levels of a simulated motion: at the axis of a scene, or where a machine is held.
+"""Velocity levels of a motion by octaves, weighted overall level and weighted acceleration, axis by axis.
 
-Velocity levels of a motion by octaves, its corrected total, and its weighted acceleration, axis by axis.
+The motion is a recording, or a simulated one: at the axis of a scene, or where a machine is held.
 """
 
 import math

@@ -1,7 +1,8 @@
 """Rms values of recorded or simulated motion: by octaves as velocity, and weighted by W_h as acceleration.
 
-A filter is that of SciPy as an analogue network, put on the spectrum of the record: no warping by the sampling, exact
-at the edges of a band, causal, so that only the start of a record has to be left out until the filter is settled.
+A filter is that of SciPy as an analogue network, put on the spectrum of the record. There is no warping by the
+sampling, and the edges of a band are exact. It is causal, so that only the start of a record has to be left out until
+the filter is settled.
 """
 
 import math

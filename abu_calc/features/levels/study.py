@@ -1,7 +1,4 @@
-"""Octave levels, weighted acceleration and daily exposure, of a recorded signal or of a simulated motion.
-
-Levels of places, as results hold them.
-"""
+"""Octave levels, weighted acceleration and daily exposure, of a recorded signal or of a simulated motion."""
 
 import math
 from collections.abc import Iterator, Sequence

@@ -1,4 +1,4 @@
-"""The report of `abu levels`: octaves against their limits, weighted acceleration, exposure, what hands carry."""
+"""The report of `abu levels`: octaves against limits, weighted acceleration, exposure, loads on the hands."""
 
 from collections.abc import Callable, Sequence
 

@@ -1,8 +1,6 @@
-"""Advice that keeps the whole joint: grip and stress of both seats, and the clearance left between them.
+"""Advice on tolerance classes: for one seat, then for both by the clearance left between them.
 
-Choice of the tolerance class for the drawing.
-
-It depends on the makers' catalogue, the interference, the stress and the clearance left.
+The choice depends on the makers' catalogue, the interference, the stress and the clearance left.
 """
 
 from collections.abc import Callable, Iterable

@@ -1,7 +1,4 @@
-"""A bearing with its two seats, in SI, as the formulas of this room take it.
-
-The ranges in which the formulas of bearing seats hold: one each, for the formulas and for what they are given.
-"""
+"""A bearing with its two seats, in SI, as the formulas of seats take it, and the ranges in which these hold."""
 
 from dataclasses import field
 from typing import Final

@@ -1,7 +1,4 @@
-"""Clearance left in a deep groove ball bearing after mounting.
-
-The two joints of a bearing: the inner ring on the shaft, the outer ring in the housing.
-"""
+"""Clearance left in a deep groove ball bearing after mounting, by its joints on the shaft and in the housing."""
 
 import math
 from collections.abc import Callable

@@ -1,8 +1,7 @@
 """`abu check-fit [MACHINE]`: bearing seats of a file, or of one bearing given by options.
 
-The options of `abu check-fit` that give one bearing: one for each key of [[bearing]].
-
-Typed here and not read from the model, which takes longer to load than the help of all commands.
+The options of one bearing are one for each key of [[bearing]]. They are typed here and not read from the model, which
+takes longer to load than the help of all commands.
 """
 
 import inspect

@@ -1,6 +1,6 @@
-"""Interference left in a worn seat, and the dimensions that a repair must restore.
+"""Requirements for the drawing of a seat (tolerance class, form, roughness, shoulder, hardness), and its repair.
 
-Requirements for the drawing of a seat: tolerance class, form, roughness, shoulder, hardness.
+A repair starts from the interference left in a worn seat and gives the dimensions to restore.
 """
 
 from typing import NamedTuple

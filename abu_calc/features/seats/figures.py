@@ -1,12 +1,8 @@
 """Figures of `abu check-fit` for each bearing: sketch, tolerance zones, interference, clearance left.
 
-Drawings to scale as figures.
-
-The seats of a bearing: shaft, rings and housing in section, fields with limits, and what their drawing must ask for.
-
-Rings and rolling elements are schematic; bore, outside and width are to scale.
-
-Tolerance zones of both seats of a bearing about the zero line, to scale in µm, as textbooks draw fits.
+seats_sketch     shaft, rings and housing in section, tolerance classes with limits, and the drawing requirements;
+                 rings and rolling elements are schematic; bore, outside and width are to scale
+zones_drawing    tolerance zones of both seats about the zero line, to scale in µm, as textbooks draw fits
 """
 
 from collections.abc import Iterator, Sequence

@@ -1,4 +1,4 @@
-"""The formulas of both seats with the numbers of a bearing put in."""
+"""Formulas of both seats with the numbers of a bearing put in."""
 
 from collections.abc import Sequence
 

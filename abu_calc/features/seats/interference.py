@@ -1,6 +1,6 @@
 """Theoretical and probable interference of two toleranced parts, and the probability of clearance.
 
-Probabilities in the words of a shop.
+`of_all` writes a probability in the words of a shop.
 """
 
 import math

@@ -1,7 +1,4 @@
-"""A seat as a joint of two parts, the same for shaft and housing: what every judgement of it needs.
-
-Stress in a ring pressed on a shaft or into a housing, by Lamé.
-"""
+"""A seat as a joint of two parts, the same for shaft and housing, and the stress in its ring by Lamé."""
 
 from dataclasses import replace
 from functools import cached_property

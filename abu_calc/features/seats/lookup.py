@@ -1,4 +1,4 @@
-"""The bearing that a table describes, looked up where the table leaves it to the standards."""
+"""Lookup of the bearing that a table describes, if the table leaves it to the standards."""
 
 from typing import TYPE_CHECKING, NamedTuple
 

@@ -1,8 +1,7 @@
-"""Notes beside the numbers of a seat: the list of losses, the source of advice, sorting.
+"""Notes beside the numbers of a seat: list of losses, handbooks' tolerance class, selective assembly.
 
-The handbooks' load intensity of a seat, and the field they allow at it: advice beside the makers'.
-
-Selective assembly: how many groups the parts are sorted into, which go together, how many pairs each gets.
+Handbooks allow tolerance classes at a load intensity: advice beside the makers'. Selective assembly gives how many
+groups the parts are sorted into, which go together, and how many pairs each gets.
 """
 
 import math

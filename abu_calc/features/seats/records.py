@@ -1,6 +1,6 @@
 """Bearing seats as results hold them: SI in, user units out; a seat is one ring on its shaft or in its housing.
 
-The parts of a bearing seat's result: losses, fields, groups, repair, creep, drawing, clearance; in user units.
+Parts: losses, tolerance classes, groups, repair, creep, drawing, clearance.
 """
 
 from collections.abc import Mapping

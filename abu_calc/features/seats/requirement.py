@@ -1,4 +1,4 @@
-"""The interference that a ring needs so as not to creep, and what it loses of it in service."""
+"""Interference that a ring needs so as not to creep, and its losses in service."""
 
 import math
 from typing import Final

@@ -1,8 +1,6 @@
-"""The bearings of a file judged one after another; what is refused of one names its table, and its key if known.
+"""Judgement of both seats of each bearing, one bearing after another: all that `abu check-fit` prints.
 
-Both seats of a bearing, judged: what `abu check-fit` prints.
-
-What few bearings ask for is imported when one does.
+An error of one bearing names its table, and its key if known. Parts that few bearings need are imported on demand.
 """
 
 from collections.abc import Sequence

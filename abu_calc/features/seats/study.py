@@ -1,6 +1,6 @@
-"""Bearing seats judged: interference, probability of clearance, what is required, what is permitted.
+"""Bearing seats judged: interference, probability of clearance, required and permitted interference.
 
-The SI numbers behind bearing seats, for those who check them by hand.
+`SeatModel` and `BearingModel` hold the SI numbers, for those who check them by hand.
 """
 
 import math

@@ -1,12 +1,7 @@
-"""The whole report of `abu check-fit` on one bearing after another.
+"""The report of `abu check-fit`, on one screen and whole: advice, both seats, zones, losses, sorting.
 
-Bearing seats as blocks: both seats of a bearing side by side.
-
-Advice on bearing seats in words: drawing entries, orders, repair and sorting.
-
-The zones of both seats as the textbook draws them, in plain characters that every console has.
-
-The report of `abu check-fit` on one screen: what to write first, then each seat in a line.
+The one screen says first what to specify, then gives each seat a line. The zones of both seats are drawn as textbooks
+do, in plain characters that every console has.
 """
 
 import math

@@ -1,1 +1,1 @@
-"""`abu simulate`: one scene integrated to the accuracy asked for."""
+"""`abu simulate`: one scene integrated to a requested accuracy."""

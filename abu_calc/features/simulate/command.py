@@ -1,4 +1,4 @@
-"""`abu simulate MACHINE|SCENE`: integrate one scene to the accuracy asked for."""
+"""`abu simulate MACHINE|SCENE`: integrate one scene to a requested accuracy."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,6 +1,6 @@
-"""One scene integrated: amplitude, level, settling time, where the balls end, and how sure that is.
+"""One scene integrated: amplitude, level, settling time, final places of the balls, and how sure that is.
 
-Motion of a scene, at equally spaced times.
+`SampledMotion` holds the motion of a scene at equally spaced times.
 """
 
 import math

@@ -1,8 +1,7 @@
-"""Figures of `abu simulate`: path of the balls; imbalance, level and speed against time; the formulas.
+"""The report of `abu simulate`: results, final places of the balls, effects left out, cost; figures and CSV.
 
-The report of `abu simulate`: what came out, where the balls ended, what was left out, what it cost.
-
-A motion as CSV: the axis in mm, ball angles in degrees, unwrapped, and what else of the scene moves.
+figures    path of the balls; imbalance, level and speed against time; the formulas
+CSV        the axis in mm, ball angles in degrees, unwrapped, and whatever else of the scene moves
 """
 
 from collections.abc import Iterator, Sequence

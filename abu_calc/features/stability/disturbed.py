@@ -1,4 +1,4 @@
-"""A simulation from a growing arrangement of balls, a little disturbed: do they drift to a stable one, or away?"""
+"""Simulation from an unstable arrangement of balls, slightly disturbed: do they drift to a stable one, or away?"""
 
 import math
 from dataclasses import replace

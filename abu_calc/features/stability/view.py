@@ -1,8 +1,6 @@
-"""Figures of `abu stability`: decay rate of disturbances over the speeds, eigenvalues, the formulas.
+"""The report of `abu stability`, on one screen and whole: the verdict, its reasons, the speeds where it changes.
 
-The report of `abu stability`: the verdict, what it rests on, and where it changes.
-
-The report of `abu stability` on one screen.
+Figures: decay rate of disturbances over the speeds, eigenvalues, the formulas.
 """
 
 import math

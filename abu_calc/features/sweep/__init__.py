@@ -1,1 +1,1 @@
-"""`abu sweep`: many machines like one: share that meets the limits, percentiles, which value decides."""
+"""`abu sweep`: many machines like one: share that meets the limits, percentiles, deciding values."""

@@ -1,4 +1,4 @@
-"""Common answers of the samples in a store.
+"""Answers of a sweep, common to all samples in a store: spreads, shares, sensitivities, charts.
 
 They are read from the store in parts: memory does not grow with the number of samples.
 """

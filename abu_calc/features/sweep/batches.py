@@ -1,7 +1,7 @@
-"""Many members in batches, by any executor of concurrent.futures: here, in processes, or on a cluster.
+"""Samples computed in batches, by any executor of concurrent.futures: here, in processes, or on a cluster.
 
 Batches take about a second, so that handing them out costs little; a few are in flight, so that memory does not grow
-with their number. Who dies while computing is found, recorded and passed over.
+with their number. A sample whose worker dies is identified, recorded and passed over.
 """
 
 import math

@@ -1,8 +1,7 @@
-"""A Dask cluster by the address of its scheduler, as an executor of concurrent.futures.
+"""A Dask cluster as an executor of concurrent.futures: its address, its workers, their software, and its health.
 
-Software that members hang on: abu-calc with its source, the compiler of its kernels, libraries of numbers.
-
-A Dask cluster behind an executor of its client: who computes there, with which software, and whether it is alive.
+Samples depend on software: abu-calc with its source, the compiler of its kernels, numerical libraries. So all workers
+need the same.
 """
 
 import importlib

@@ -1,7 +1,4 @@
-"""Columns of a sample of a sweep, with units, as store, answers and Python have them.
-
-Change of the oil's viscous drag rate with its temperature.
-"""
+"""Columns of a sample of a sweep, with units, as store, answers and Python have them; oil drag by temperature."""
 
 import math
 from typing import Final, Literal

@@ -1,4 +1,4 @@
-"""`abu sweep MACHINE|SCENE`: many machines like this one: how many meet the limits, which value decides."""
+"""`abu sweep MACHINE|SCENE`: many machines like this one: share that meets the limits, deciding values."""
 
 import os
 import shlex

@@ -1,8 +1,7 @@
-"""Study to compute, planned from a file and a request: the variations, the design, the integrators.
+"""Plan of a sweep from a file and a request: the variations, the design, the integrators.
 
-Request of a sweep: the table [sweep] of the file, and the arguments that replace its entries.
-
-Scatter in every case: start-up of a machine; and scatter by the drawing's tolerances and in use.
+`SweepRequest` is the table [sweep] of the file with the arguments that replace its entries. Two kinds of scatter are
+there for every machine: its start-up (`of_starts`), and the drawing's tolerances and use (`of_tolerances`).
 """
 
 from collections.abc import Iterator, Mapping, Sequence

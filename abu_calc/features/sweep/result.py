@@ -1,7 +1,4 @@
-"""Return value of a sweep: its answers, and its samples as arrays.
-
-Answers of a sweep, as results hold them.
-"""
+"""Result of a sweep: its answers, and its samples as arrays."""
 
 import os
 import shutil

@@ -1,6 +1,6 @@
-"""Results of one machine that is built and switched on once.
+"""Run of one sample: one machine built and switched on once, or one scene, within a time limit.
 
-Work that takes too long is given up, in any thread and on any system, and the next goes on.
+Work that takes too long is given up, in any thread and on any system, and the next sample goes on.
 """
 
 import ctypes

@@ -1,4 +1,4 @@
-"""The members of a sweep, each from its number: what varies is put in, the machine is built or designed, and run."""
+"""Samples of a sweep, each from its number: values put in, the machine built or designed, and run."""
 
 import math
 import time

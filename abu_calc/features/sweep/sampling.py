@@ -1,10 +1,9 @@
-"""Values of each sample of a sweep.
+"""Values of each sample of a sweep, drawn from the seed and the sample's number alone.
 
-They are known from the seed and the sample's number alone, whoever computes them, and when. Latin
-hypercubes (McKay, Beckman & Conover 1979, Technometrics 21(2), 239) of 1024 samples, one after another;
-Sobol sequences, scrambled (Owen 1998); Saltelli's design for sensitivities (Saltelli et al. 2010,
-Comput. Phys. Commun. 181, 259). Listed values are dealt in turn. The memory used does not grow with the
-number of samples.
+They do not depend on who computes them, and when. Latin hypercubes (McKay, Beckman & Conover 1979, Technometrics 21(2),
+239) of 1024 samples, one after another; Sobol sequences, scrambled (Owen 1998); Saltelli's design for sensitivities
+(Saltelli et al. 2010, Comput. Phys. Commun. 181, 259). Listed values are dealt in turn. The memory used does not grow
+with the number of samples.
 """
 
 import inspect

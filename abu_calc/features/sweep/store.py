@@ -1,8 +1,8 @@
-"""The members of a sweep in a file of SQLite, as they come: what is committed outlives whatever ends the process.
+"""Store of a sweep's samples: an SQLite file whose committed rows outlive whatever ends the process.
 
-`members`: a row for each, by its number, nothing in it that depends on how it was computed. `checksums`: of each row.
-`columns`: their units and meaning. `study`: what is computed. `runs`: each run of the program, with the software of its
-workers; `batches`: which members each of them computed. A store is of one study only, see `differences`.
+`members`: a row for each sample, by its number, nothing in it that depends on how it was computed. `checksums`: of each
+row. `columns`: their units and meaning. `study`: the computed study. `runs`: each run of the program, with the software
+of its workers; `batches`: which samples each of them computed. A store is of one study only, see `differences`.
 """
 
 import json

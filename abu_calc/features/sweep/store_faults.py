@@ -1,4 +1,4 @@
-"""Faults of stores in words: one error that names the store, what is wrong, and how to go on."""
+"""Errors of a store in words: each names the store, the fault, and how to go on."""
 
 import os
 import sqlite3

@@ -1,4 +1,4 @@
-"""Many machines like one: how many meet the limits, and which value decides."""
+"""Many machines like one: the share that meets the limits, and the values that decide."""
 
 import json
 import time

@@ -1,6 +1,6 @@
 """Values to tighten or to loosen, each with its effect on the level that 95 % of samples keep.
 
-Values that decide nothing, each tried with twice its scatter: the same members, computed once more.
+Values that decide nothing are each tried with twice their scatter: the same samples, computed once more.
 """
 
 import math

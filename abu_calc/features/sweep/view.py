@@ -1,6 +1,6 @@
-"""The report of `abu sweep`: how many meet the limits, the spread of the numbers, which value decides.
+"""The report of `abu sweep`: share that meets the limits, spread of the numbers, deciding values.
 
-Shares as bars, and over two keys as a chart of signs.
+Shares are drawn as bars, and over two keys as a chart of signs.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""The swing arm: its joint, the wheel, the work, and the angles between them."""
+"""Sketch of the swing arm: its pivot, the wheel, the workpiece, and the angles between them."""
 
 import math
 from collections.abc import Iterator

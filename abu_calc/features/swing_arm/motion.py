@@ -1,4 +1,4 @@
-"""The motion of an arm whose imbalance nothing balances: by perturbation and by simulation, and its tongue."""
+"""Motion of an arm whose imbalance nothing balances: by perturbation and simulation, and its instability region."""
 
 import math
 from dataclasses import replace

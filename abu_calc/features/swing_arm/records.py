@@ -1,4 +1,4 @@
-"""A swing arm, as results hold it: bounds over all contact angles, what to change, its forced motion and its tongue."""
+"""A swing arm as results hold it: bounds over all contact angles, changes, forced motion, instability region."""
 
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self

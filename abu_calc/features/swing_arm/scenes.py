@@ -1,11 +1,8 @@
-"""Advice on the arm of a scene file.
+"""Checks on the simulated scenes of a swing arm, and advice on the arm of a scene file.
 
-Such an arm has one stiffness, at one speed, and no bounds over contact angles.
-
-Checks on the simulated scenes of a swing arm.
-
-The disk must stay on its workpiece. If a scene gives no answer with less pivot damping, the damping
-that gives one is advised.
+In a machine's scenes the disk must stay on its workpiece. If a scene gives no answer with less pivot damping, the
+damping that gives one is advised. The arm of a scene file has one stiffness, at one speed, and no bounds over contact
+angles.
 """
 
 from collections.abc import Iterator, Sequence

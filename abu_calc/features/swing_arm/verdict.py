@@ -1,4 +1,4 @@
-"""A swing arm judged as a whole: its bounds, the balanced state on it, and a change that was tried where they fail."""
+"""A swing arm judged as a whole: its bounds, the balanced state on it, and a change that was tried if they fail."""
 
 import math
 from collections.abc import Iterator

@@ -1,7 +1,4 @@
-"""Files held to the results they expect.
-
-Expected values of a file against its recomputed result, at the paths by which JSON names them.
-"""
+"""Files held to the results they expect: expected values against recomputed ones, at the paths of the JSON."""
 
 import math
 from collections.abc import Mapping, Sequence

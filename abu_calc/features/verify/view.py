@@ -1,4 +1,4 @@
-"""The report of `abu verify`: each file in a line, what differs in a table."""
+"""The report of `abu verify`: a line for each file, and a table of differences."""
 
 from typing import Any, Final
 

@@ -1,10 +1,9 @@
-"""The way of every file: path or preset → bytes → text → document → overrides → model, every fault with its place.
+"""Reading of any file: path or preset → bytes → text → document → overrides → model, every fault with its place.
 
-What words faults is imported when there is one.
+The module that words faults is imported only if there is one.
 
-Warnings about a file that reads without error.
-
-They concern unusual numbers, numbers that do not go together, and defaults that are another machine's.
+A file that reads without error may have warnings: unusual numbers, numbers that do not go together, and defaults that
+are another machine's.
 """
 
 import hashlib

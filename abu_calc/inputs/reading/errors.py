@@ -1,4 +1,4 @@
-"""Faults of a file, in words: the findings of the models as errors with line, key and action."""
+"""Faults of a file in words: findings of the models as errors with line, key and action."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence

@@ -1,4 +1,7 @@
-"""The kinds of files that people write. A new kind is an entry here: what marks it, what reads it, what takes it."""
+"""Kinds of files that people write.
+
+A new kind is an entry here: its marking tables, its reader, and the commands that take it.
+"""
 
 import importlib
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""`--set table.key=value`, or `changed({"table.key": value})`: entries of a file replaced."""
+"""Overrides: entries of a file replaced by `--set table.key=value` or `changed({"table.key": value})`."""
 
 import copy
 import re

@@ -1,6 +1,6 @@
 """Values that scripts give, as a TOML file would hold them: numbers of other libraries as Python's own.
 
-Limit on the nesting of a TOML text, checked before a parser spends time and memory on it.
+`check_nesting` limits the nesting of a TOML text before a parser spends time and memory on it.
 """
 
 import datetime

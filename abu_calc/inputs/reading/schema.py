@@ -1,4 +1,4 @@
-"""The JSON Schema of our files, in Draft 4, which TOML editors (Taplo, Even Better TOML) read."""
+"""JSON Schema of the files, in Draft 4, which TOML editors (Taplo, Even Better TOML) read."""
 
 from typing import Any, Final
 

@@ -1,7 +1,4 @@
-"""The bytes that a name stands for: a regular file, standard input as "-", or a preset.
-
-The machine files that come with the package.
-"""
+"""Bytes that a name stands for: a regular file, standard input as "-", or a preset of the package."""
 
 import os
 import stat

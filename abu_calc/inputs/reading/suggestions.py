@@ -1,7 +1,4 @@
-"""Units that people write in place of the one a key stands for.
-
-Intended meaning of an unknown key.
-"""
+"""Guesses for error messages: the intended meaning of an unknown key, and units that people write by mistake."""
 
 import difflib
 import math

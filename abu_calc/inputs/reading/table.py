@@ -1,14 +1,11 @@
 """Common parts of all tables of a file: strictness, the defaults in force, the rules between keys.
 
-The usual range of a key, as data beside its field: narrower than what is allowed, wide where practice is wide.
-
-A number outside is read and warned of: most such numbers are in the wrong unit. Zero is not, it says "none" (of
-levels it does not); of a negative number the size counts.
-
-Descriptions of keys, with their bounds and defaults put in.
+A key's usual range is data beside its field: narrower than the permitted range, wide if practice is wide. A number
+outside is read and warned of: most such numbers are in the wrong unit. Zero is not, it says "none" (of levels it does
+not); of a negative number the size counts.
 
 A description writes {range} ("above 0 … 100, usually 1 … 20"), {most} ("100"), {usual} ("usually 1 … 20")
-and {default} where they belong in its sentence.
+and {default} where they belong in its sentence; the key's bounds and defaults are put in.
 """
 
 from collections.abc import Iterator

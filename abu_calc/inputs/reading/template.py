@@ -1,4 +1,4 @@
-"""A new file with every table and key explained, made from the models."""
+"""Template of a new file, with every table and key explained, made from the models."""
 
 import textwrap
 from typing import Final

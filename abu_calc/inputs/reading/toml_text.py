@@ -1,6 +1,6 @@
-"""Faults in the TOML of a file: the parser's messages turned into instructions on what to change.
+"""The text of a TOML file: lines of its keys, and the parser's messages turned into instructions.
 
-Lines of the keys of a TOML text, for texts that a parser has read and for those it refused.
+Lines are given for texts that a parser has read and for those it refused.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Figures drawn by matplotlib: for files, and for those who work in Python. It is loaded when one is asked for.
+"""Figures of a result as data (charts, drawings, a motion), and those drawn by matplotlib or in characters.
 
-Figures of a result: charts, drawings, a motion as data. The code that draws them is elsewhere.
+matplotlib is loaded on request only: for files, and for those who work in Python.
 """

@@ -1,4 +1,4 @@
-"""Charts as small pictures in characters that every console has: lines, points, limits, told apart by their signs."""
+"""Charts as small pictures in characters that every console has: lines, points and limits differ by their signs."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence

@@ -1,6 +1,6 @@
-"""A figure of a result: its name, what it shows, where it stands in a report.
+"""A figure of a result: its name, its content and its place in a report; and the figure of a run in the rotor.
 
-The balls on their way from start to rest, and imbalance, level and speed meanwhile.
+The figure of a run shows the balls on their way from start to rest, with imbalance, level and speed meanwhile.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -1,8 +1,6 @@
-"""Bars and fields of cells on axes of matplotlib.
+"""Charts on axes of matplotlib: lines, points, bars, fields of cells, in one look for all figures.
 
-One look for all figures: colors and dashes are those of the page, told once in its style sheet.
-
-Charts on axes of matplotlib.
+Colours and dashes are those of the page, given once in its style sheet.
 """
 
 import re

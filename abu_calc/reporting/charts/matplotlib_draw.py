@@ -1,6 +1,6 @@
-"""A figure drawn by matplotlib, and as the contents of a file.
+"""Figures drawn by matplotlib, charts or drawings to scale, and as the contents of a file.
 
-Drawings to scale by matplotlib, a millimetre of paper being one.
+In drawings to scale a millimetre of paper is one.
 """
 
 import importlib.util

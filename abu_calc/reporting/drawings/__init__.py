@@ -1,1 +1,1 @@
-"""Drawings to scale: what is drawn is described once, by shapes on layers; DXF, SVG and characters are views of it."""
+"""Drawings to scale, described once by shapes on layers; DXF, SVG and characters are views of them."""

@@ -1,8 +1,7 @@
-"""Common parts of sketches: the line that names the object, and their extent.
+"""Dimensions, leaders and signs of drawings as lines, arrows and texts, alike in every format; extent of shapes.
 
-Dimensions, leaders and signs as lines, arrows and texts, alike in every format (ISO 129, ISO 1101, ISO 1302).
-
-Extent of shapes, and the same shapes elsewhere.
+Signs follow ISO 129, ISO 1101 and ISO 1302. `sketch` adds the common parts of sketches: the line that names the object,
+and their extent.
 """
 
 import math

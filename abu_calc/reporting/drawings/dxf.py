@@ -1,4 +1,4 @@
-"""A drawing as DXF (AutoCAD 2010, in mm): what is drawn full size, writing and arrows as large as the sheet wants."""
+"""A drawing as DXF (AutoCAD 2010, in mm): the object full size, writing and arrows as large as the sheet needs."""
 
 import io
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""Elements of a drawing.
+"""Elements of a drawing: lines, arcs, regions, texts and dimensions on layers.
 
 Places and lengths are in mm of the object, y upwards; heights of texts are in mm on paper.
 """

@@ -1,7 +1,4 @@
-"""Files that lie beside the page's modules: style, scripts.
-
-Words as a page may hold them.
-"""
+"""Files that lie beside the page's modules (style, scripts), and text that a page may hold."""
 
 import json
 from html import escape

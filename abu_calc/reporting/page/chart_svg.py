@@ -1,8 +1,7 @@
-"""Fields of cells as inline SVG: what a cell means is told by its size and shape, by color beside.
+"""Charts as inline SVG, told apart by shape and word, not by colour alone.
 
-Placement of words in a chart: they cover the least of lines, points and other words.
-
-Charts as inline SVG; told apart by shape and word, not by color alone.
+Words are placed so that they cover the least of lines, points and other words. In fields of cells size and shape give
+the meaning, with colour beside.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

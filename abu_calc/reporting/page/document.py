@@ -1,4 +1,4 @@
-"""The page: verdict, design and checks first, then what they rest on, at the end what is needed to repeat it."""
+"""The page of a result: verdict, design and checks first, then the reasons, at the end the data to repeat it."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape

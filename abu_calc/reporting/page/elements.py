@@ -1,8 +1,6 @@
-"""A figure as elements of a page.
+"""Blocks and figures as elements of a page: the same words and numbers as in a terminal.
 
-Blocks as elements of a page: the same words and numbers as in a terminal.
-
-A motion as a canvas with what plays it: button, slider, pace; keys on the canvas too.
+A motion is a canvas with a player: button, slider, pace; keys on the canvas too.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The loop: steps, located events and natural next modes, compiled by LLVM or run as the plain Python that it is.
+"""Compiled loop: steps, located events and natural next modes, as machine code or as plain Python.
 
 program.py           the equations of a structure as text; balls numbered round their races
 arrays.py            places in the arrays of the loop

@@ -1,4 +1,4 @@
-"""Arrays of the compiled loop, and where it finds what in them; the equations by their names, which a trace gives."""
+"""Layout of the compiled loop's arrays, and the names of the traced equations that it calls."""
 
 from collections.abc import MutableSequence
 

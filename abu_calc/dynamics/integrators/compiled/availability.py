@@ -1,10 +1,8 @@
-"""Readiness of compiled code: whether it runs here, and whether that of a scene is ready to run.
+"""Readiness of compiled code: whether it runs on this system, and whether that of a scene is ready to run.
 
-Trial of compiled code on a system that nobody has tried, once, in a process that may crash.
-
-An error of a compiler may end the process that runs its code. So a separate process compiles a scene
-with friction and contact, and compares it with the same loop in plain Python. Its success is recorded
-in the folder of compiled code.
+An error of a compiler may end the process that runs its code. So a system that nobody has tried is tried once, in a
+separate process (`main`). It compiles a scene with friction and contact, and compares it with the same loop in plain
+Python. Its success is recorded in the folder of compiled code.
 """
 
 import hashlib

@@ -1,10 +1,10 @@
-"""Impacts of all pairs that touch, one after the other, the fastest first: the rules of `ball_impacts.impacts`.
+"""Ball contact in the compiled loop: impacts of touching pairs, and which pairs stay together afterwards.
 
-An impulse is that of the equations themselves: what a push on a pair does to all rates, with all balls free.
+All pairs that approach meet one after the other, the fastest first: the rules of `ball_impacts.impacts`. An impulse is
+that of the equations themselves: the change of all rates by a push on a pair, with all balls free.
 
-Ball contact's natural next mode: which touching pairs stay together, and how far gaps may close again.
-
-The same rules as `BallContact.settle`, asked of numbers that the equations give in the mode that is tried.
+The natural next mode says which touching pairs stay together and how far gaps may close again. The rules are those of
+`BallContactEffect.settle`, asked of numbers that the equations give in the mode that is tried.
 """
 
 from math import sqrt

@@ -1,4 +1,4 @@
-"""The modules whose functions make up the loop, for either method of its steps."""
+"""List of the modules that make up the compiled loop, for either method of its steps."""
 
 from types import ModuleType
 from typing import Final, Literal

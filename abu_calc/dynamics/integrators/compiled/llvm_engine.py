@@ -1,12 +1,11 @@
-"""LLVM by llvmlite: from its text to machine code as bytes, and from these bytes to functions that can be called.
+"""LLVM by llvmlite: from its text to machine code as bytes, from bytes to functions, with a cache on disk.
 
 llvmlite is what numba stands on, with wheels for Linux, macOS and Windows; it is imported in a tenth of numba's time.
 
-Compiled code on disk: one file for each module, written whole and read whole, or done without.
-
-A file is a checksum and what it is of: one that is cut off or holds other bytes is not used, and is written anew. Files
-appear under their names by a rename, so that several processes may write at once. A folder that cannot be used gives
-one warning, and everything goes on without it.
+The cache holds one file for each module, written whole and read whole, or done without. A file holds a checksum and
+its content's key: one that is cut off or holds other bytes is not used, and is written anew. Files appear under their
+names by a rename, so that several processes may write at once. A folder that cannot be used gives one warning, and
+everything goes on without it.
 """
 
 import contextlib

@@ -1,7 +1,4 @@
-"""Expressions of the compiled language.
-
-LLVM's text of one function as it is written: types, instructions, jumps, variables.
-"""
+"""LLVM's text of one function as it is written: types, instructions, jumps, variables, expressions."""
 
 import ast
 import struct

@@ -1,9 +1,9 @@
-"""The first moment within a step at which a watched number falls below zero, on the dense output.
+"""Event location: the first moment within a step at which a watched number falls below zero.
 
-Numbers are looked at at quarters of the step. One that starts at or below zero has just been switched: it counts once
-it has risen, and if it never does, the event is the very start. One that falls and rises again within two quarters is
-found by a parabola through three of its values. Where all numbers that cost an evaluation are the same at both ends, or
-far from zero there, the others are looked at by themselves.
+Numbers are taken from the dense output at quarters of the step. A number that starts at or below zero has just been
+switched: it counts once it has risen, and if it never does, the event is the very start. A number that falls and rises
+again within two quarters is located by a parabola through three of its values. If all numbers that cost an evaluation
+are the same at both ends, or far from zero there, the others are looked at by themselves.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (

@@ -1,10 +1,9 @@
-"""The loop of steps, located events and decisions, until the end or until something needs the general decision.
+"""Loop of steps, located events and decisions, until the end or until the general decision is needed.
 
-The names of a method are those of `dopri5`; where the loop is built for another method, they are that one's.
+The names of a method are those of `dopri5`; if the loop is built for another method, they are that one's.
 
-The factor on the next step, by the error of the last and the order of the method.
-
-Source: Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, II.4.
+The factor on the next step follows from the error of the last and the order of the method. Source: Hairer, Nørsett &
+Wanner 1993, Solving Ordinary Differential Equations I, II.4.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (

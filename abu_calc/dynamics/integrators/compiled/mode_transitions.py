@@ -1,12 +1,11 @@
-"""The natural next mode of the effect whose number fell, checked by the numbers of the equations in it.
+"""Natural next mode of the effect whose watched number fell, checked by the numbers of the equations in it.
 
-From the mode before, whatever fails changes, round by round (block principal pivoting, Júdice & Pires 1994): balls at
-rest, sides, touching pairs. Where rounds do not end, or the outcome is not
-as it must be, the general decision is asked.
+From the mode before, everything that fails changes, round by round (block principal pivoting, Júdice & Pires 1994):
+balls at rest, sides, touching pairs. If the rounds do not end, or if the outcome is inconsistent, the general decision
+is asked.
 
-Dry friction's natural next mode: what comes to rest sticks unless it is pulled harder than friction holds.
-
-The same rules as `stick_slip.decided`, asked of numbers that the equations give in the mode that is tried.
+Dry friction: a ball that comes to rest sticks unless it is pulled harder than friction holds. The rules are those of
+`stick_slip.decided`, asked of numbers that the equations give in the mode that is tried.
 """
 
 from abu_calc.dynamics.integrators.compiled.arrays import (

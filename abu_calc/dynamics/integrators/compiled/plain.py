@@ -1,6 +1,6 @@
-"""The same loop without a compiler: its text and the equations' are plain Python, run here as they stand.
+"""The compiled loop without a compiler: its text and the equations' are plain Python, run here as they stand.
 
-Arrays are memory views, whose parts are views too and whose numbers are Python's own: half as slow as NumPy's.
+Arrays are memory views. Their parts are views too and their numbers are Python's own: half as slow as NumPy's.
 """
 
 import __future__

@@ -1,6 +1,4 @@
-"""Balls numbered round their races, so that one code serves whatever order they were given in.
-
-The equations of one structure as functions of the compiled language: parameters, rates, and all that is watched.
+"""Equations of one structure as functions of the compiled language: parameters, rates, and all that is watched.
 
     setup(numbers, par)           what the equations use of a scene's numbers and modes, once for each mode
     rates(t, y, par, dy)          y'
@@ -9,6 +7,8 @@ The equations of one structure as functions of the compiled language: parameters
 
 The one right-hand side is traced. All modes have one code: balls are always tied in chains, whose gaps are open (0) or
 joined (1), and a push on each ball, 0 but in an impact, is among the numbers.
+
+Balls are numbered round their races (`in_order`), so that one code serves whatever order they were given in.
 """
 
 import math

@@ -1,6 +1,7 @@
 """Integration in compiled code, from one general decision to the next: steps, events and natural next modes.
 
-Data of a scene for the compiled loop: their places, and the constants needed beside the equations.
+`layout` and `constants` place the data of a scene in the arrays of the loop, with the constants that it needs beside
+the equations.
 """
 
 from dataclasses import dataclass, field, fields, replace

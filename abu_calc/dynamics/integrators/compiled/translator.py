@@ -1,11 +1,9 @@
-"""Plain Python on numbers translated to LLVM's language: the few words that a compiled loop needs, each function alone.
+"""Translator of plain Python on numbers to LLVM's language: the few words that a compiled loop needs.
 
-Types are those of the annotations: float, int, bool, `Reals` and `Integers` (arrays; `a[i:]` is the same array from i
-on). Words: assignments, `a: float = b`, `a, b = c, d`, if, while, for … in range(…), break, continue, return, calls of
-each other, and abs, min, max, sqrt, sin, cos, any, all. Names from outside are numbers. All else is refused by a
-LanguageError. What is written so is Python as well, and does there what it does compiled.
-
-Calls in the compiled language: of each other, of functions on numbers, and `any` and `all`.
+Each function is translated alone. Types are those of the annotations: float, int, bool, `Reals` and `Integers` (arrays;
+`a[i:]` is the same array from i on). Words: assignments, `a: float = b`, `a, b = c, d`, if, while, for … in range(…),
+break, continue, return, calls of each other, and abs, min, max, sqrt, sin, cos, any, all. Names from outside are
+numbers. All else is refused by a LanguageError. The same text is Python as well, and does there what it does compiled.
 """
 
 import ast
