@@ -34,8 +34,8 @@ class Feature(NamedTuple):
     """One command with all that belongs to it; modules are paths below `abu_calc.features`.
 
     `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
-    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `figures`: their names;
-    `computes`: whether it loads libraries of numbers.
+    "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `figures`: their
+    names; `computes`: whether it loads libraries of numbers.
     """
 
     name: str

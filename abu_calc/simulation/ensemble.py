@@ -193,7 +193,7 @@ def followed_until(design: Design, scene: Scene, response: Response, samples: Sa
 
 def _felt(design: Design, scene: Scene) -> float:
     """Effective mass [kg] for the balls: at the race of a machine in hand, or that of its arm, J_O/l²."""
-    if not scene.support.turns:
+    if not scene.name.startswith("swing-arm"):
         return design.autobalancer.requirement.effective_mass
     return scene.support.felt_mass + sum(scene.ball_masses)
 
