@@ -121,8 +121,8 @@ class Hanging(Record):
             return None
         bounds = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
         drags = zip(STATES, (bounds.resonance, bounds.damped, bounds.gravity), strict=True)
-        return cls(
-            drag_per_s=bounds.drag,
+        return cls.read(
+            bounds,
             hanging_drag_per_s=finite(bounds.largest),
             doubt=bounds.doubt(),
             bounds=tuple(_bound(bounds, state, drag) for state, drag in drags if drag > 0),

@@ -60,7 +60,7 @@ def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
 
 
 def test_the_picture_stays_within_eighty_columns(measured):
-    lines = picture(tuple(map(MeasuredPoint.of, measured.points)))
+    lines = picture(tuple(map(MeasuredPoint.read, measured.points)))
     assert max(map(len, lines)) <= 80
     assert any("D" in line for line in lines)
 
@@ -68,7 +68,7 @@ def test_the_picture_stays_within_eighty_columns(measured):
 def test_each_decade_stands_once_in_the_picture():
     """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
     points = tuple(
-        MeasuredPoint.of(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
+        MeasuredPoint.read(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
         for k in range(10)
     )
     labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
@@ -77,7 +77,7 @@ def test_each_decade_stands_once_in_the_picture():
 
 
 def test_a_picture_of_nothing():
-    nothing = MeasuredPoint.of(PricePoint("closed-form", None, None, None, 0, 0, None, None))
+    nothing = MeasuredPoint.read(PricePoint("closed-form", None, None, None, 0, 0, None, None))
     assert picture((nothing,)) == ["nothing to draw"]
 
 

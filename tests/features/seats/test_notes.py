@@ -163,8 +163,8 @@ def test_the_drawing_of_the_example():
     assert (shaft.field, um(shaft.limits.lower), um(shaft.limits.upper)) == ("m6", 11, 30)
     assert um(shaft.form) == 19 / 4 and um(housing.form) == 10
     assert (um(shaft.roughness), um(housing.roughness)) == (1.25, 2.5)  # 80 mm is still the smaller row
-    assert (shaft.shoulder_grade, um(shaft.shoulder_runout)) == ("IT7", 30)
-    assert (housing.shoulder_grade, um(housing.shoulder_runout)) == ("IT8", 63)
+    assert (shaft.shoulder_runout_grade, um(shaft.shoulder_runout)) == ("IT7", 30)
+    assert (housing.shoulder_runout_grade, um(housing.shoulder_runout)) == ("IT8", 63)
     assert "unverified" in shaft.source
     fine = seats(bearing_class="4").shaft.requirements
     assert (um(fine.form), um(fine.roughness), um(fine.shoulder_runout)) == (19 / 8, 0.32, 8)
@@ -175,7 +175,7 @@ def test_finer_classes_ask_for_more():
     for coarse, fine in itertools.pairwise(order):
         for one, other in zip(coarse, fine, strict=True):
             assert um(other.requirements.form) <= um(one.requirements.form)
-            assert um(other.requirements.roughness) <= um(one.requirements.roughness)
+            assert um(other.requirements.roughness_Ra) <= um(one.requirements.roughness_Ra)
 
 
 def group_extremes(male: DeviationLimits, female: DeviationLimits, groups: int) -> tuple[float, float]:
