@@ -89,19 +89,8 @@ def accuracy(
     subject = subject_of(source, scene, start, command="accuracy").lasting(duration_s)
     ledger = subject.ledger(accuracy)
     study = measured(subject.scene, ledger, quantity, accuracy, budget_s, progress)
-    return AccuracyResult(
-        title=subject.title,
-        checks=(_affordable(study),),
-        warnings=subject.warnings,
-        model=SceneModel.of(ledger.scene),
-        provenance=subject.provenance,
-        scene=subject.scene.name,
-        quantity=study.quantity,
-        accuracy=study.accuracy,
-        reference=Reference.read(study.reference),
-        points=tuple(map(MeasuredPoint.read, study.points)),
-        chosen=None if study.chosen is None else MeasuredPoint.read(study.chosen),
-        skipped=study.skipped,
+    return AccuracyResult.read(
+        subject, study, checks=(_affordable(study),), model=SceneModel.of(ledger.scene), scene=subject.scene.name
     )
 
 

@@ -226,10 +226,7 @@ def size(
         fits=tuple(seat for bearing in seats for seat in seat_results(bearing)),
         swing_arm=None if arm is None else SwingArmRecord.of(arm),
         arm_motion=moved,
-        drawing=tuple(
-            DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
-            for line in design.drawing
-        ),
+        drawing=tuple(map(DrawingLine.read, design.drawing)),
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),

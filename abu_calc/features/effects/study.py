@@ -81,11 +81,9 @@ def effects(
     ACCURACY.check(accuracy)
     subject = subject_of(source, scene, command="effects")
     ledger = subject.ledger(accuracy, with_effects, without_effects)
-    return EffectsResult(
-        title=subject.title,
-        warnings=subject.warnings,
+    return EffectsResult.read(
+        subject,
         model=SceneModel.of(ledger.scene),
-        provenance=subject.provenance,
         scene=ledger.scene.name,
         accuracy=accuracy,
         effects=tuple(map(EffectEntry.read, ledger.entries)),

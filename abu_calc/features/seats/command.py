@@ -175,9 +175,8 @@ def _note(result: "CheckFitResult") -> tuple[Block, ...]:
     """Every formula with the numbers of each bearing."""
     from abu_calc.features.explain.steps import STEPS, step_blocks
     from abu_calc.features.seats.formula_view import seat_numbers
-    from abu_calc.features.seats.study import bearing_models
 
-    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(result), result.seats)))
+    return tuple(step_blocks(STEPS["seats"], seat_numbers(result.judged, result.seats)))
 
 
 def _drawings(result: "CheckFitResult") -> "tuple[Drawing, ...]":
