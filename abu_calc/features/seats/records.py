@@ -33,11 +33,6 @@ def um_pair(pair: Pair) -> Pair:
     return um(pair[0]), um(pair[1])
 
 
-def um_or_none(length: float | None) -> float | None:
-    """Micrometres of what may not be known."""
-    return None if length is None else um(length)
-
-
 @record
 class Loss(Record):
     """Loss of interference: the load by both rules, of which the larger counts, then the losses given."""
