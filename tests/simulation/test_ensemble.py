@@ -191,7 +191,7 @@ def test_settling_counts_from_full_speed() -> None:
 
 def outcome(drag: float = 10.0, start: str = "bunched", **changed: float | None) -> StartOutcome:
     """One that passes, unless it is changed."""
-    given = {"settling": 0.5, "residual": 1e-5, "level": 100.0, "slip": 0.0, "imbalance": 1e-5, "allowed": 3e-5}
+    given = {"settling_time": 0.5, "residual": 1e-5, "level": 100.0, "slip": 0.0, "imbalance": 1e-5, "allowed": 3e-5}
     return StartOutcome(Member(start, drag), **{**given, **changed})  # type: ignore[arg-type]
 
 
@@ -206,8 +206,8 @@ def checked(*outcomes: StartOutcome, lost: tuple[Lost, ...] = ()) -> dict[str, s
     [
         ({"level": 110.0}, {"ABU401"}),
         ({"imbalance": 4e-5}, {"ABU701", "ABU702"}),
-        ({"settling": None}, {"ABU702"}),
-        ({"settling": 1.5}, {"ABU702"}),
+        ({"settling_time": None}, {"ABU702"}),
+        ({"settling_time": 1.5}, {"ABU702"}),
         ({"slip": 0.06}, {"ABU701", "ABU702", "ABU704"}),
         ({"slip": 0.04}, set()),
     ],
