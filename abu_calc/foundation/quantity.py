@@ -9,9 +9,14 @@ Schema of results are made of that.
 """
 
 import datetime
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, fields
-from typing import Any, ClassVar, Final, NamedTuple, Never, TypeVar, dataclass_transform, get_args, get_type_hints
+from inspect import getattr_static
+from types import NoneType
+from typing import Any, ClassVar, Final, NamedTuple, Never, Self, TypeVar, dataclass_transform, get_args, get_type_hints
+
+from abu_calc.foundation.units import SI_PER_UNIT, quantity_and_unit
 
 T = TypeVar("T")
 
@@ -47,6 +52,8 @@ class Record:
     """Fields that are entries of the result only where they are not None: other scenes have no such thing."""
     schema_title: ClassVar[str] = ""
     """Name in the JSON Schema of results if it is not that of the class."""
+    decimals: ClassVar[Mapping[str, int]] = {}
+    """Decimals that `read` keeps of numbers in a unit, so that the rounding of the conversion does not show."""
 
     def __init__(self, **values: object) -> None:
         known = _fields(type(self))
@@ -78,6 +85,33 @@ class Record:
         return f"{type(self).__name__}({', '.join(values)})"
 
     @classmethod
+    def read(cls, *sources: object, **given: object) -> Self:
+        """Record of what holds its quantities in SI, in the units that its fields name.
+
+        A field is read from the attribute that has its name without the unit: `race_radius_mm` from `race_radius` [m];
+        if there is none, from that of its own name, as it is. Tuples are read item by item, records within by their
+        own `of` or `read`. A number that is not finite becomes None if the field may be None. Fields that are `given`
+        are taken as they are; a field with a default keeps it if no source has its attribute. Raises TypeError if no
+        source has the attribute of another, or if two have it.
+
+        >>> from types import SimpleNamespace
+        >>> @record
+        ... class Race(Record):
+        ...     race_radius_mm: float
+        ...     ball_mass_g: float
+        ...     ball_count: int
+        >>> Race.read(SimpleNamespace(race_radius=0.031, ball_mass=0.0165), ball_count=4)
+        Race(race_radius_mm=31.0, ball_mass_g=16.5, ball_count=4)
+        """
+        key = (cls, *map(type, sources), *given)
+        if key not in _READERS:
+            _READERS[key] = tuple(_readers(cls, sources, given))
+        for name, source, attribute, convert in _READERS[key]:
+            value = getattr(sources[source], attribute)
+            given[name] = value if convert is None else convert(value)
+        return cls(**given)
+
+    @classmethod
     def title_in_schema(cls) -> str:
         """Name of the record among the definitions of the JSON Schema of results."""
         return cls.__dict__.get("schema_title") or cls.__name__
@@ -105,6 +139,67 @@ def _default(kind: type[Record], field: "Field[object]") -> object:
     if field.default is MISSING:
         raise TypeError(f"{kind.__name__} needs its field {field.name}")
     return field.default
+
+
+class _Reader(NamedTuple):
+    """Field of a record, the source and the attribute that it is read from, and the conversion from SI."""
+
+    field: str
+    source: int
+    attribute: str
+    convert: Callable[[Any], object] | None
+
+
+def _readers(kind: type[Record], sources: tuple[object, ...], given: Mapping[str, object]) -> Iterator[_Reader]:
+    for field in _fields(kind):
+        if field.name in given:
+            continue
+        attribute, unit = quantity_and_unit(field.name)
+        holding = _holding(sources, attribute)
+        if not holding and unit:
+            attribute, unit, holding = field.name, "", _holding(sources, field.name)
+        if len(holding) == 1:
+            yield _Reader(field.name, holding[0], attribute, _conversion(kind, field, unit))
+        elif holding or (field.default is MISSING and field.default_factory is MISSING):
+            names = ", ".join(type(source).__name__ for source in sources)
+            fault = "is ambiguous" if holding else "is missing"
+            raise TypeError(f"{kind.__name__}.{field.name}: its attribute {fault} in {names}")
+
+
+def _holding(sources: tuple[object, ...], attribute: str) -> list[int]:
+    """The sources that have an attribute; properties are not computed for that."""
+    return [
+        index for index, source in enumerate(sources) if getattr_static(source, attribute, _MISSING) is not _MISSING
+    ]
+
+
+def _conversion(kind: type[Record], field: "Field[Any]", unit: str) -> Callable[[Any], object] | None:
+    parts = list(_parts(field.type))
+    inner = next((part for part in parts if isinstance(part, type) and issubclass(part, Record)), None)
+    factor, decimals, optional = SI_PER_UNIT.get(unit, 1.0), kind.decimals.get(unit), NoneType in parts
+    if inner is None and factor == 1 and not optional:
+        return None
+
+    def converted(value: Any) -> object:
+        if isinstance(value, tuple) and not (inner and hasattr(value, "_fields")):
+            return tuple(map(converted, value))
+        if inner is not None:
+            known = value is None or isinstance(value, Record)
+            return value if known else getattr(inner, "of", inner.read)(value)
+        if not isinstance(value, (float, int)) or isinstance(value, bool):
+            return value
+        if factor != 1:
+            value = value / factor if decimals is None else round(value / factor, decimals)
+        return value if math.isfinite(value) or not optional else None
+
+    return converted
+
+
+def _parts(hint: Any) -> Iterator[Any]:
+    """A type and all that it is made of."""
+    yield hint
+    for part in get_args(hint):
+        yield from _parts(part)
 
 
 def as_plain(value: object) -> Any:
@@ -151,3 +246,6 @@ def quantities(kind: type[Record]) -> Mapping[str, Quantity]:
 _QUANTITIES: Final[dict[type[Record], Mapping[str, Quantity]]] = {}
 _FIELDS: "Final[dict[type[Record], tuple[Field[Any], ...]]]" = {}
 """Read from the types once."""
+_READERS: Final[dict[tuple[object, ...], tuple[_Reader, ...]]] = {}
+"""By record, types of sources and fields given."""
+_MISSING: Final = object()

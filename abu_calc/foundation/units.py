@@ -63,6 +63,9 @@ SYMBOLS: Final[dict[str, str]] = {
 }
 """Form in which a unit is shown, if that differs from its suffix."""
 
+SI_UNITS: Final = ("rad_per_s", "kg_m", "per_s2", "Pa", "per_K")
+"""Suffixes of numbers that results give in SI, beside those of `SI_PER_UNIT`."""
+
 
 def unit_of(key: str) -> str:
     """The unit a key carries, as printed: the longest known suffix ("" for none).
@@ -76,6 +79,20 @@ def unit_of(key: str) -> str:
         if suffix in SI_PER_UNIT or suffix in SYMBOLS:
             return SYMBOLS.get(suffix, suffix)
     return ""
+
+
+def quantity_and_unit(key: str) -> tuple[str, str]:
+    """The quantity that a key names, as SI has it, and the unit behind it ("" for none).
+
+    >>> quantity_and_unit("race_radius_mm"), quantity_and_unit("speed_rad_per_s"), quantity_and_unit("ball_count")
+    (('race_radius', 'mm'), ('speed', 'rad_per_s'), ('ball_count', ''))
+    """
+    parts = key.split("_")
+    for start in range(1, len(parts)):
+        suffix = "_".join(parts[start:])
+        if suffix in SI_PER_UNIT or suffix in SYMBOLS or suffix in SI_UNITS:
+            return "_".join(parts[:start]), suffix
+    return key, ""
 
 
 def to_si(value: float, unit: str) -> float:

@@ -179,7 +179,7 @@ def _followed_until(design: Design, scene: Scene, outcome: StartOutcome, goes_on
     """Time [s] until which a start case is followed whose balls are not at rest at the end of its scene, if any."""
     limit = design.case.table.limits.settling_time_s
     longest = scene.full_speed + LONGEST_SETTLING * limit
-    late = outcome.hanging or (outcome.settling or 0.0) > limit
+    late = outcome.hanging or (outcome.settling_time or 0.0) > limit
     goes_on = goes_on or _linger(design, scene, outcome)
     return longest if goes_on and not late and longest > scene.duration else None
 
@@ -239,7 +239,10 @@ def _decided(
     outcome, limits = outcome_of(design, member, scene, response), design.case.table.limits
     if _linger(design, scene, outcome):
         return False
-    if not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip) or outcome.time > limits.settling_time_s:
+    if (
+        not balances(outcome.imbalance + creep, outcome.allowed, outcome.slip)
+        or outcome.settling_time_or_inf > limits.settling_time_s
+    ):
         return False
     louder = max(rise, 20 * math.log10(1 + creep / outcome.imbalance)) if outcome.imbalance else math.inf
     return outcome.level + louder <= design.case.level_limit - MARGIN
@@ -296,7 +299,7 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
     case = replace(design.case, speed=speed)
     return StartOutcome(
         member=member,
-        settling=response.settling_time,
+        settling_time=response.settling_time,
         residual=response.axis_amplitude,
         level=level_at_loudest(case, design.autobalancer, math.sqrt(2) * response.velocity_rms / speed),
         slip=slip(response, speed),

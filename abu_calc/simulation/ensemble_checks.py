@@ -85,21 +85,21 @@ def _balances(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
 
 def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
     limit = design.case.table.limits.settling_time_s
-    status = _grade(ensemble, lambda outcome: outcome.time <= limit)
+    status = _grade(ensemble, lambda outcome: outcome.settling_time_or_inf <= limit)
     if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
         message = "the wheel is balanced so well that balls creep to their places; none leaves more than is allowed"
         return coded("ABU702", "warn", message, None, limit, "s")
-    late = max(ensemble.given, key=lambda outcome: outcome.time, default=None)
-    latest = max(ensemble.outcomes, key=lambda outcome: outcome.time, default=None)
+    late = max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf, default=None)
+    latest = max(ensemble.outcomes, key=lambda outcome: outcome.settling_time_or_inf, default=None)
     message = "no start gave an answer" if late is None else f"the slowest start is {_named(late)}"
-    if status == "warn" and latest and latest.time > limit:
-        when = "never" if math.isinf(latest.time) else f"{latest.time:.3g} s"
+    if status == "warn" and latest and latest.settling_time_or_inf > limit:
+        when = "never" if math.isinf(latest.settling_time_or_inf) else f"{latest.settling_time_or_inf:.3g} s"
         message += f"; {_named(latest)}: {when}"
     if guided(design, 0.0).pause:
         message += "; counted from full speed, after the pause"
     elif any(outcome.member.run_up for outcome in ensemble.given):
         message += "; counted from full speed, after the run-up"
-    value = None if late is None or math.isinf(late.time) else late.time
+    value = None if late is None or math.isinf(late.settling_time_or_inf) else late.settling_time_or_inf
     return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)
 
 

@@ -17,12 +17,12 @@ from abu_calc.simulation.start_cases import Member
 class StartOutcome:
     """Outcome of one start case.
 
-    Settling [s] from full speed on, None: never; `residual`: axis amplitude [m]; `level` [dB] at the
+    `settling_time` [s] from full speed on, None: never; `residual`: axis amplitude [m]; `level` [dB] at the
     loudest place; `slip`: the largest mean speed of a ball against its race over the rotor's.
     """
 
     member: Member
-    settling: float | None
+    settling_time: float | None
     residual: float
     level: float
     slip: float
@@ -48,9 +48,9 @@ class StartOutcome:
         return balances(self.imbalance, self.allowed, self.slip)
 
     @property
-    def time(self) -> float:
+    def settling_time_or_inf(self) -> float:
         """Until it settled where it balances [s]; infinite if never."""
-        return self.settling if self.settling is not None and self.balanced else math.inf
+        return self.settling_time if self.settling_time is not None and self.balanced else math.inf
 
     @property
     def loudest(self) -> float:
@@ -138,7 +138,7 @@ applies to the confirming run: the level is that at the very end, the settling t
 ORDERS: tuple[Order, ...] = (
     (attrgetter("badness"), SLACK, False),
     (lambda outcome: (outcome.level,), SLACK, False),
-    (lambda outcome: (outcome.time,), 0.0, True),
+    (lambda outcome: (outcome.settling_time_or_inf,), 0.0, True),
 )
 
 

@@ -6,7 +6,6 @@ from dataclasses import field
 from typing import Annotated, Any, ClassVar, Self
 
 from abu_calc.dynamics.equations.assemble import assemble
-from abu_calc.dynamics.race import Race
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.boundaries import Boundary
 from abu_calc.foundation.quantity import Quantity, Record, as_plain, record
@@ -15,7 +14,6 @@ from abu_calc.simulation.effect_selection import EffectAudit as AuditRun
 from abu_calc.simulation.effect_selection import Ledger
 from abu_calc.simulation.response import FinalState
 from abu_calc.simulation.simulate import Simulation
-from abu_calc.simulation.simulate import SimulationCost as RunCost
 
 
 @record
@@ -30,20 +28,6 @@ class RaceModel(Record):
     inertia_factor: float
     start_angles_rad: tuple[float, ...]
     start_speeds_rad_per_s: tuple[float, ...]
-
-    @classmethod
-    def of(cls, race: Race) -> Self:
-        """Model of a race."""
-        return cls(
-            pitch_radius_m=race.pitch_radius,
-            plane_offset_m=race.plane_offset,
-            ball_masses_kg=race.ball_masses,
-            ball_radius_m=race.ball_radius,
-            drag_per_s=race.drag,
-            inertia_factor=race.inertia_factor,
-            start_angles_rad=race.start_angles,
-            start_speeds_rad_per_s=race.start_speeds,
-        )
 
 
 @record
@@ -68,20 +52,8 @@ class SceneModel(Record):
     @classmethod
     def of(cls, scene: Scene) -> Self:
         """Model of a scene."""
-        return cls(
-            states=assemble(scene).states,
-            support=scene.support.model(),
-            speed_rad_per_s=scene.speed,
-            imbalance_kg_m=scene.imbalance,
-            imbalance_angle_rad=scene.imbalance_angle,
-            couple_kg_m2=scene.couple,
-            couple_angle_rad=scene.couple_angle,
-            races=tuple(map(RaceModel.of, scene.races)),
-            effects=tuple(effect.name for effect in scene.effects),
-            start_position=scene.start_position,
-            start_velocity=scene.start_velocity,
-            duration_s=scene.duration,
-        )
+        names = tuple(effect.name for effect in scene.effects)
+        return cls.read(scene, states=assemble(scene).states, support=scene.support.model(), effects=names)
 
     def to_dict(self) -> dict[str, Any]:
         """The support's numbers beside the others."""
@@ -131,15 +103,9 @@ class End(Record):
     def of(cls, final: FinalState, bearings: tuple[float, ...]) -> Self:
         """Record in user units."""
         about_y, about_minus_x = final.tilt or (0.0, 0.0)
-        return cls(
-            t_s=final.t,
-            x_mm=from_si(final.x, "mm"),
-            y_mm=from_si(final.y, "mm"),
-            vx_mm_per_s=from_si(final.vx, "mm_per_s"),
-            vy_mm_per_s=from_si(final.vy, "mm_per_s"),
+        return cls.read(
+            final,
             ball_angles_deg=tuple(wrapped_deg(angle) for angle in final.ball_angles),
-            ball_speeds_rpm=tuple(from_si(speed, "rpm") for speed in final.ball_speeds),
-            ball_rates_rpm=tuple(from_si(rate, "rpm") for rate in final.ball_rates),
             rotor_speed_rpm=from_si(final.speed, "rpm"),
             tilt_x_mrad=None if final.tilt is None else -1000 * about_minus_x,
             tilt_y_mrad=None if final.tilt is None else 1000 * about_y,
@@ -158,14 +124,6 @@ class EffectEntry(Record):
     why: Annotated[str, Quantity("why")]
 
 
-def effect_entries(ledger: Ledger) -> tuple[EffectEntry, ...]:
-    """The ledger of a scene."""
-    return tuple(
-        EffectEntry(name=entry.name, included=entry.included, weight=finite(entry.weight), why=entry.why)
-        for entry in ledger.entries
-    )
-
-
 @record
 class Cost(Record):
     """Work of all runs of a simulation together; tolerance and steps of the one that is reported."""
@@ -177,14 +135,6 @@ class Cost(Record):
     events: Annotated[int, Quantity("events", "", 4, "switches of how effects act")]
     wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
     why: Annotated[str, Quantity("why this integrator")]
-
-    @classmethod
-    def of(cls, cost: RunCost) -> Self:
-        """Cost of a simulation."""
-        return cls(
-            integrator=cost.integrator, tolerance=cost.tolerance, evaluations=cost.evaluations, steps=cost.steps,
-            events=cost.events, wall_s=cost.wall_s, why=cost.why,
-        )  # fmt: skip
 
 
 @record
@@ -204,14 +154,6 @@ class Audit(Record):
     effects: Annotated[tuple[str, ...], Quantity("taken in for the audit")]
     evaluations: Annotated[int, Quantity("evaluations of the equations")]
     wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
-
-    @classmethod
-    def of(cls, run: AuditRun) -> Self:
-        """Record of an audit."""
-        return cls(
-            difference=run.difference, promise=run.promise, effects=run.effects, evaluations=run.evaluations,
-            wall_s=run.wall_s,
-        )  # fmt: skip
 
 
 @record
@@ -275,26 +217,18 @@ class SimulatedScene(Record):
         """Record in user units."""
         response = simulation.response
         bearings = tuple(from_si(value, "mm") for value in response.bearing_amplitudes)
-        return cls(
+        return cls.read(
+            response,
+            simulation,
             scene=response.scene,
-            duration_s=response.duration,
-            settling_time_s=response.settling_time,
-            residual_imbalance_g_mm=from_si(response.residual_imbalance, "g_mm"),
-            axis_amplitude_mm=from_si(response.axis_amplitude, "mm"),
-            velocity_rms_mm_per_s=from_si(response.velocity_rms, "mm_per_s"),
-            level_db=response.level,
-            unbalanced_amplitude_mm=from_si(response.unbalanced_amplitude, "mm"),
-            largest_amplitude_mm=from_si(response.largest_amplitude, "mm"),
             final=End.of(response.final, bearings),
-            effects=effect_entries(ledger),
-            cost=Cost.of(simulation.cost),
+            effects=tuple(map(EffectEntry.read, ledger.entries)),
             error_estimate=simulation.error_estimate + ledger.spared,
-            rung=simulation.rung,
             envelope=Envelope(error_estimate=finite(simulation.offered.error), why=simulation.offered.why),
             bearing_amplitudes_mm=bearings or None,
             full_speed_s=response.full_speed or None,
             settling_estimates=settling_estimates,
-            audit=None if audit is None else Audit.of(audit),
+            audit=None if audit is None else Audit.read(audit),
         )
 
 
@@ -308,5 +242,4 @@ class StabilityBoundary(Record):
 
 def stability_boundaries(limits: Sequence[Boundary]) -> tuple[StabilityBoundary, ...]:
     """Speeds where stability changes."""
-    return tuple(StabilityBoundary(speed_rpm=from_si(limit.speed, "rpm"), stable_above=limit.stable_above)
-                 for limit in limits)  # fmt: skip
+    return tuple(map(StabilityBoundary.read, limits))

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar, Self
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import from_si, level_from_velocity, velocity_from_level
+from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
 from abu_calc.sizing.budget import accuracy_budget, displacement_level
 from abu_calc.sizing.case import Case
@@ -90,16 +90,7 @@ class InstrumentReadings(Record):
     @classmethod
     def of(cls, level: float | None, speed: float) -> Self | None:
         """Readings of a level [dB] at a speed [rad/s]; None without a level."""
-        if level is None:
-            return None
-        reading = readings(velocity_from_level(level), speed)
-        return cls(
-            velocity_mm_per_s=from_si(reading.velocity, "mm_per_s"),
-            displacement_um=from_si(reading.displacement, "um"),
-            acceleration_m_per_s2=reading.acceleration,
-            weighted_m_per_s2=reading.weighted,
-            total_m_per_s2=reading.total,
-        )
+        return None if level is None else cls.read(readings(velocity_from_level(level), speed))
 
 
 @record
@@ -124,12 +115,11 @@ class HandleLevels(Record):
         `hasty`: the same place, pressed at once.
         """
         levels = place.levels
-        return cls(
-            name=place.name,
+        return cls.read(
+            place,
+            levels,
             level_before_db=levels.before,
             level_after_db=levels.after,
-            reduction_db=levels.reduction,
-            effective_mass_kg=place.effective_mass,
             level_at_once_db=None if hasty is None else hasty.levels.after,
             shown_before=None if speed is None else InstrumentReadings.of(levels.before, speed),
             shown_after=None if speed is None else InstrumentReadings.of(levels.after, speed),
@@ -162,12 +152,11 @@ class MeasuredAfterRecord(Record):
         if comparison is None:
             return None
         predicted = comparison.predicted
-        return cls(
-            place=comparison.place,
+        return cls.read(
+            comparison,
             measured=in_words(comparison.shown),
             measured_level_db=level_from_velocity(comparison.measured),
             predicted_level_db=level_from_velocity(predicted) if predicted else None,
-            difference_db=comparison.difference,
             predicted_value=as_shown(comparison.shown, predicted, comparison.speed) if predicted else None,
             unit=UNITS[comparison.shown.key],
             predicted_loaded_db=loaded,

@@ -26,7 +26,7 @@ class ResidualBudget:
     rolling_friction: float
     race_ovality: float
     plane_offset: float
-    shortfall: float
+    capacity_shortfall: float
     permitted: float
     resting_angles: tuple[float, ...]
 
@@ -34,7 +34,7 @@ class ResidualBudget:
     def residual(self) -> float:
         """Expected residual displacement: the root of the sum of squares, plus what the balls cannot carry."""
         parts = self.race_eccentricity, self.rolling_friction, self.race_ovality, self.plane_offset
-        return math.hypot(*parts) + self.shortfall
+        return math.hypot(*parts) + self.capacity_shortfall
 
     @property
     def within(self) -> bool:
@@ -125,7 +125,7 @@ def accuracy_budget(
         rolling_friction=min(band, (balls.count * balls.moment + carried) / need.effective_mass),
         race_ovality=oval_rest(balls.lobes) * (speed / case.speed_range[1]) ** 2,
         plane_offset=plane_rest(case, imbalance, need.added_mass),
-        shortfall=missing * resonance_factor(case.suspension, speed, need.effective_mass) if missing else 0.0,
+        capacity_shortfall=missing * resonance_factor(case.suspension, speed, need.effective_mass) if missing else 0.0,
         permitted=permitted_displacement(case, need.added_mass, speed),
         resting_angles=angles,
     )

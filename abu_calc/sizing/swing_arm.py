@@ -40,27 +40,27 @@ LEAST_SINE = 1e-6
 class SwingArmBounds:
     """Stiffness and damping that the arm must have [SI]; `arm`: the arm with the autobalancer on it.
 
-    `bunched_limit`: damping needed while the balls are together on the heavy side; None beyond κ = 0.3.
-    `lifted`: contact angles between which the arm does not stand.
-    `standing_stiffness`: stiffness of the pivot with which the arm stands at every contact angle.
-    `parametric_angles`: contact angles at which the rated speed is twice the natural frequency.
+    `damping_limit_bunched`: damping needed while the balls are together on the heavy side; None beyond κ = 0.3.
+    `lifted_contact_angles`: contact angles between which the arm does not stand.
+    `joint_stiffness_standing`: stiffness of the pivot with which the arm stands at every contact angle.
+    `parametric_contact_angles`: contact angles at which the rated speed is twice the natural frequency.
     `cutting_frequency`: at the contact angle given; None, like the resting angle, if the arm does not stand.
     """
 
     arm: Arm
-    stiffness_limit: float
-    stiffness_limit_exact: float
-    worst_angle: float
+    contact_stiffness_limit: float
+    contact_stiffness_limit_exact: float
+    worst_contact_angle: float
     resonance: float
     damping_limit: float
-    bunched_limit: float | None
-    growth_rate: float
+    damping_limit_bunched: float | None
+    parametric_growth_rate: float
     idle_frequency: float
     cutting_frequency: float | None
-    parametric_angles: tuple[float, ...]
-    lifted: tuple[float, float] | None
-    standing_stiffness: float
-    least_moment: float
+    parametric_contact_angles: tuple[float, ...]
+    lifted_contact_angles: tuple[float, float] | None
+    joint_stiffness_standing: float
+    least_pressing_moment: float
     pressed_angle: float | None
     press_force: float | None
     checks: tuple[Check, ...]
@@ -85,19 +85,19 @@ def swing_arm_bounds(
     known = arm.length * heavy / arm.inertia <= MODULATION.high
     bounds = SwingArmBounds(
         arm=arm,
-        stiffness_limit=limits[0],
-        stiffness_limit_exact=limits[1],
-        worst_angle=worst,
+        contact_stiffness_limit=limits[0],
+        contact_stiffness_limit_exact=limits[1],
+        worst_contact_angle=worst,
         resonance=natural,
         damping_limit=damping,
-        bunched_limit=damping_limit(arm, heavy, natural) if known else None,
-        growth_rate=growth_rate(arm, imbalance, natural),
+        damping_limit_bunched=damping_limit(arm, heavy, natural) if known else None,
+        parametric_growth_rate=growth_rate(arm, imbalance, natural),
         idle_frequency=resonance(arm, 0.0),
         cutting_frequency=resonance(arm, own) if arm_stiffness(arm) > 0 else None,
-        parametric_angles=parametric_angles(arm, case.speed),
-        lifted=lifted_angles(arm),
-        standing_stiffness=standing_stiffness(arm),
-        least_moment=least_pressing_moment(arm),
+        parametric_contact_angles=parametric_angles(arm, case.speed),
+        lifted_contact_angles=lifted_angles(arm),
+        joint_stiffness_standing=standing_stiffness(arm),
+        least_pressing_moment=least_pressing_moment(arm),
         pressed_angle=angle,
         press_force=None if angle is None else press_force(arm, angle),
         checks=(),
@@ -136,14 +136,14 @@ def read_arm(case: Case, table: SwingArm, added_mass: float) -> Arm:
 
 
 def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
-    arm, limit = bounds.arm, min(bounds.stiffness_limit, bounds.stiffness_limit_exact)
-    stiff, stiffness = arm.contact_stiffness < limit, arm_stiffness(arm)
+    arm, limit = bounds.arm, min(bounds.contact_stiffness_limit, bounds.contact_stiffness_limit_exact)
+    stiff, stiffness, lifted = arm.contact_stiffness < limit, arm_stiffness(arm), _lifted(bounds.lifted_contact_angles)
     return (
         coded("ABU501", verdict(stiff), "supercritical at the lowest speed and the worst "
               "contact angle (the safer of series and exact), while the disk is pressed; necessary, not sufficient",
               arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
-        _damped(arm, bounds.damping_limit, bounds.bunched_limit),
-        coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{_lifted(bounds.lifted)}",
+        _damped(arm, bounds.damping_limit, bounds.damping_limit_bunched),
+        coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{lifted}",
               stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].remedy, "least"),
         _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip

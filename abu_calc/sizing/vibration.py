@@ -50,7 +50,7 @@ def _worst(case: Case, imbalance: float, candidate: Candidate, speed: float) -> 
     held = _friction(balls.count, balls.moment, band, carried, sum(flexible) / 2)
     friction = max(held.displacement, usual.rolling_friction)
     parts = usual.race_eccentricity, friction, balls.count / 2 * usual.race_ovality, usual.plane_offset
-    return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.shortfall)
+    return WorstResidual(speed, friction, held.angles, math.fsum(parts) + usual.capacity_shortfall)
 
 
 CURVE_STEPS = 6
@@ -86,7 +86,7 @@ class LevelAtSpeed:
     """Level with the autobalancer [dB] at the loudest place, at a speed [rad/s]."""
 
     speed: float
-    after: float
+    level_after: float
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ def speed_levels(
 
 
 def _after(level: LevelAtSpeed) -> float:
-    return level.after
+    return level.level_after
 
 
 def _residual(case: Case, imbalance: float, candidate: Candidate, speed: float) -> float:
@@ -276,7 +276,7 @@ def vibration_checks(
     remedy = None
     if not idle.lowered:
         remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
-        if candidate.budget.shortfall:
+        if candidate.budget.capacity_shortfall:
             remedy = "What gives the balls enough capacity, see ABU201."
         elif candidate.budget.rolling_friction > candidate.budget.race_eccentricity:
             remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
@@ -292,14 +292,14 @@ def _level_check(
 ) -> Check:
     """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
     limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
-    kept, safe = highest.after <= limit, arranged.after <= limit
+    kept, safe = highest.level_after <= limit, arranged.level_after <= limit
     of_range = "" if len(levels.by_speed) == 1 else ", the worst of the range"
     message = f"expected with the autobalancer at the worst handle, at {_rpm(highest)}{of_range}"
     if kept and not safe:
         there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
-        message += f"; {arranged.after:.1f} dB{there} where friction holds the balls at their worst"
+        message += f"; {arranged.level_after:.1f} dB{there} where friction holds the balls at their worst"
     remedy = None if kept and safe else _remedy(case, imbalance, candidate, None if kept else worst)
-    return coded("ABU401", verdict(kept, safe), message, highest.after, limit, "dB", remedy)
+    return coded("ABU401", verdict(kept, safe), message, highest.level_after, limit, "dB", remedy)
 
 
 def _remedy(case: Case, imbalance: float, candidate: Candidate, held: Sequence[WorstResidual] | None) -> str:
@@ -318,7 +318,7 @@ def _remedy(case: Case, imbalance: float, candidate: Candidate, held: Sequence[W
         levels = speed_levels(
             other, imbalance, candidate, held or worst_residuals(other, imbalance, candidate), possible=True
         )
-        return math.inf if levels is None else (levels.highest if held else levels.arranged).after
+        return math.inf if levels is None else (levels.highest if held else levels.arranged).level_after
 
     *others, (words, truest) = _truer(case)
     if (least := level(truest)) > limit:
@@ -333,7 +333,7 @@ def _remedy(case: Case, imbalance: float, candidate: Candidate, held: Sequence[W
 
 def _left(candidate: Candidate) -> str:
     """Actions on the other residuals at the wheel: enough capacity, or a race nearer to the wheel's plane."""
-    capacity = "enough capacity (ABU201), " if candidate.budget.shortfall else ""
+    capacity = "enough capacity (ABU201), " if candidate.budget.capacity_shortfall else ""
     return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
 
 

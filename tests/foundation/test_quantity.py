@@ -1,14 +1,15 @@
 """Every quantity of every result says what it is."""
 
 import importlib
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import get_args
+from typing import ClassVar, NamedTuple, get_args
 
 import pytest
 
 import abu_calc
-from abu_calc.foundation.quantity import Record, hints, quantities
+from abu_calc.foundation.quantity import Record, hints, quantities, record
 from abu_calc.simulation.result import Result
 
 PACKAGE = Path(abu_calc.__file__).parent
@@ -47,3 +48,59 @@ def test_every_quantity_has_a_label(kind):
 
 def test_the_seats_are_among_them():
     assert {"SeatResult", "Creep", "Clearance", "Requirements"} <= {kind.__name__ for kind in SHOWN}
+
+
+@record
+class Inner(Record):
+    force_kN: float
+
+
+@record
+class Outer(Record):
+    decimals: ClassVar[Mapping[str, int]] = {"um": 6}
+
+    gap_um: tuple[float, float]
+    drag_per_s: float | None
+    parts: tuple[Inner, ...]
+    wall_s: float
+    note: str = "none"
+
+
+class Limits(NamedTuple):
+    lower: float
+    upper: float
+
+
+class Force(NamedTuple):
+    force: float
+
+
+class Design(NamedTuple):
+    gap: Limits
+    drag: float
+    parts: tuple[Force, ...]
+    wall_s: float
+
+
+DESIGN = Design(Limits(-3.3e-6, 1.1e-6), math.inf, (Force(1500.0), Force(-20.0)), 0.25)
+
+
+def test_a_record_is_read_in_the_units_of_its_fields():
+    expected = Outer(
+        gap_um=(-3.3, 1.1), drag_per_s=None, parts=(Inner(force_kN=1.5), Inner(force_kN=-0.02)), wall_s=0.25
+    )
+    assert Outer.read(DESIGN) == expected
+    assert Outer.read(DESIGN, drag_per_s=2.0, note="given").drag_per_s == 2.0
+
+
+@pytest.mark.parametrize(
+    ("sources", "given", "message"),
+    [
+        ((Force(1.0),), {}, r"Outer\.gap_um: its attribute is missing in Force"),
+        ((DESIGN, DESIGN), {}, r"Outer\.gap_um: its attribute is ambiguous in Design, Design"),
+        ((DESIGN,), {"gap_mm": 1.0}, "Outer has no fields gap_mm"),
+    ],
+)
+def test_a_record_that_cannot_be_read_says_why(sources, given, message):
+    with pytest.raises(TypeError, match=message):
+        Outer.read(*sources, **given)

@@ -29,13 +29,13 @@ def test_the_curve_of_level_against_speed_is_that_of_the_displacement() -> None:
     assert speeds == sorted(speeds) and {2500, 5000, 12000} <= {round(speed) for speed in speeds}
     residual = design.autobalancer.budget.residual
     for each in levels.by_speed:
-        assert each.after == pytest.approx(20 * math.log10(residual * each.speed / math.sqrt(2) / 5e-8), abs=0.02)
+        assert each.level_after == pytest.approx(20 * math.log10(residual * each.speed / math.sqrt(2) / 5e-8), abs=0.02)
 
 
 def test_the_level_warns_where_only_the_worst_arrangement_exceeds_the_limit() -> None:
     typical = ranged(130.0)
     assert typical.speed_levels is not None
-    expected, worst = typical.speed_levels.highest.after, typical.speed_levels.arranged.after
+    expected, worst = typical.speed_levels.highest.level_after, typical.speed_levels.arranged.level_after
     assert worst > expected + 3
     grades = [check_of(ranged(limit), "ABU401").status for limit in (worst + 0.1, worst - 0.1, expected - 0.1)]
     assert grades == ["pass", "warn", "fail"]
@@ -65,7 +65,7 @@ def test_a_truer_race_shows_what_the_remedy_promised(limit: float, status: str) 
         )
     ).speed_levels  # fmt: skip
     assert truer is not None
-    shown = truer.highest.after if status == "fail" else truer.arranged.after
+    shown = truer.highest.level_after if status == "fail" else truer.arranged.level_after
     assert shown == pytest.approx(float(promised[1]), abs=0.06)
 
 

@@ -1,9 +1,9 @@
 """Cost of accuracy: every way to compute a scene, its error and its time."""
 
 from dataclasses import field
-from typing import Annotated, ClassVar, Final, Self
+from typing import Annotated, ClassVar, Final
 
-from abu_calc.features.accuracy.price_list import PriceList, PricePoint, ReferenceRun
+from abu_calc.features.accuracy.price_list import PriceList
 from abu_calc.features.accuracy.price_list import study as measured
 from abu_calc.foundation.checks import Check, verdict
 from abu_calc.foundation.progress import Progress, silent
@@ -11,7 +11,7 @@ from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.validity import Range
 from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.nonconvergence import QUANTITIES
-from abu_calc.simulation.records import SceneModel, finite
+from abu_calc.simulation.records import SceneModel
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.subject import Source, subject_of
@@ -37,15 +37,6 @@ class MeasuredPoint(Record):
     )
     note: Annotated[str, Quantity("note")]
 
-    @classmethod
-    def of(cls, point: PricePoint) -> Self:
-        """Record of a measurement."""
-        return cls(
-            rung=point.rung, integrator=point.integrator, tolerance=point.tolerance, error=finite(point.error),
-            evaluations=point.evaluations, steps=point.steps, wall_s=finite(point.wall_s), cold_s=finite(point.cold_s),
-            note=point.note,
-        )  # fmt: skip
-
 
 @record
 class Reference(Record):
@@ -55,13 +46,6 @@ class Reference(Record):
     tolerances: Annotated[tuple[float, ...], Quantity("tolerances", "", 1)]
     disagreement: Annotated[float, Quantity("disagreement", "", 2)]
     wall_s: Annotated[float, Quantity("time it took", "", 3)] = field(compare=False)
-
-    @classmethod
-    def of(cls, run: ReferenceRun) -> Self:
-        """Record of a study's reference."""
-        return cls(
-            integrators=run.integrators, tolerances=run.tolerances, disagreement=run.disagreement, wall_s=run.wall_s
-        )
 
 
 @record
@@ -105,19 +89,8 @@ def accuracy(
     subject = subject_of(source, scene, start, command="accuracy").lasting(duration_s)
     ledger = subject.ledger(accuracy)
     study = measured(subject.scene, ledger, quantity, accuracy, budget_s, progress)
-    return AccuracyResult(
-        title=subject.title,
-        checks=(_affordable(study),),
-        warnings=subject.warnings,
-        model=SceneModel.of(ledger.scene),
-        provenance=subject.provenance,
-        scene=subject.scene.name,
-        quantity=study.quantity,
-        accuracy=study.accuracy,
-        reference=Reference.of(study.reference),
-        points=tuple(map(MeasuredPoint.of, study.points)),
-        chosen=None if study.chosen is None else MeasuredPoint.of(study.chosen),
-        skipped=study.skipped,
+    return AccuracyResult.read(
+        subject, study, checks=(_affordable(study),), model=SceneModel.of(ledger.scene), scene=subject.scene.name
     )
 
 

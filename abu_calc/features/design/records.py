@@ -29,7 +29,7 @@ from abu_calc.sizing.drawing_requirements import (
 )
 from abu_calc.sizing.housing import RULES
 from abu_calc.sizing.track import Track
-from abu_calc.sizing.vibration import LevelAtSpeed, LevelsUnderLoad, SpeedLevels, idle_speed_levels
+from abu_calc.sizing.vibration import LevelsUnderLoad, SpeedLevels, idle_speed_levels
 from abu_calc.sizing.vibration import VibrationLevels as Levelled
 
 if TYPE_CHECKING:
@@ -66,19 +66,14 @@ class Frequency(Record):
     @classmethod
     def of(cls, design: Design, region: TrueRegion) -> Self:
         """Record of a design."""
-        frequency, limits = design.frequency, region.boundaries
-        return cls(
-            speed_hz=from_si(frequency.speed, "hz"),
-            natural_frequencies_hz=tuple(from_si(w, "hz") for w in frequency.natural_frequencies),
-            region=frequency.region,
-            balancing_possible=frequency.balancing_possible,
-            finite_mass_gap=frequency.finite_mass_gap,
-            stable=region.stable,
+        limits = region.boundaries
+        return cls.read(
+            design.frequency,
+            region,
+            region=design.frequency.region,
             stability_boundaries_rpm=None if limits is None else stability_boundaries(limits),
-            modes=tuple(Mode(frequency_hz=from_si(mode.frequency, "hz"), damping_ratio=mode.damping_ratio)
-                        for mode in region.modes),
             hanging_drag_per_s=finite(region.hanging.largest),
-        )  # fmt: skip
+        )
 
 
 @record
@@ -116,27 +111,14 @@ class AutobalancerRecord(Record):
     @classmethod
     def of(cls, table: AutobalancerTable, candidate: Candidate, race: Track, why_not: str | None = None) -> Self:
         """Record of a candidate and its race; `table`: the file's demands on it."""
-        groove = race.groove_radius
-        return cls(
-            ball_count=candidate.ball_count,
-            ball_diameter_mm=from_si(candidate.ball_diameter, "mm"),
-            ball_mass_g=from_si(candidate.ball_mass, "g"),
-            race_radius_mm=from_si(candidate.race_radius, "mm"),
-            pitch_radius_mm=from_si(candidate.pitch_radius, "mm"),
-            groove_radius_mm=None if groove is None else from_si(groove, "mm"),
-            capacity_g_mm=from_si(candidate.capacity, "g_mm"),
-            capacity_ratio=finite(candidate.capacity_ratio),
+        return cls.read(
+            candidate,
+            candidate.strength,
+            candidate.budget,
+            race,
             outer_diameter_mm=from_si(candidate.housing.outer_diameter, "mm"),
             width_mm=from_si(candidate.housing.width, "mm"),
-            mass_g=from_si(candidate.mass, "g"),
-            mass_fraction=candidate.mass_fraction,
-            ball_force_N=candidate.strength.ball_force,
-            contact_pressure_MPa=from_si(candidate.strength.contact_pressure, "MPa"),
-            hoop_stress_MPa=from_si(candidate.strength.hoop_stress, "MPa"),
-            optimum_drag_per_s=race.optimum_drag,
             slowest_decay_per_s=race.decay_rates[0][1],
-            carry_over_rpm=from_si(race.carry_over, "rpm"),
-            residual_um=_um(candidate.budget.residual),
             corrector=table.corrector,
             ball_material=table.ball_material,
             housing=RULES[table.design].text,
@@ -174,17 +156,10 @@ class AccuracyBudget(Record):
         band = None
         if reached is not None:
             band = friction_band(design.case.friction_arm, candidate.pitch_radius, candidate.ball_diameter / 2, reached)
-        return cls(
-            race_eccentricity_um=_um(budget.race_eccentricity),
-            speed_rpm=from_si(budget.speed, "rpm"),
-            rolling_friction_um=_um(budget.rolling_friction),
+        return cls.read(
+            budget,
             rolling_friction_worst_um=_um(worst.rolling_friction),
-            race_ovality_um=_um(budget.race_ovality),
-            plane_offset_um=_um(budget.plane_offset),
-            capacity_shortfall_um=_um(budget.shortfall),
-            residual_um=_um(budget.residual),
             worst_um=_um(worst.residual),
-            permitted_um=_um(budget.permitted),
             rolling_friction_reached_um=None if band is None else _um(band),
         )
 
@@ -199,11 +174,6 @@ class SpeedLevel(Record):
 
     speed_rpm: Annotated[float, Quantity("speed", "Ω", 6)]
     level_after_db: Annotated[float, Quantity("level after", "L")]
-
-    @classmethod
-    def of(cls, level: LevelAtSpeed) -> Self:
-        """Record in user units."""
-        return cls(speed_rpm=from_si(level.speed, "rpm"), level_after_db=level.after)
 
 
 @record
@@ -278,8 +248,8 @@ class Vibration(Record):
             level_after_db=worst.after,
             reduction_db=worst.reduction,
             handles=tuple(HandleLevels.of(place, speed) for place in vibration.places),
-            by_speed=None if levels is None else tuple(map(SpeedLevel.of, levels.by_speed)),
-            worst_arrangement=None if levels is None else SpeedLevel.of(levels.arranged),
+            by_speed=None if levels is None else tuple(map(SpeedLevel.read, levels.by_speed)),
+            worst_arrangement=None if levels is None else SpeedLevel.read(levels.arranged),
         )
 
     @classmethod

@@ -74,7 +74,7 @@ class SearchResult:
         """Settling time [s] that a share `RARE` of all starts exceeds, by those that were tried; infinite if one never
         settles.
         """
-        return exceeded([outcome.time for outcome in (*self.outcomes, *self.listed)], RARE)
+        return exceeded([outcome.settling_time_or_inf for outcome in (*self.outcomes, *self.listed)], RARE)
 
 
 def exceeded(times: Sequence[float], share: float) -> float:
@@ -121,12 +121,12 @@ def search(
 
 def _doubtful(outcome: StartOutcome, design: Design) -> bool:
     """True if a start case near this one might exceed a limit."""
-    late = outcome.time > HALF * design.case.table.limits.settling_time_s
+    late = outcome.settling_time_or_inf > HALF * design.case.table.limits.settling_time_s
     return late or outcome.loudest > design.case.level_limit - MARGIN
 
 
 def _slowness(outcome: StartOutcome) -> float:
-    return outcome.time
+    return outcome.settling_time_or_inf
 
 
 def _loudness(outcome: StartOutcome) -> float:
@@ -228,7 +228,7 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
     if not broken:
         share = (
             f"by the slowest of all starts tried, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s; the slowest "
-            f"further start settles in {worst.time:.3g} s"
+            f"further start settles in {worst.settling_time_or_inf:.3g} s"
         )
     again = f"The worst again: abu simulate FILE {repeated(worst, design)}"
     remedy = f"{check.remedy} {again}" if check.remedy else again
@@ -236,7 +236,7 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
-    return outcome.time > design.case.table.limits.settling_time_s
+    return outcome.settling_time_or_inf > design.case.table.limits.settling_time_s
 
 
 def _loud(outcome: StartOutcome, design: Design) -> bool:
@@ -244,7 +244,11 @@ def _loud(outcome: StartOutcome, design: Design) -> bool:
 
 
 def _time_in_words(outcome: StartOutcome) -> str:
-    return "never settle" if math.isinf(outcome.time) else f"settle too late, the latest in {outcome.time:.3g} s"
+    return (
+        "never settle"
+        if math.isinf(outcome.settling_time_or_inf)
+        else f"settle too late, the latest in {outcome.settling_time_or_inf:.3g} s"
+    )
 
 
 Broken = tuple[Callable[[StartOutcome, Design], bool], Callable[[StartOutcome], float], Callable[[StartOutcome], str]]

@@ -44,7 +44,10 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
     kind at the drag given.
     """
     choices = [] if ensemble.worst is None else [("worst", ensemble.worst)]
-    settled = sorted((start for start in ensemble.rated if math.isfinite(start.time)), key=lambda start: start.time)
+    settled = sorted(
+        (start for start in ensemble.rated if math.isfinite(start.settling_time_or_inf)),
+        key=lambda start: start.settling_time_or_inf,
+    )
     if settled:
         choices.append(("typical", settled[len(settled) // 2]))
     given = [start for start in ensemble.given if start.member.speed is None]
@@ -57,7 +60,7 @@ def chosen_starts(ensemble: Ensemble) -> tuple[tuple[str, StartOutcome], ...]:
 
 
 def _slow(outcome: StartOutcome) -> tuple[bool, bool, float]:
-    return outcome.hanging, not outcome.balanced, outcome.time
+    return outcome.hanging, not outcome.balanced, outcome.settling_time_or_inf
 
 
 def starts_again(design: Design, ensemble: Ensemble, accuracy: float) -> Iterator[ReplayedStart]:
@@ -139,7 +142,7 @@ def _view(design: Design, start: ReplayedStart) -> StartView | None:
         why=start.why,
         start=outcome.member.name,
         drag_per_s=outcome.member.drag,
-        settling_time_s=outcome.settling if outcome.balanced else None,
+        settling_time_s=outcome.settling_time if outcome.balanced else None,
         level_db=outcome.level,
         balanced=outcome.balanced,
         view=view,
@@ -173,11 +176,7 @@ class WorstMember(Record):
     @classmethod
     def of(cls, worst: StartOutcome) -> Self:
         """A start at full speed has no run-up."""
-        speed = None if worst.member.speed is None else from_si(worst.member.speed, "rpm")
-        return cls(
-            start=worst.member.way, drag_per_s=worst.member.drag, run_up_s=worst.member.run_up or None, speed_rpm=speed,
-            race_centre_deg=worst.member.race_centre_deg,
-        )  # fmt: skip
+        return cls.read(worst.member, start=worst.member.way, run_up_s=worst.member.run_up or None)
 
 
 @record
@@ -198,10 +197,10 @@ class SettlingOfStart(Record):
         slowest: dict[tuple[str, float], StartOutcome] = {}
         for outcome in ensemble.outcomes:
             key = outcome.member.name, outcome.member.drag
-            slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("time"))
+            slowest[key] = max(slowest.get(key, outcome), outcome, key=attrgetter("settling_time_or_inf"))
         return tuple(
             cls(
-                start=start, drag_per_s=drag, settling_time_s=finite(outcome.time),
+                start=start, drag_per_s=drag, settling_time_s=finite(outcome.settling_time_or_inf),
                 race_centre_deg=outcome.member.race_centre_deg,
             )
             for (start, drag), outcome in slowest.items()
@@ -224,11 +223,10 @@ class EnsembleResult(Record):
     @classmethod
     def of(cls, ensemble: Ensemble) -> Self:
         """Record in user units."""
-        return cls(
-            members=ensemble.members,
-            balanced=ensemble.balanced,
+        return cls.read(
+            ensemble,
             hanging=len(ensemble.hanging),
-            settling_time_s=Spread.of(ensemble, lambda outcome: outcome.time),
+            settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
             level_db=Spread.of(ensemble, lambda outcome: outcome.level),
             residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),

@@ -84,24 +84,14 @@ class SizeModel(Record):
     def of(cls, design: Design, runs: Sequence[SceneRun]) -> Self:
         """Model of a design and its simulations."""
         case, autobalancer = design.case, design.autobalancer
-        need, reactions = autobalancer.requirement, (case.suspension.reaction(axis, case.speed) for axis in (0, 1))
-        return cls(
-            speed_rad_per_s=case.speed,
-            speed_range_rad_per_s=case.speed_range,
+        reactions = (case.suspension.reaction(axis, case.speed) for axis in (0, 1))
+        return cls.read(
+            case,
+            autobalancer.requirement,
             mass_without_autobalancer_kg=case.body.mass,
-            effective_mass_kg=need.effective_mass,
             natural_frequencies_rad_per_s=design.frequency.natural_frequencies,
             reaction_N_per_m=tuple((force.real, force.imag) for force in reactions),
-            runout_m=case.runout,
-            runout_factor=need.runout_factor,
-            runout_part_kg_m=need.runout_part,
-            runout_part_g_mm=from_si(need.runout_part, "g_mm"),
-            eccentricity_part_kg_m=need.eccentricity_part,
-            eccentricity_part_g_mm=from_si(need.eccentricity_part, "g_mm"),
-            plane_ratio=need.plane_ratio,
             ball_radius_mm=from_si(autobalancer.ball_diameter / 2, "mm"),
-            inertia_factor=case.inertia_factor,
-            drag_per_s=case.drag,
             ball_stiffness_per_s2=design.track.ball_stiffness,
             resting_angles_rad=autobalancer.budget.resting_angles,
             permitted_pressure_Pa=autobalancer.strength.permitted_pressure,
@@ -222,7 +212,9 @@ def size(
         vibration_loaded=None
         if loaded is None
         else replace(
-            Vibration.of_loaded(loaded, design.case.speed), starts=LoadedStarts.of(loads), bound=LevelBound.of(bound)
+            Vibration.of_loaded(loaded, design.case.speed),
+            starts=LoadedStarts.of(loads),
+            bound=None if bound is None else LevelBound.read(bound),
         ),
         measured_after=MeasuredAfterRecord.of(
             compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
@@ -234,10 +226,7 @@ def size(
         fits=tuple(seat for bearing in seats for seat in seat_results(bearing)),
         swing_arm=None if arm is None else SwingArmRecord.of(arm),
         arm_motion=moved,
-        drawing=tuple(
-            DrawingLine(feature=line.feature, requirement=line.requirement, cost_db=line.cost_db)
-            for line in design.drawing
-        ),
+        drawing=tuple(map(DrawingLine.read, design.drawing)),
         idle_run=_view(design, runs, "idle"),
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),

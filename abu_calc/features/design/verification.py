@@ -131,7 +131,9 @@ def passes(design: Design, ensemble: Ensemble) -> bool:
     """True if every start case at the given drag rate balances, in time and within the level."""
     limits, level = design.case.table.limits, design.case.level_limit
     lost = any(start.member.drag == ensemble.drag for start in ensemble.lost)
-    return not lost and all(start.time <= limits.settling_time_s and start.level <= level for start in ensemble.given)
+    return not lost and all(
+        start.settling_time_or_inf <= limits.settling_time_s and start.level <= level for start in ensemble.given
+    )
 
 
 MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5

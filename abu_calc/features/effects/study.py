@@ -7,7 +7,7 @@ from abu_calc.dynamics.effects.registry import REGISTRY
 from abu_calc.foundation.checks import Status
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.simulation.arguments import checked
-from abu_calc.simulation.records import EffectEntry, SceneModel, effect_entries
+from abu_calc.simulation.records import EffectEntry, SceneModel
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.subject import Source, subject_of
@@ -81,13 +81,11 @@ def effects(
     ACCURACY.check(accuracy)
     subject = subject_of(source, scene, command="effects")
     ledger = subject.ledger(accuracy, with_effects, without_effects)
-    return EffectsResult(
-        title=subject.title,
-        warnings=subject.warnings,
+    return EffectsResult.read(
+        subject,
         model=SceneModel.of(ledger.scene),
-        provenance=subject.provenance,
         scene=ledger.scene.name,
         accuracy=accuracy,
-        effects=effect_entries(ledger),
+        effects=tuple(map(EffectEntry.read, ledger.entries)),
         promise=ledger.promise,
     )

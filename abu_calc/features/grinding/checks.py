@@ -37,7 +37,7 @@ STAYS: Final = 3.0
 class Agreement:
     """Relative differences of the simulated contact from the closed form: axis, force, resulting imbalance.
 
-    `apart`: the largest; `failure`: why there is none. `reached`: whether balls get there from where they stand at
+    `apart`: the largest; `failure`: why there is none. `from_idle`: whether balls get there from where they stand at
     idle; if not, they were started where the closed form has them.
     """
 
@@ -45,7 +45,7 @@ class Agreement:
     reaction: float | None = None
     imbalance: float | None = None
     failure: str | None = None
-    reached: bool = True
+    from_idle: bool = True
 
     @property
     def apart(self) -> float | None:
@@ -219,9 +219,9 @@ def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
     near = compared.apart <= AGREES
     remedy = None if near else "Damp the suspension, or take another drag: something has not died out in the run."
     message = "simulated contact, ideal race, against the closed form"
-    if not compared.reached:
+    if not compared.from_idle:
         message += "; balls started there, since from where they stand at idle they do not get there, or not in time"
-    return (coded("ABU425", verdict(True, near and compared.reached), message,
+    return (coded("ABU425", verdict(True, near and compared.from_idle), message,
                   100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip
 
 
@@ -249,7 +249,7 @@ def agreement(work: Work, accuracy: float, progress: Progress = silent) -> Agree
         if comparison.apart is not None and comparison.apart <= AGREES:
             return comparison
     there = _compared(work, _lasting(_placed(scene, steady.balls), min(sway, LONG / STAYS)), accuracy, progress)
-    return replace(there, reached=False)
+    return replace(there, from_idle=False)
 
 
 def _lasting(scene: Scene, rate: float) -> Scene:

@@ -39,7 +39,7 @@ HARDLY: Final = 0.02
 
 @dataclass(frozen=True)
 class LoadedGroup:
-    """Start cases of one way of pressing that end with the same motion; `count` of `all` of that way of pressing.
+    """Start cases of one way of pressing that end with the same motion; `count` of `total` of that way of pressing.
 
     Levels [dB]: the median, the lowest and the highest of the group; `apart`: the largest share of the time in which
     wheel and workpiece do not touch; `steady`: whether no level still changes by more than 0.5 dB.
@@ -48,7 +48,7 @@ class LoadedGroup:
     pressed: Pressed
     state: State
     count: int
-    all: int
+    total: int
     level: float
     lowest: float
     highest: float
@@ -59,7 +59,7 @@ class LoadedGroup:
     @property
     def share(self) -> float:
         """Share among the start cases of that way of pressing, those without an answer included."""
-        return self.count / self.all
+        return self.count / self.total
 
 
 def state_of(work: Work, outcome: LoadedOutcome) -> State:
@@ -135,7 +135,7 @@ def _group(when: Pressed, state: State, outcomes: Sequence[LoadedOutcome], count
         pressed=when,
         state=state,
         count=len(outcomes),
-        all=count,
+        total=count,
         level=statistics.median(outcome.level for outcome in outcomes),
         lowest=outcomes[0].level,
         highest=outcomes[-1].level,
@@ -258,7 +258,7 @@ class LowerBound:
     `total` None: the speed is beyond the range of W_h.
     """
 
-    holds: bool
+    lower_bound: bool
     total: float | None
     set_by: tuple[str, ...]
     lacks: tuple[str, ...]
@@ -266,7 +266,7 @@ class LowerBound:
     @property
     def sentence(self) -> str:
         """One sentence for the screen; empty if the level is no lower bound."""
-        if not self.holds:
+        if not self.lower_bound:
             return ""
         shown = "" if self.total is None else f" (a_hv {self.total:.2g} m/s²)"
         return (
@@ -288,7 +288,7 @@ def lower_bound(level: float | None, case: Case) -> LowerBound | None:
     presses = contact_presses(case)
     true = presses and not case.runout
     return LowerBound(
-        holds=true or (total is not None and total < LEAST),
+        lower_bound=true or (total is not None and total < LEAST),
         total=total,
         set_by=_set_by(case, presses),
         lacks=(

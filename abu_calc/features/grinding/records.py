@@ -8,7 +8,6 @@ from typing import Annotated, Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from abu_calc.features.grinding.checks import Agreement
 from abu_calc.features.grinding.curves import AtAngle, AtSpeed, Friction, Shaken, largest_runout
 from abu_calc.features.grinding.simulation import WorkSimulation
 from abu_calc.features.grinding.steady_contact import SteadyWork
@@ -122,17 +121,12 @@ class FrictionBand(Record):
     @classmethod
     def of(cls, friction: Friction, run: Shaken | None) -> Self:
         """Record in user units."""
-        whirl, unshaken = friction.whirl, None if run is None else run.unshaken
+        unshaken = None if run is None else run.unshaken
         left = None if run is None else run.shaken
-        return cls(
-            typical_um=from_si(friction.typical, "um"),
-            worst_um=from_si(friction.worst, "um") if math.isfinite(friction.worst) else None,
-            threshold_um=from_si(friction.threshold, "um"),
-            axial_um=from_si(friction.axial, "um"),
+        return cls.read(
+            friction,
             axial_shakes=friction.axial > friction.threshold > 0,
-            whirl_um=None if whirl is None else from_si(whirl, "um"),
             whirl_shakes=friction.creep is not None,
-            creep_s=friction.creep,
             simulated_way=None if run is None else run.way,
             simulated_um=None if run is None else from_si(run.amplitude, "um"),
             simulated_given=None if run is None else run.given,
@@ -206,18 +200,16 @@ class Simulated(Record):
     def of(cls, run: WorkSimulation) -> Self:
         """Record in user units."""
         presses = len(run.force) > 0
-        return cls(
+        return cls.read(
+            run,
             x_amplitude_mm=from_si(run.x, "mm"),
             y_amplitude_mm=from_si(run.y, "mm"),
-            velocity_rms_mm_per_s=from_si(run.velocity, "mm_per_s"),
             imbalance_g_mm=from_si(abs(run.imbalance), "g_mm"),
             force_amplitude_N=abs(run.reaction) if presses else None,
             largest_force_N=float(run.force.max()) if presses else None,
-            apart=run.apart,
             hardest_at_deg=wrapped_deg(cmath.phase(run.pressure)) if presses and run.reaction else None,
             ball_angles_deg=tuple(map(wrapped_deg, run.ball_angles)),
-            duration_s=run.duration,
-            scatter_db=run.scatter,
+            velocity_rms_mm_per_s=from_si(run.velocity, "mm_per_s"),
         )
 
 
@@ -229,11 +221,6 @@ class Comparison(Record):
     reaction: Annotated[float | None, Quantity("variable force", "", 3)]
     imbalance: Annotated[float | None, Quantity("imbalance", "", 3)]
     from_idle: Annotated[bool, Quantity("balls get there from where they stand at idle")]
-
-    @classmethod
-    def of(cls, errors: Agreement) -> Self:
-        """The same numbers."""
-        return cls(axis=errors.axis, reaction=errors.reaction, imbalance=errors.imbalance, from_idle=errors.reached)
 
 
 @record

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Self
 
-from abu_calc.features.grinding.outcomes import GrindingOutcomes, LoadedGroup, LowerBound
+from abu_calc.features.grinding.outcomes import GrindingOutcomes
 from abu_calc.foundation.quantity import Quantity, Record, record
 
 
@@ -31,23 +31,6 @@ class LoadedOutcomeGroup(Record):
     steady: Annotated[bool, Quantity("levels no longer change")]
     loudest_start: Annotated[str, Quantity("loudest start case")]
 
-    @classmethod
-    def of(cls, group: LoadedGroup) -> Self:
-        """The same numbers."""
-        return cls(
-            pressed=group.pressed,
-            state=group.state,
-            count=group.count,
-            total=group.all,
-            share=group.share,
-            level_db=group.level,
-            lowest_db=group.lowest,
-            highest_db=group.highest,
-            apart=group.apart,
-            steady=group.steady,
-            loudest_start=group.loudest_start,
-        )
-
 
 @record
 class LoadedStarts(Record):
@@ -63,12 +46,8 @@ class LoadedStarts(Record):
         """None for a machine whose contact does not press in the plane of the wheel."""
         if loads is None:
             return None
-        return cls(
-            count=loads.ensemble.count,
-            without_answer=len(loads.lost),
-            worst_db=loads.worst,
-            outcomes=tuple(map(LoadedOutcomeGroup.of, loads.groups)),
-        )
+        outcomes = tuple(map(LoadedOutcomeGroup.read, loads.groups))
+        return cls.read(loads, count=loads.ensemble.count, without_answer=len(loads.lost), outcomes=outcomes)
 
 
 @record
@@ -79,10 +58,3 @@ class LevelBound(Record):
     total_m_per_s2: Annotated[float | None, Quantity("weighted vibration total of the level", "a_hv", 3)]
     set_by: Annotated[tuple[str, ...], Quantity("set by")]
     lacks: Annotated[tuple[str, ...], Quantity("the model lacks")]
-
-    @classmethod
-    def of(cls, bound: LowerBound | None) -> Self | None:
-        """The same; None if the level is not known."""
-        if bound is None:
-            return None
-        return cls(lower_bound=bound.holds, total_m_per_s2=bound.total, set_by=bound.set_by, lacks=bound.lacks)

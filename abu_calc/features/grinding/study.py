@@ -104,28 +104,22 @@ class GrindingModel(Record):
         mass = case.body.effective_mass(autobalancer.mass)
         stiffness = contact_of(case, autobalancer.mass).dynamic_stiffness
         held = [each + mass * case.speed**2 for each in stiffness]
-        return cls(
-            system_mass_kg=design.system_mass,
+        return cls.read(
+            design,
+            case,
+            autobalancer,
             effective_mass_kg=mass,
             mass_without_autobalancer_kg=case.body.mass,
-            speed_rad_per_s=case.speed,
             reaction_of_suspension_N_per_m=(_pair(held[0]), _pair(held[1])),
             dynamic_stiffness_N_per_m=(_pair(stiffness[0]), _pair(stiffness[1])),
             imbalance_kg_m=design.imbalance.value,
-            runout_m=case.runout,
             runout_angle_deg=case.table.wheel.runout_angle_deg,
             contact=contact.kind if contact else "",
             contact_stiffness_N_per_m=contact.stiffness if contact and contact.kind == "compliant" else None,
             press_force_N=contact.press_force if contact else 0.0,
             cutting_coefficient=contact.cutting_coefficient if contact else 0.0,
             rotation_sense=contact.sense if contact else 0,
-            ball_count=autobalancer.ball_count,
-            ball_mass_kg=autobalancer.ball_mass,
             ball_radius_m=autobalancer.ball_diameter / 2,
-            pitch_radius_m=autobalancer.pitch_radius,
-            capacity_kg_m=autobalancer.capacity,
-            inertia_factor=case.inertia_factor,
-            drag_per_s=case.drag,
             slow_stiffness_per_s2=None if steady.balls is None else (
                 _pair(steady.balls.stiffness[0]), _pair(steady.balls.stiffness[1])),
             total_imbalance_kg_m=None if steady.imbalance is None else _pair(steady.imbalance),
@@ -228,7 +222,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         level_at_once_db=work.level_at_once,
         at_once_stays=work.stays_loud,
         starts=LoadedStarts.of(loads),
-        bound=LevelBound.of(bound),
+        bound=None if bound is None else LevelBound.read(bound),
         measured_after=MeasuredAfterRecord.of(compared_design(design), level_where_measured(design, work.moved)),
         remedies=tuple(map(TriedRemedy.of, tried)),
         ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
@@ -263,7 +257,7 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         simulation=None if work.fitted.run is None else Simulated.of(work.fitted.run),
         simulation_at_once=None if work.at_once.run is None else Simulated.of(work.at_once.run),
         simulation_without=None if work.without.run is None else Simulated.of(work.without.run),
-        agreement=None if compared is None else Comparison.of(compared),
+        agreement=None if compared is None else Comparison.read(compared),
         orbits=tuple(_orbits(work, still)),
     )  # fmt: skip
 

@@ -42,9 +42,9 @@ def starts_in_words(work: Work, loads: GrindingOutcomes | None) -> str:
         return ""
     when, hasty = WHEN[loudest.pressed], work.level_at_once or -math.inf
     if not work.always and loudest.pressed == "at once" and abs(loudest.highest - hasty) <= LOUDER:
-        return f" That is so in {loudest.count} of {loudest.all} start cases pressed at once."
+        return f" That is so in {loudest.count} of {loudest.total} start cases pressed at once."
     cases, ends = (
-        f"{loudest.count} of {loudest.all} start cases pressed {when}",
+        f"{loudest.count} of {loudest.total} start cases pressed {when}",
         "ends" if loudest.count == 1 else "end",
     )
     return f" {cases} {ends} {loudest.state}, at most at {loudest.highest:.1f} dB."

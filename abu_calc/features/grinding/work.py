@@ -162,7 +162,7 @@ def at_work(
     press = case.contact.press_force if case.contact else math.inf
     budget = accuracy_budget(case, design.imbalance.value, abu.requirement, abu.balls, abu.budget.resting_angles,
                              case.speed)  # fmt: skip
-    rest = budget.residual - budget.shortfall
+    rest = budget.residual - budget.capacity_shortfall
     without, free = Side(bare(design, runout), press=press), Side(fitted(design, runout), press=press)
     if without.parts:
         without = _run(without, grinding_without(design), accuracy, progress)

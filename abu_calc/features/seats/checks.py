@@ -60,11 +60,11 @@ def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check,
     """Check that bearings keep clearance after mounting: warn if some do not, fail if most do not."""
     if left is None:
         return ()
-    passed, safe = left.below_zero < _MOST, left.probable.smallest >= 0
+    passed, safe = left.below_zero_probability < _MOST, left.probable.smallest >= 0
     choice = f"{left.group_to_choose} keeps it." if left.group_to_choose else "No group keeps it: looser fits."
     return (coded(
         "ABU621", verdict(passed, safe), f"least probable radial clearance of group {left.group} after mounting; "
-        f"{of_all(left.below_zero, 'bearings')} have none left", _um(left.probable.smallest), 0.0, "µm",
+        f"{of_all(left.below_zero_probability, 'bearings')} have none left", _um(left.probable.smallest), 0.0, "µm",
         None if safe else choice, "least", of=bearing,
     ),)  # fmt: skip
 

@@ -139,7 +139,7 @@ _Law = tuple[tuple[float, float], ...]
 
 class ClearanceLeft(NamedTuple):
     """Radial clearance [m] of a group before and after mounting: the extremes, the 0.135 % and 99.865 % ends and the
-    mean of all bearings, the share below zero, the part that warmth takes, and the tightest group whose lower end
+    mean of all bearings, the share below zero, the part that temperature takes, and the tightest group whose lower end
     stays above zero (None: no group)."""
 
     group: str
@@ -147,8 +147,8 @@ class ClearanceLeft(NamedTuple):
     mounted: Interval
     probable: Interval
     mean: float
-    below_zero: float
-    warmth: float
+    below_zero_probability: float
+    by_temperature: float
     group_to_choose: str | None
 
 
@@ -211,8 +211,8 @@ def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Jo
         mounted=Interval(*_extremes(mounting, group)),
         probable=Interval(mounting.end(group, _TAIL), mounting.end(group, 1 - _TAIL)),
         mean=(start.smallest + start.largest) / 2 - taken - mounting.warmth,
-        below_zero=mounting.share_below(group),
-        warmth=mounting.warmth,
+        below_zero_probability=mounting.share_below(group),
+        by_temperature=mounting.warmth,
         group_to_choose=mounting.group_to_choose,
     )
 

@@ -25,8 +25,8 @@ class SeatRequirements(NamedTuple):
     field: str
     limits: DeviationLimits
     form: float
-    roughness: float
-    shoulder_grade: str
+    roughness_Ra: float
+    shoulder_runout_grade: str
     shoulder_runout: float | None
     hardness: str
     source: str
@@ -51,8 +51,8 @@ def seat_requirements(joint: Joint, tolerance_class: str, bearing_class: str) ->
         field=tolerance_class,
         limits=limits,
         form=limits.tolerance * table["form_share"][bearing_class],
-        roughness=to_si(own["roughness"][bearing_class][joint.diameter > SMALL_SEAT + 1e-9], "um"),
-        shoulder_grade=f"IT{grade}",
+        roughness_Ra=to_si(own["roughness"][bearing_class][joint.diameter > SMALL_SEAT + 1e-9], "um"),
+        shoulder_runout_grade=f"IT{grade}",
         shoulder_runout=part_limits(joint.seat, basic, joint.diameter).tolerance if known else None,
         hardness=table["hardness"][joint.seat],
         source=f"{table['source']}, unverified",
@@ -64,9 +64,9 @@ class SeatRepair(NamedTuple):
     largest gap [m] that a bond must fill (0: none); seat [m] and bearing of the next size (None: not tabulated)."""
 
     grip_left: Interval
-    restore: str
-    limits: DeviationLimits
-    gap: float
+    restore_fit: str
+    restore_limits: DeviationLimits
+    bonding_gap: float
     next_seat: float | None
     next_bearing: str | None
 
@@ -92,9 +92,9 @@ def seat_repair(joint: Joint, restore: str, designation: str | None) -> SeatRepa
     neighbour = next_size(designation, joint.seat) if designation else None
     return SeatRepair(
         grip_left=left,
-        restore=restore,
-        limits=part_limits(joint.seat, restore, joint.diameter),
-        gap=max(-joint.interference.smallest, 0.0),
+        restore_fit=restore,
+        restore_limits=part_limits(joint.seat, restore, joint.diameter),
+        bonding_gap=max(-joint.interference.smallest, 0.0),
         next_seat=None if neighbour is None else neighbour.bore if joint.seat == "shaft" else neighbour.outer,
         next_bearing=neighbour.designation if neighbour else None,
     )

@@ -225,9 +225,8 @@ def seat_note(result: CheckFitResult) -> tuple[Block, ...]:
     """Every formula with the numbers of each bearing."""
     from abu_calc.features.explain.steps import STEPS, step_blocks
     from abu_calc.features.seats.formula_view import seat_numbers
-    from abu_calc.features.seats.study import bearing_models
 
-    return tuple(step_blocks(STEPS["seats"], seat_numbers(bearing_models(result), result.seats)))
+    return tuple(step_blocks(STEPS["seats"], seat_numbers(result.judged, result.seats)))
 
 
 def check_fit_figures(result: CheckFitResult) -> Iterator[Figure]:

@@ -1,39 +1,45 @@
 """Formulas of both seats with the numbers of a bearing put in."""
 
+import math
 from collections.abc import Sequence
 
-from abu_calc.features.seats.joint import CENTRIFUGAL, WARMTH
-from abu_calc.features.seats.records import Clearance, SeatResult
-from abu_calc.features.seats.study import BearingModel, SeatModel
+from abu_calc.features.seats.bearing import SeatedBearing
+from abu_calc.features.seats.clearance import warm_parts
+from abu_calc.features.seats.joint import CENTRIFUGAL, WARMTH, Joint, inner_ring_diameter
+from abu_calc.features.seats.notes import SHOCK_FACTOR
+from abu_calc.features.seats.records import Clearance, SeatResult, um, um_pair
+from abu_calc.features.seats.seats import BearingSeats
 from abu_calc.foundation.units import from_si
 
 
-def seat_numbers(models: Sequence[BearingModel], seats: Sequence[SeatResult]) -> tuple[str, ...]:
+def seat_numbers(bearings: Sequence[BearingSeats], seats: Sequence[SeatResult]) -> tuple[str, ...]:
     """A line a formula, bearing after bearing, the shaft's before the housing's, which alternate in `seats`."""
     lines: list[str] = []
-    for bearing, shaft, housing in zip(models, seats[::2], seats[1::2], strict=True):
+    for bearing, shaft, housing in zip(bearings, seats[::2], seats[1::2], strict=True):
         lines.append(f"{shaft.name}:")
-        for seat, model in ((shaft, bearing.shaft), (housing, bearing.housing)):
-            lines += [f"{seat.seat}: {line}" for line in _seat(bearing, model, seat)]
+        for seat, fit in ((shaft, bearing.shaft), (housing, bearing.housing)):
+            lines += [f"{seat.seat}: {line}" for line in _seat(bearing.bearing, fit.joint, seat)]
         lines += _clearance(bearing, shaft.internal_clearance)
     return tuple(lines)
 
 
-def _seat(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+def _seat(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str, ...]:
     """Lines of one seat; those the file has no data for are left out."""
     return (
-        *_fit(model, seat),
-        *_load(model, seat),
-        *_losses(bearing, model, seat),
-        _stress(model, seat),
-        *_moment(bearing, model, seat),
+        *_fit(joint, seat),
+        *_load(joint, seat),
+        *_losses(bearing, joint, seat),
+        _stress(joint, seat),
+        *_moment(bearing, joint, seat),
     )
 
 
-def _fit(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
-    (ei, es), (EI, ES) = map(_both, (model.male_limits_um, model.female_limits_um))
-    mean, sigma = _g(model.mean_interference_um), _g(model.sigma_um)
-    spread = "√({}² + {}²)".format(*_both(model.half_tolerances_um))
+def _fit(joint: Joint, seat: SeatResult) -> tuple[str, ...]:
+    male, female = joint.male_and_female
+    halves = male.tolerance / 2, female.tolerance / 2
+    (ei, es), (EI, ES) = _both(um_pair(male)), _both(um_pair(female))
+    mean, sigma = _g(um(male.middle - female.middle)), _g(um(math.hypot(*halves) / 3))
+    spread = "√({}² + {}²)".format(*_both(um_pair(halves)))
     return (
         f"ei − ES … es − EI = {ei} − ({ES}) … {es} − ({EI}) = {_span(seat.interference_um)} µm",
         f"probable: {mean} ∓ {spread} = {_span(seat.probable_interference_um)} µm, outward",
@@ -42,27 +48,27 @@ def _fit(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
     )
 
 
-def _load(model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
+def _load(joint: Joint, seat: SeatResult) -> tuple[str, ...]:
     intensity = None if seat.needs_no_grip else seat.load_intensity_kN_per_m
-    load, length = model.load_in_kilonewtons, model.length_mm
-    if model.radial_load_N is None or load is None or length is None or model.length_m is None or intensity is None:
+    if joint.radial_load is None or joint.length is None or intensity is None:
         return ()
+    load, length = _g(from_si(joint.radial_load, "kN")), _g(from_si(joint.length, "mm"))
     source, catalogue = (_g(loss.amount_um) for loss in seat.losses if loss.name == "load")
-    under = f"{_g(model.diameter_mm)}·{_g(model.radial_load_N)}/{_g(model.width_mm)}"
+    under = f"{_mm(joint.diameter)}·{_g(joint.radial_load)}/{_mm(joint.ring.width)}"
     return (
-        f"13·F_r·k_B/b_s = 13·{_g(load)}·{_g(model.load_factor)}/{_g(length)} = {source} µm",
+        f"13·F_r·k_B/b_s = 13·{load}·{_g(joint.factor)}/{length} = {source} µm",
         f"0.08·√(d·F_r/B) = 0.08·√({under}) = {catalogue} µm",
-        f"P_R = k₁·F_r/b_s = {model.shock_factor:g}·{_g(load)}/{_g(model.length_m)} = {_g(intensity)} kN/m",
+        f"P_R = k₁·F_r/b_s = {SHOCK_FACTOR:g}·{load}/{_g(joint.length)} = {_g(intensity)} kN/m",
     )
 
 
-def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
-    bore = _g(bearing.bore_mm)
+def _losses(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str, ...]:
+    part, bore = bearing.shaft if joint.seat == "shaft" else bearing.housing, bearing.inner.diameter
     numbers = {
-        "smoothing": f"0.4·{_g(model.roughness_um)} µm",
-        WARMTH: f"{_g(model.diameter_mm)} mm·({_warm(model)})",
-        CENTRIFUGAL: f"Ω = {_g(from_si(bearing.speed_rad_per_s or 0.0, 'rpm'))} rpm, d = {bore}, d₁ = "
-        f"{_g(bearing.inner_ring_diameter_mm)}, d₀ = {_g(bearing.shaft_bore_mm)} mm",
+        "smoothing": f"0.4·{_g(um(part.roughness or 0.0))} µm",
+        WARMTH: f"{_mm(joint.diameter)} mm·({_warm(bearing, joint)})",
+        CENTRIFUGAL: f"Ω = {_g(from_si(bearing.service.speed or 0.0, 'rpm'))} rpm, d = {_mm(bore)}, d₁ = "
+        f"{_mm(inner_ring_diameter(bore, bearing.outer.diameter))}, d₀ = {_mm(bearing.shaft.other or 0.0)} mm",
     }
     lines = tuple(
         f"{loss.name}: {loss.formula}: {numbers[loss.name]} = {_g(loss.amount_um)} µm"
@@ -74,37 +80,44 @@ def _losses(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[
     return (*lines, f"required with the losses: {_g(seat.needed_um)} µm")
 
 
-def _warm(model: SeatModel) -> str:
-    around = f"{_g(model.around_expansion_per_K or 0.0)}·{_g(model.around_rise_K or 0.0)}"
-    return f"{around} − {_g(model.inside_expansion_per_K or 0.0)}·{_g(model.inside_rise_K or 0.0)}"
+def _warm(bearing: SeatedBearing, joint: Joint) -> str:
+    parts = warm_parts(bearing, joint.seat) or ((0.0, 0.0), (0.0, 0.0))
+    return " − ".join(f"{_g(expansion)}·{_g(rise)}" for expansion, rise in parts)
 
 
-def _stress(model: SeatModel, seat: SeatResult) -> str:
+def _stress(joint: Joint, seat: SeatResult) -> str:
+    pressure = from_si(joint.pressure_rate * max(joint.tightest, 0.0), "MPa")
     return (
-        f"Lamé at {_g(seat.tightest_um)} µm: p = {_g(model.tightest_pressure_in_megapascals)} "
+        f"Lamé at {_g(seat.tightest_um)} µm: p = {_g(pressure)} "
         f"MPa, hoop stress of the ring {_g(seat.hoop_stress_MPa)} MPa; permitted "
         f"{_g(seat.permitted_interference_um)} µm by {seat.permitted_by}"
     )
 
 
-def _moment(bearing: BearingModel, model: SeatModel, seat: SeatResult) -> tuple[str, ...]:
-    moments, diameter = seat.creep.friction_moment_N_m, _g(model.diameter_m)
-    if model.length_m is None or moments is None:
+def _moment(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str, ...]:
+    """Friction moment at the least interference, less the losses before the shaft turns."""
+    moments, diameter = seat.creep.friction_moment_N_m, _g(joint.diameter)
+    if joint.length is None or moments is None:
         return ()
+    pressure = joint.pressure_rate * max(joint.interference.smallest - joint.lasting_losses, 0.0)
     return (
-        f"μ_s·p·π·d·b_s·d/2 = {_g(bearing.seat_friction)}·{_g(model.starting_pressure_Pa)}·π·{diameter}·"
-        f"{_g(model.length_m)}·{diameter}/2 = {_g(moments[0])} N·m",
+        f"μ_s·p·π·d·b_s·d/2 = {_g(bearing.service.seat_friction)}·{_g(pressure)}·π·{diameter}·"
+        f"{_g(joint.length)}·{diameter}/2 = {_g(moments[0])} N·m",
     )
 
 
-def _clearance(bearing: BearingModel, left: Clearance | None) -> tuple[str, ...]:
+def _clearance(bearing: BearingSeats, left: Clearance | None) -> tuple[str, ...]:
     if left is None:
         return ()
-    rates = f"{_g(bearing.shaft.raceway_rate)} and {_g(bearing.housing.raceway_rate)}"
+    rates = f"{_g(bearing.shaft.joint.raceway_rate)} and {_g(bearing.housing.joint.raceway_rate)}"
     return (
         f"clearance of group {left.group}: {_span(left.initial_um)} µm less {rates} of the interferences and "
         f"{_g(left.by_temperature_um)} µm of temperature = {_span(left.mounted_um)} µm, mean {_g(left.mean_um)}",
     )
+
+
+def _mm(length: float) -> str:
+    return _g(from_si(length, "mm"))
 
 
 def _span(interval: tuple[float, float]) -> str:

@@ -4,7 +4,7 @@ Parts: losses, tolerance classes, groups, repair, creep, drawing, clearance.
 """
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self, TypeAlias
 
 from abu_calc.foundation.checks import Grade, worst
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -12,14 +12,15 @@ from abu_calc.foundation.units import from_si
 from abu_calc.standards.tolerance_classes import RingLoad, Seat
 
 if TYPE_CHECKING:
-    from abu_calc.features.seats.advice import Rejected
-    from abu_calc.features.seats.clearance import ClearanceLeft
-    from abu_calc.features.seats.drawing_requirements import SeatRepair, SeatRequirements
+    from abu_calc.features.seats.drawing_requirements import SeatRequirements
     from abu_calc.features.seats.notes import Group, Item
-    from abu_calc.features.seats.seats import Admissible, BearingSeats, SeatFit
+    from abu_calc.features.seats.seats import BearingSeats, SeatFit
 
 Pair: TypeAlias = tuple[float, float]
 """Lower and upper, or least and most."""
+
+MICROMETRES: Final = {"um": 6}
+"""Decimals of lengths in micrometres, freed of the rounding of the conversion."""
 
 
 def um(length: float) -> float:
@@ -30,11 +31,6 @@ def um(length: float) -> float:
 def um_pair(pair: Pair) -> Pair:
     """Limits or an interval in micrometres."""
     return um(pair[0]), um(pair[1])
-
-
-def um_or_none(length: float | None) -> float | None:
-    """Micrometres of what may not be known."""
-    return None if length is None else um(length)
 
 
 @record
@@ -57,16 +53,11 @@ class Loss(Record):
 class AdmissibleFit(Record):
     """A tolerance class that neither creeps nor overstresses."""
 
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
+
     fit: Annotated[str, Quantity("field")]
     interference_um: Annotated[Pair, Quantity("interference", "", 4, "least and most, positive when tight")]
     clearance_probability: Annotated[float, Quantity("probability of clearance", "", 3)]
-
-    @classmethod
-    def of(cls, fit: "Admissible") -> Self:
-        """Record of a tolerance class that passes."""
-        return cls(
-            fit=fit.fit, interference_um=um_pair(fit.interference), clearance_probability=fit.clearance_probability
-        )
 
 
 @record
@@ -76,15 +67,12 @@ class RejectedFit(Record):
     fit: Annotated[str, Quantity("field")]
     why: Annotated[str, Quantity("why not")]
 
-    @classmethod
-    def of(cls, fit: "Rejected") -> Self:
-        """Record of a tolerance class that fails."""
-        return cls(fit=fit.fit, why=fit.why)
-
 
 @record
 class SortingGroup(Record):
     """A group of selective assembly: parts of one number are matched."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
     number: Annotated[int, Quantity("group")]
     part_limits_um: Annotated[Pair, Quantity("limits of the part")]
@@ -96,12 +84,8 @@ class SortingGroup(Record):
     def of(cls, group: "Group", seat: Seat) -> Self:
         """Record of a group of a seat."""
         part, ring = (group.male, group.female) if seat == "shaft" else (group.female, group.male)
-        return cls(
-            number=group.number,
-            part_limits_um=um_pair(part),
-            ring_limits_um=um_pair(ring),
-            interference_um=um_pair(group.interference),
-            pairs_of_100=100 * group.share,
+        return cls.read(
+            group, part_limits_um=um_pair(part), ring_limits_um=um_pair(ring), pairs_of_100=100 * group.share
         )
 
 
@@ -109,24 +93,14 @@ class SortingGroup(Record):
 class Repair(Record):
     """Interference left in a seat whose limits are measured, and the limits that a repair must restore."""
 
+    decimals: ClassVar[Mapping[str, int]] = {"um": 6, "mm": 6}
+
     grip_left_um: Annotated[Pair, Quantity("grip left", "", 4, "losses taken off")]
     restore_fit: Annotated[str, Quantity("field to restore")]
     restore_limits_um: Annotated[Pair, Quantity("limits to restore")]
     bonding_gap_um: Annotated[float, Quantity("gap that a bond must fill", "", 4, "of the loosest pair")]
     next_seat_mm: Annotated[float | None, Quantity("seat of the next size")]
     next_bearing: Annotated[str | None, Quantity("bearing of the next size")]
-
-    @classmethod
-    def of(cls, repair: "SeatRepair") -> Self:
-        """Record in user units."""
-        return cls(
-            grip_left_um=um_pair(repair.grip_left),
-            restore_fit=repair.restore,
-            restore_limits_um=um_pair(repair.limits),
-            bonding_gap_um=um(repair.gap),
-            next_seat_mm=None if repair.next_seat is None else round(from_si(repair.next_seat, "mm"), 6),
-            next_bearing=repair.next_bearing,
-        )
 
 
 @record
@@ -147,19 +121,18 @@ class Creep(Record):
         """Record of a seat."""
         creep = seat.creep
         least, probable = creep.least_torque, creep.probable_torque
-        return cls(
+        return cls.read(
+            creep,
             ring_load=seat.joint.ring.load,
-            verdict=creep.verdict,
-            why=creep.why,
-            probability=creep.probability,
             friction_moment_N_m=None if least is None or probable is None else (least, probable),
-            holds_at_start=creep.holds_at_start,
         )
 
 
 @record
 class Requirements(Record):
     """Requirements that the drawing of the seat must state."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
     field: Annotated[str, Quantity("field")]
     limits_um: Annotated[Pair, Quantity("limits of the field")]
@@ -174,22 +147,14 @@ class Requirements(Record):
     @classmethod
     def of(cls, asked: "SeatRequirements") -> Self:
         """Record in user units."""
-        return cls(
-            field=asked.field,
-            limits_um=um_pair(asked.limits),
-            roundness_um=um(asked.form),
-            profile_um=um(asked.form),
-            roughness_Ra_um=um(asked.roughness),
-            shoulder_runout_grade=asked.shoulder_grade,
-            shoulder_runout_um=um_or_none(asked.shoulder_runout),
-            hardness=asked.hardness,
-            source=asked.source,
-        )
+        return cls.read(asked, roundness_um=um(asked.form), profile_um=um(asked.form))
 
 
 @record
 class Clearance(Record):
     """Radial clearance in the bearing; it belongs to both seats."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
     group: Annotated[str, Quantity("group")]
     initial_um: Annotated[Pair, Quantity("before mounting")]
@@ -200,24 +165,12 @@ class Clearance(Record):
     by_temperature_um: Annotated[float, Quantity("taken by temperature", "", 3)]
     group_to_choose: Annotated[str | None, Quantity("tightest group that will do")]
 
-    @classmethod
-    def of(cls, left: "ClearanceLeft") -> Self:
-        """Record in user units."""
-        return cls(
-            group=left.group,
-            initial_um=um_pair(left.initial),
-            mounted_um=um_pair(left.mounted),
-            probable_um=um_pair(left.probable),
-            mean_um=um(left.mean),
-            below_zero_probability=left.below_zero,
-            by_temperature_um=um(left.warmth),
-            group_to_choose=left.group_to_choose,
-        )
-
 
 @record
 class SeatResult(Record):
     """One seat, judged; interference is positive when tight, limits count from the nominal size."""
+
+    decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
     name: Annotated[str, Quantity("bearing")]
     seat: Annotated[Seat, Quantity("seat")]
@@ -287,51 +240,27 @@ class SeatResult(Record):
     @classmethod
     def of(cls, seat: "SeatFit", bearing: "BearingSeats", clearance: Clearance | None) -> Self:
         """Record of a seat of a bearing, in user units; `clearance`: the clearance left in the bearing."""
-        intensity, sorted_out, maker = seat.load_intensity, seat.selection, seat.joint.maker
-        ring = seat.joint.ring
-        return cls(
-            name=seat.name,
-            seat=seat.seat,
-            fit=seat.fit,
-            fit_given=seat.given,
-            part_limits_um=um_pair(seat.part_limits),
-            ring_limits_um=um_pair(seat.ring_limits),
-            interference_um=um_pair(seat.interference),
-            probable_interference_um=um_pair(seat.probable_interference),
-            clearance_probability=seat.clearance_probability,
-            clearance_probability_truncated=seat.truncated_probability,
-            required_interference_um=um_or_none(seat.required_interference),
-            required_by=seat.required_by,
+        sorted_out, maker = seat.selection, seat.joint.maker
+        return cls.read(
+            seat,
+            seat.joint.ring,
             losses_um={loss.name: um(loss.value) for loss in seat.losses},
             losses=tuple(map(Loss.of, seat.ledger)),
-            permitted_interference_um=um(seat.permitted_interference),
-            permitted_by=seat.permitted_by,
-            hoop_stress_MPa=from_si(seat.hoop_stress, "MPa"),
             part_stress_MPa=from_si(seat.joint.part_stress, "MPa"),
             load_ratio=bearing.bearing.load_ratio,
             maker_fits=(*maker.classes, *maker.special) if maker else (),
-            recommended_fit=seat.recommended_fit,
             recommended_clearance=bearing.group_to_order,
-            rejected_fits=tuple(map(RejectedFit.of, seat.rejected)),
-            admissible_fits=tuple(map(AdmissibleFit.of, seat.admissible)),
-            load_intensity_kN_per_m=None if intensity is None else from_si(intensity, "kN_per_m"),
             creep=Creep.of(seat),
-            requirements=Requirements.of(seat.requirements),
-            asked_interference_um=None if seat.asked is None else um_pair(seat.asked),
             selective_groups=sorted_out.groups if sorted_out else None,
             selective_interference_um=um_pair(sorted_out.interference) if sorted_out else None,
             sorting_groups=tuple(SortingGroup.of(group, seat.seat) for group in seat.groups),
-            repair=Repair.of(seat.repair) if seat.repair else None,
-            notes=seat.notes,
             internal_clearance=clearance,
             bearing_verdict=worst(bearing.checks),
-            diameter_mm=from_si(ring.diameter, "mm"),
-            ring_width_mm=from_si(ring.width, "mm"),
-            chamfer_mm=None if ring.chamfer is None else from_si(ring.chamfer, "mm"),
+            ring_width_mm=from_si(seat.joint.ring.width, "mm"),
         )
 
 
 def seat_results(bearing: "BearingSeats") -> tuple[SeatResult, SeatResult]:
     """Both seats of a bearing, shaft first; the clearance left in the bearing stands in both."""
-    left = None if bearing.clearance is None else Clearance.of(bearing.clearance)
+    left = None if bearing.clearance is None else Clearance.read(bearing.clearance)
     return SeatResult.of(bearing.shaft, bearing, left), SeatResult.of(bearing.housing, bearing, left)

@@ -46,16 +46,16 @@ class SeatFit(NamedTuple):
 
     name: str
     joint: Joint
-    given: bool
+    fit_given: bool
     probable_interference: Interval
-    truncated_probability: float
+    clearance_probability_truncated: float
     ledger: tuple[Item, ...]
     advice: SeatAdvice
-    admissible: tuple[Admissible, ...]
+    admissible_fits: tuple[Admissible, ...]
     load_intensity: float | None
     creep: CreepJudgement
     requirements: SeatRequirements
-    asked: Interval | None
+    asked_interference: Interval | None
     selection: "Selection | None"
     groups: "tuple[Group, ...]"
     repair: "SeatRepair | None"
@@ -128,7 +128,7 @@ class SeatFit(NamedTuple):
         return self.advice.best.tolerance_class if self.advice.best else None
 
     @property
-    def rejected(self) -> "tuple[Rejected, ...]":
+    def rejected_fits(self) -> "tuple[Rejected, ...]":
         """The next looser and the next tighter class that will not do, and why."""
         return self.advice.rejected
 
@@ -202,19 +202,19 @@ def _seat_fit(bearing: SeatedBearing, joint: Joint, own: SeatAdvice, given: bool
     return SeatFit(
         name=bearing.name,
         joint=joint,
-        given=given,
+        fit_given=given,
         probable_interference=probable_interference(*joint.male_and_female),
-        truncated_probability=truncated_clearance_probability(*joint.male_and_female),
+        clearance_probability_truncated=truncated_clearance_probability(*joint.male_and_female),
         ledger=ledger(joint),
         advice=own,
-        admissible=tuple(
+        admissible_fits=tuple(
             Admissible(candidate.tolerance_class, candidate.interference, candidate.clearance_probability)
             for candidate in admissible(joint, start, own.best)
         ),
         load_intensity=intensity,
         creep=creep_result,
         requirements=seat_requirements(joint, wanted, bearing.bearing_class),
-        asked=asked,
+        asked_interference=asked,
         selection=selection,
         groups=groups,
         repair=_repair(bearing, joint, wanted),

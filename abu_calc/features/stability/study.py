@@ -55,8 +55,8 @@ class Hanging(Record):
             return None
         bounds = hanging_bounds(scene, half_angle, horizontal=scene.effect("gravity") is not None)
         drags = zip(STATES, (bounds.resonance, bounds.damped, bounds.gravity), strict=True)
-        return cls(
-            drag_per_s=bounds.drag,
+        return cls.read(
+            bounds,
             hanging_drag_per_s=finite(bounds.largest),
             doubt=bounds.doubt(),
             bounds=tuple(_bound(bounds, state, drag) for state, drag in drags if drag > 0),
@@ -207,16 +207,12 @@ def stability(
         progress(f"speeds from {speeds_rpm[0]:g} to {speeds_rpm[1]:g} rpm")
     limits = _limits(subject, speeds_rpm, way) if speeds_rpm and judgement.reason is None else None
     arm = _on_arm(subject, progress)
-    return StabilityResult(
-        title=subject.title,
+    return StabilityResult.read(
+        subject,
+        judgement,
         checks=(_check(judgement, way, pressed=pressed),),
         warnings=(*subject.warnings, *stability_warnings(judgement, subject.scene, way), *arm.warnings),
         model=SceneModel.of(subject.scene),
-        provenance=subject.provenance,
-        speed_rpm=from_si(judgement.speed, "rpm"),
-        state=judgement.state,
-        stable=judgement.stable,
-        growth_rate_per_s=finite(judgement.growth_rate),
         eigenvalues=_pairs(judgement.eigenvalues),
         floquet_multipliers=_pairs(judgement.multipliers),
         critical_damping_N_s_per_m=critical_damping(subject.scene),
@@ -300,14 +296,7 @@ def _growth(
 
 def _crossings(subject: Subject, speeds_rpm: tuple[float, float], way: Arrangement) -> tuple[Crossing, ...]:
     low, high = (to_si(speed, "rpm") for speed in speeds_rpm)
-    return tuple(
-        Crossing(
-            speed_rpm=from_si(crossing.speed, "rpm"),
-            growing_below=crossing.growing_below,
-            growing_above=crossing.growing_above,
-        )
-        for crossing in crossings_of(subject.scene, low, high, subject.half_angle, way)
-    )
+    return tuple(map(Crossing.read, crossings_of(subject.scene, low, high, subject.half_angle, way)))
 
 
 def grinds(scene: Scene) -> bool:

@@ -119,10 +119,10 @@ class Builds(SweepStudy):
         lighter = tuple((3 * lot / made.autobalancer.ball_diameter).tolist())
         outcome = machine_started(made, start, lighter, TOLERANCE * self.accuracy)
         limits = table.limits
-        soon, quiet = outcome.time <= limits.settling_time_s, outcome.level <= limits.vibration_level_db
+        soon, quiet = outcome.settling_time_or_inf <= limits.settling_time_s, outcome.level <= limits.vibration_level_db
         flags = outcome.balanced, not outcome.hanging, quiet, soon
         return (
-            outcome.level, outcome.settling, from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
+            outcome.level, outcome.settling_time, from_si(outcome.residual, "um"), from_si(outcome.imbalance, "g_mm"),
             made.autobalancer.capacity_ratio, *flags, all(flags),
         )  # fmt: skip
 

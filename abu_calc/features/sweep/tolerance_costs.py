@@ -210,8 +210,5 @@ def _price(split: Halves, tried: Loosened | None) -> Price:
     loosened: dict[str, Any] = {} if tried is None else {
         "loosened_to": tried.way, "loosened_db": tried.rise, "loosened_fail": tried.fail, "loosened_of": tried.members,
     }  # fmt: skip
-    return Price(
-        key=split.row.key, better=split.better, median=split.median, gain_db=split.gain, cost_db=split.cost,
-        within_chance=split.within_chance, **loosened,
-        advice="may be loosened" if loosen else "" if split.within_chance else "tighten",
-    )  # fmt: skip
+    advice = "may be loosened" if loosen else "" if split.within_chance else "tighten"
+    return Price.read(split, key=split.row.key, **loosened, advice=advice)

@@ -59,17 +59,17 @@ class SimulatedArmMotion:
 class ForcedArmMotion:
     """An arm with its imbalance, its balls standing in the race and balancing nothing [SI].
 
-    `decay` h [1/s]; `free`: at ω = 2ω₀ by averaging; `simulated` None: no periodic motion was found. `tongue`: from
-    low to high speed, none where it is too narrow. `damping` of the joint [N·s/m].
+    `decay` h [1/s]; `parametric_rates`: at ω = 2ω₀ by averaging; `simulated` None: no periodic motion was found.
+    `tongue`: from low to high speed, none where it is too narrow. `joint_damping` [N·s/m].
     """
 
     length: float
     speed: float
-    kappa: float
-    natural: float
+    modulation: float
+    natural_frequency: float
     decay: float
-    damping: float
-    free: tuple[float, float]
+    joint_damping: float
+    parametric_rates: tuple[float, float]
     perturbation: Harmonics
     simulated: SimulatedArmMotion | None
     tongue: tuple[Edge, ...]
@@ -94,11 +94,11 @@ def arm_motion(scene: Scene) -> ForcedArmMotion | str | None:
     return ForcedArmMotion(
         length=held.length,
         speed=scene.speed,
-        kappa=kappa,
-        natural=natural,
+        modulation=kappa,
+        natural_frequency=natural,
         decay=decay,
-        damping=held.joint_damping,
-        free=free_rates(kappa, natural, decay),
+        joint_damping=held.joint_damping,
+        parametric_rates=free_rates(kappa, natural, decay),
         perturbation=expected,
         simulated=_simulated(scene, held, expected),
         tongue=tuple(tongue(kappa, natural, 2 * held.inertia / held.length**2)) if kappa > NARROWEST else (),

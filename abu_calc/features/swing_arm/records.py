@@ -24,7 +24,7 @@ class ArmChange(Record):
     @classmethod
     def of(cls, change: "ArmRepair") -> Self:
         """Record of a change, as the file would have it."""
-        return cls(key=f"swing_arm.{change.key}", old=change.old, new=change.new)
+        return cls.read(change, key=f"swing_arm.{change.key}")
 
 
 @record
@@ -65,33 +65,13 @@ class SwingArmRecord(Record):
     @classmethod
     def of(cls, judged: "ArmJudgement") -> Self:
         """Record of a design on an arm, in user units."""
-        bounds, arm = judged.bounds, judged.bounds.arm
-        lifted, angle = bounds.lifted, bounds.pressed_angle
-        return cls(
-            advice=judged.advice,
-            changes=tuple(map(ArmChange.of, judged.changes)),
-            contact_stiffness_N_per_m=arm.contact_stiffness,
-            contact_stiffness_limit_N_per_m=bounds.stiffness_limit,
-            contact_stiffness_limit_exact_N_per_m=bounds.stiffness_limit_exact,
-            worst_contact_angle_deg=from_si(bounds.worst_angle, "deg"),
-            idle_frequency_rpm=from_si(bounds.idle_frequency, "rpm"),
-            cutting_frequency_rpm=_rpm(bounds.cutting_frequency),
-            resonance_rpm=from_si(bounds.resonance, "rpm"),
-            joint_damping_N_s_per_m=arm.joint_damping,
-            damping_limit_N_s_per_m=bounds.damping_limit,
-            damping_limit_bunched_N_s_per_m=bounds.bunched_limit,
-            parametric_growth_rate_per_s=bounds.growth_rate,
-            parametric_contact_angles_deg=tuple(from_si(direction, "deg") for direction in bounds.parametric_angles),
-            contact_angle_deg=from_si(arm.contact_angle, "deg"),
-            touch_angle_deg=from_si(arm.touch_angle, "deg"),
+        arm = judged.bounds.arm
+        return cls.read(
+            judged.bounds,
+            arm,
+            judged,
             arm_length_mm=from_si(arm.length, "mm"),
             wheel_diameter_mm=from_si(2 * arm.disk_radius, "mm"),
-            lifted_contact_angles_deg=None if lifted is None else _degrees(lifted),
-            joint_stiffness_standing_N_per_m=bounds.standing_stiffness,
-            pressing_moment_N_m=arm.pressing_moment,
-            least_pressing_moment_N_m=bounds.least_moment,
-            pressed_angle_deg=None if angle is None else from_si(angle, "deg"),
-            press_force_N=bounds.press_force,
         )
 
 
@@ -135,31 +115,19 @@ class ArmMotion(Record):
         simulated = moved.simulated
         amplitudes = simulated.harmonics if simulated else (math.nan,) * len(moved.perturbation)
         pairs = zip(moved.perturbation, amplitudes, strict=True)
-        return cls(
-            speed_rpm=from_si(moved.speed, "rpm"),
-            modulation=moved.kappa,
-            natural_frequency_rpm=from_si(moved.natural, "rpm"),
-            parametric_speed_rpm=from_si(2 * moved.natural, "rpm"),
-            joint_damping_N_s_per_m=moved.damping,
+        return cls.read(
+            moved,
+            parametric_speed_rpm=from_si(2 * moved.natural_frequency, "rpm"),
             rate_per_s=0.0 - moved.decay,
-            parametric_rates_per_s=moved.free,
             simulated_rates_per_s=simulated.rates if simulated else None,
             harmonics=tuple(
                 ArmHarmonic(
                     order=order,
-                    resonance_rpm=from_si(moved.natural / order, "rpm"),
+                    resonance_rpm=from_si(moved.natural_frequency / order, "rpm"),
                     perturbation_um=finite(from_si(moved.length * abs(predicted), "um")),
                     simulation_um=finite(from_si(moved.length * abs(other), "um")),
                 )
                 for order, (predicted, other) in enumerate(pairs, 1)
-            ),
-            tongue=tuple(
-                TongueEdge(
-                    speed_rpm=from_si(edge.speed, "rpm"),
-                    averaged_N_s_per_m=edge.averaged,
-                    floquet_N_s_per_m=edge.floquet,
-                )
-                for edge in moved.tongue
             ),
         )
 

@@ -104,7 +104,7 @@ def balanced_check(design: Design) -> Check:
         message, remedy = f"not every small disturbance dies out {place}", "More joint damping or more inertia."
     elif not worst:
         message += "; not at the worst contact angle"
-        angle = from_si(_bounds(design).worst_angle, "deg")
+        angle = from_si(_bounds(design).worst_contact_angle, "deg")
         remedy = f"Stay away from a contact angle of {angle:.3g}°, or more inertia."
     return coded(code, verdict(stable, worst), message, rate, 0.0, unit, remedy)
 
@@ -129,7 +129,7 @@ def _rates(design: Design) -> tuple[dict[str, tuple[float, bool]], str]:
 
 def _worst_angle(design: Design) -> bool:
     """True if the balanced state is stable at the worst contact angle."""
-    angle = from_si(_bounds(design).worst_angle, "deg")
+    angle = from_si(_bounds(design).worst_contact_angle, "deg")
     turned = _with(design, _table(design).model_copy(update={"contact_angle_deg": angle}))
     try:
         scene = scene_of_design(turned, CUTTING)
@@ -249,7 +249,7 @@ def _remedied(check: Check, plan: tuple[ArmRepair, ...]) -> Check:
 
 def _room(bounds: SwingArmBounds) -> str:
     """Sentence on how far the arm is inside its bounds."""
-    arm, limit = bounds.arm, min(bounds.stiffness_limit, bounds.stiffness_limit_exact)
+    arm, limit = bounds.arm, min(bounds.contact_stiffness_limit, bounds.contact_stiffness_limit_exact)
     stiffer = "any contact"
     if arm.contact_stiffness:
         stiffer = f"less than {limit / arm.contact_stiffness:.3g} times the contact stiffness"

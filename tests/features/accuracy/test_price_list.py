@@ -60,7 +60,7 @@ def test_a_point_the_reference_cannot_vouch_for_is_not_chosen(measured):
 
 
 def test_the_picture_stays_within_eighty_columns(measured):
-    lines = picture(tuple(map(MeasuredPoint.of, measured.points)))
+    lines = picture(tuple(map(MeasuredPoint.read, measured.points)))
     assert max(map(len, lines)) <= 80
     assert any("D" in line for line in lines)
 

@@ -25,15 +25,15 @@ def test_the_check_passes_with_the_error_of_the_chosen_way() -> None:
 
 
 def test_what_is_infinite_is_no_number_of_a_record() -> None:
-    record = MeasuredPoint.of(PricePoint("envelope", None, None, math.inf, 0, 0, math.nan, 0.5, "far off"))
+    record = MeasuredPoint.read(PricePoint("envelope", None, None, math.inf, 0, 0, math.nan, 0.5, "far off"))
     assert (record.error, record.wall_s, record.cold_s, record.note) == (None, None, 0.5, "far off")
 
 
 def test_records_that_differ_in_time_alone_are_equal() -> None:
     """Times belong to the machine at that moment."""
     slower = PricePoint("equations", "scipy-dop853", 1e-6, 2e-3, 900, 90, 0.04, 0.7)
-    assert MeasuredPoint.of(GOOD) == MeasuredPoint.of(slower)
-    assert Reference.of(REFERENCE).disagreement == 3e-9 and Reference.of(REFERENCE).wall_s == 4.0
+    assert MeasuredPoint.read(GOOD) == MeasuredPoint.read(slower)
+    assert Reference.read(REFERENCE).disagreement == 3e-9 and Reference.read(REFERENCE).wall_s == 4.0
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from abu_calc.simulation.result import Provenance
 def test_each_decade_stands_once_in_the_picture():
     """Nine decades on sixteen rows: no two rows with one label, and the labels fall."""
     points = tuple(
-        MeasuredPoint.of(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
+        MeasuredPoint.read(PricePoint("equations", "compiled-dop853", 1e-3, 10.0**-k, 1, 1, 1e-3, 1e-3))
         for k in range(10)
     )
     labels = [line.split("|")[0].strip() for line in picture(points) if "|" in line]
@@ -20,12 +20,14 @@ def test_each_decade_stands_once_in_the_picture():
 
 
 def test_a_picture_of_nothing():
-    nothing = MeasuredPoint.of(PricePoint("closed-form", None, None, None, 0, 0, None, None))
+    nothing = MeasuredPoint.read(PricePoint("closed-form", None, None, None, 0, 0, None, None))
     assert picture((nothing,)) == ["nothing to draw"]
 
 
 def point(integrator: str, error: float | None, wall_s: float | None, rung: str = "equations") -> MeasuredPoint:
-    return MeasuredPoint.of(PricePoint(rung, integrator, 1e-3, error, 10, 5, wall_s, wall_s, "" if error else "stiff"))
+    return MeasuredPoint.read(
+        PricePoint(rung, integrator, 1e-3, error, 10, 5, wall_s, wall_s, "" if error else "stiff")
+    )
 
 
 def result(*points: MeasuredPoint, skipped: tuple[str, ...] = ()) -> AccuracyResult:

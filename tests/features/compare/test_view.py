@@ -42,7 +42,7 @@ def test_marks_stand_before_what_differs() -> None:
 
 
 def test_long_cells_stand_below_the_table() -> None:
-    table = ComparisonTable("Files", (("short", "a", "b"), ("long", "a" * 21, "b")))
+    table = ComparisonTable("file", (("short", "a", "b"), ("long", "a" * 21, "b")))
     heading, grid, label, *values = table_blocks(["A", "B"], table)
     assert heading == Heading("Files") and isinstance(grid, Grid) and grid.rows == (("short", "a", "b"),)
     assert label == Paragraph("long")

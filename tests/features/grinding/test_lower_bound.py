@@ -37,15 +37,15 @@ def test_the_threshold_is_one_weighted_metre_per_second_squared(eccentricity_mm:
     assert bound is not None and level is not None
     own = math.sqrt(2) * WEIGHT_100_HZ * 2 * math.pi * 100 * 5e-8 * 10 ** (level / 20)
     assert bound.total == pytest.approx(own, rel=0.01)
-    assert bound.holds is (own < LEAST) is holds
-    assert bool(bound.sentence) is bound.holds
+    assert bound.lower_bound is (own < LEAST) is holds
+    assert bool(bound.sentence) is bound.lower_bound
     assert "the wheel's runout" in bound.set_by and "wheel waviness" in bound.lacks
 
 
 def test_a_wheel_without_runout_is_marked_however_loud_it_is() -> None:
     """Nothing but what race and friction leave drives it: the file says that the wheel of a grinder runs true."""
     bound = _bound(_work(0.0, autobalancer__race_eccentricity_mm=0.03))
-    assert bound is not None and bound.holds and bound.total is not None and bound.total > LEAST
+    assert bound is not None and bound.lower_bound and bound.total is not None and bound.total > LEAST
     assert any("runout" in lacking for lacking in bound.lacks)
     assert not any("runout" in excitation for excitation in bound.set_by)
     assert "is a lower bound" in bound.sentence and "lacks" in bound.sentence
@@ -54,7 +54,7 @@ def test_a_wheel_without_runout_is_marked_however_loud_it_is() -> None:
 def test_a_face_does_not_press_and_lacks_the_force_of_its_contact() -> None:
     bound = _bound(_work(0.0, grinding={"contact": "face"}))
     assert bound is not None and "the force of the contact" in bound.lacks
-    assert bound.holds is (bound.total is not None and bound.total < LEAST)
+    assert bound.lower_bound is (bound.total is not None and bound.total < LEAST)
 
 
 def test_a_background_of_the_file_is_not_lacking() -> None:

@@ -135,7 +135,7 @@ def test_the_example_keeps_its_conclusion():
 
 def test_a_fit_is_advised_where_none_is_given():
     found = seat_bearing(by_designation("608", shaft_fit=None, housing_fit=None, radial_load_kN=0.4))
-    assert [(seat.fit, seat.given, seat.recommended_fit) for seat in found.seats] == [
+    assert [(seat.fit, seat.fit_given, seat.recommended_fit) for seat in found.seats] == [
         ("js5", False, "js5"), ("H7", False, "H7"),
     ]  # fmt: skip
     assert found.group_to_order == "CN" and found.clearance is None
@@ -156,9 +156,9 @@ def test_advice_names_the_group_that_makes_the_fit_good():
 
 def test_the_nearest_fields_that_fail_are_named_with_the_reason():
     shaft = judged("6205", 0.08, shaft_fit="k5", housing_fit="H7", internal_clearance="C3").shaft
-    looser, tighter = shaft.rejected
+    looser, tighter = shaft.rejected_fits
     assert looser.fit == "h5" and looser.why.startswith("creeps") and "needed" in looser.why
     assert tighter.fit == "n5" and "C3 keep no clearance" in tighter.why
-    for one in shaft.rejected:
+    for one in shaft.rejected_fits:
         again = judged("6205", 0.08, shaft_fit=one.fit, housing_fit="H7", internal_clearance="C3")
         assert any(check.status in ("fail", "warn") for check in again.checks)

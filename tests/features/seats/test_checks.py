@@ -71,7 +71,7 @@ def test_cn_warns_with_the_share_unless_most_have_none_left(shaft: str, housing:
     found = seat_bearing(by_designation("6208", shaft_fit=shaft, housing_fit=housing, internal_clearance="CN"))
     check = found.checks[-1]
     assert (check.code, check.status) == ("ABU621", status) and "have none left" in check.message
-    assert (found.clearance.below_zero >= 0.5) == (status == "fail")
+    assert (found.clearance.below_zero_probability >= 0.5) == (status == "fail")
 
 
 def test_start_is_checked_only_where_a_torque_is_given_and_a_ring_must_grip() -> None:

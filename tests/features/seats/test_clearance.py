@@ -52,7 +52,7 @@ def test_ends_and_means_of_random_joints_agree_with_monte_carlo():
         ends = np.quantile(kept, [0.00135, 0.99865])
         worst = max(worst, *(abs(1e6 * (one - other)) for one, other in zip(ends, left.probable, strict=True)))
         assert 1e6 * left.mean == pytest.approx(1e6 * kept.mean(), abs=0.02)
-        assert left.below_zero == pytest.approx((kept < 0).mean(), abs=0.002)
+        assert left.below_zero_probability == pytest.approx((kept < 0).mean(), abs=0.002)
     assert crossed > 0.9 * JOINTS
     assert worst < 0.3
 

@@ -72,11 +72,11 @@ def test_a_worn_shaft_tells_its_grip_and_what_a_repair_must_restore():
     repair = shaft.repair
     assert (shaft.fit, um(shaft.interference.smallest), um(shaft.interference.largest)) == ("measured", -14, 4)
     assert (um(repair.grip_left.smallest), um(repair.grip_left.largest)) == (-15, 3)  # 0.4·2.5 µm smoothed
-    assert (repair.restore, um(repair.limits.lower), um(repair.limits.upper)) == ("k6", 2, 15)
-    assert (um(repair.gap), 1e3 * repair.next_seat, repair.next_bearing) == (14, 20, "6204")
+    assert (repair.restore_fit, um(repair.restore_limits.lower), um(repair.restore_limits.upper)) == ("k6", 2, 15)
+    assert (um(repair.bonding_gap), 1e3 * repair.next_seat, repair.next_bearing) == (14, 20, "6204")
     assert shaft.checks[0].status == "fail" and "the measured shaft" in shaft.checks[0].message
     housing = seat_bearing(by_designation("6205", housing_fit=None, housing_limits_um=(20.0, 60.0))).housing
-    assert (housing.repair.restore, 1e3 * housing.repair.next_seat) == ("H7", 62)
+    assert (housing.repair.restore_fit, 1e3 * housing.repair.next_seat) == ("H7", 62)
     assert seats(shaft_limits_um=(5.0, 5.0)).shaft.repair.next_bearing is None
 
 

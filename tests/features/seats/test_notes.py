@@ -115,14 +115,14 @@ def test_the_group_to_choose_passes():
 def test_every_admissible_field_passes_and_no_other_does(changes):
     found = seats(**changes)
     for fit, key in ((found.shaft, "shaft_fit"), (found.housing, "housing_fit")):
-        names = [one.fit for one in fit.admissible]
+        names = [one.fit for one in fit.admissible_fits]
         assert fit.recommended_fit == names[0]
         assert len(names) == len(set(names))
         for name in ("f6", "h6", "k6", "m6", "r6") if fit.seat == "shaft" else ("F7", "H7", "K7", "M7", "P7"):
             again = seats(**(changes | {key: name}))
             judged = again.shaft if fit.seat == "shaft" else again.housing
             assert (overall(judged.checks) == "pass") == (name in names)
-        for one in fit.admissible:
+        for one in fit.admissible_fits:
             again = seats(**(changes | {key: one.fit}))
             judged = again.shaft if fit.seat == "shaft" else again.housing
             assert one.interference == judged.interference
@@ -130,20 +130,20 @@ def test_every_admissible_field_passes_and_no_other_does(changes):
 
 
 def test_the_source_recommends_m6_and_the_loose_ring_its_own_field():
-    assert [one.fit for one in seats().shaft.admissible[:3]] == ["m6", "k6", "n6"]
-    assert [one.fit for one in seats(housing_fit="M7").housing.admissible[:2]] == ["H7", "G7"]
+    assert [one.fit for one in seats().shaft.admissible_fits[:3]] == ["m6", "k6", "n6"]
+    assert [one.fit for one in seats(housing_fit="M7").housing.admissible_fits[:2]] == ["H7", "G7"]
 
 
 def test_the_drawing_of_the_example():
     shaft, housing = (seat.requirements for seat in seats().seats)
     assert (shaft.field, um(shaft.limits.lower), um(shaft.limits.upper)) == ("m6", 11, 30)
     assert um(shaft.form) == 19 / 4 and um(housing.form) == 10
-    assert (um(shaft.roughness), um(housing.roughness)) == (1.25, 2.5)  # 80 mm is still the smaller row
-    assert (shaft.shoulder_grade, um(shaft.shoulder_runout)) == ("IT7", 30)
-    assert (housing.shoulder_grade, um(housing.shoulder_runout)) == ("IT8", 63)
+    assert (um(shaft.roughness_Ra), um(housing.roughness_Ra)) == (1.25, 2.5)  # 80 mm is still the smaller row
+    assert (shaft.shoulder_runout_grade, um(shaft.shoulder_runout)) == ("IT7", 30)
+    assert (housing.shoulder_runout_grade, um(housing.shoulder_runout)) == ("IT8", 63)
     assert "unverified" in shaft.source
     fine = seats(bearing_class="4").shaft.requirements
-    assert (um(fine.form), um(fine.roughness), um(fine.shoulder_runout)) == (19 / 8, 0.32, 8)
+    assert (um(fine.form), um(fine.roughness_Ra), um(fine.shoulder_runout)) == (19 / 8, 0.32, 8)
 
 
 def test_finer_classes_ask_for_more():
@@ -151,7 +151,7 @@ def test_finer_classes_ask_for_more():
     for coarse, fine in itertools.pairwise(order):
         for one, other in zip(coarse, fine, strict=True):
             assert um(other.requirements.form) <= um(one.requirements.form)
-            assert um(other.requirements.roughness) <= um(one.requirements.roughness)
+            assert um(other.requirements.roughness_Ra) <= um(one.requirements.roughness_Ra)
 
 
 def group_extremes(male: DeviationLimits, female: DeviationLimits, groups: int) -> tuple[float, float]:
@@ -184,7 +184,7 @@ def test_a_band_is_meant_for_the_ring_that_must_grip():
     found = seats(asked_interference_um=(10.0, 28.0))
     assert found.shaft.selection.groups == 3
     assert "sorted into 3 equal groups" in found.shaft.notes[-1]
-    assert found.housing.selection is None and found.housing.asked is None
+    assert found.housing.selection is None and found.housing.asked_interference is None
     narrow = seats(asked_interference_um=(10.0, 12.0)).shaft
     assert narrow.selection is None and "Sorting cannot keep k6" in narrow.notes[-1]
     assert "17 … 21 µm" in narrow.notes[-1]

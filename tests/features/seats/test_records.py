@@ -2,14 +2,13 @@
 
 import pytest
 
-from abu_calc.features.seats.records import seat_results, um, um_or_none, um_pair
+from abu_calc.features.seats.records import seat_results, um, um_pair
 from abu_calc.features.seats.seats import seat_bearing
 from tests.features.seats.samples import by_designation, seats
 
 
 def test_micrometres_are_free_of_the_rounding_of_metres() -> None:
     assert um(2e-6 + 1e-13) == 2.0 and um_pair((-15e-6, 0.0)) == (-15.0, 0.0)
-    assert um_or_none(None) is None
 
 
 def test_both_seats_come_shaft_first_with_their_limits() -> None:

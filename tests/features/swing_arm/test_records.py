@@ -14,7 +14,8 @@ RPM = 30 / math.pi
 
 def moved(simulated: SimulatedArmMotion | None) -> ForcedArmMotion:
     return ForcedArmMotion(
-        length=0.5, speed=100.0, kappa=0.01, natural=40.0, decay=2.0, damping=7.0, free=(-1.8, -2.2),
+        length=0.5, speed=100.0, modulation=0.01, natural_frequency=40.0, decay=2.0, joint_damping=7.0,
+        parametric_rates=(-1.8, -2.2),
         perturbation=(3e-3 + 4e-3j, 1e-5 + 0j, 0j), simulated=simulated, tongue=(Edge(80.0, 1.0, 1.1),),
     )  # fmt: skip
 

@@ -71,7 +71,7 @@ class Own:
     limit: float
     stiffness: float
     angle: float | None
-    lifted: np.ndarray
+    lifted_contact_angles: np.ndarray
     force: float
     damping: float
 
@@ -104,7 +104,7 @@ def own(one: Judged) -> Own:
         limit=(J * speed**2 - c_sh * l**2) / (top * l**2),
         stiffness=held,
         angle=angle,
-        lifted=grid[values < 0],
+        lifted_contact_angles=grid[values < 0],
         force=0.0 if angle is None else c_n * l * (angle - phi0) * math.sin(Z),
         damping=design.imbalance.value / l * natural,
     )
@@ -114,8 +114,8 @@ def own(one: Judged) -> Own:
 def test_bounds_against_a_grid_and_the_balance_of_moments(name: str) -> None:
     one = judged(name)
     bounds, expected = one.found.bounds, own(one)
-    assert bounds.worst_angle == pytest.approx(expected.at, abs=3e-4)
-    assert bounds.stiffness_limit_exact == pytest.approx(expected.limit, rel=1e-6)
+    assert bounds.worst_contact_angle == pytest.approx(expected.at, abs=3e-4)
+    assert bounds.contact_stiffness_limit_exact == pytest.approx(expected.limit, rel=1e-6)
     # The series is on the safe side by 1.2 % at most, so the resonance is by half of that.
     assert 1 - 1e-9 <= bounds.resonance / expected.highest <= 1.0061
     assert 1 - 1e-9 <= bounds.damping_limit / expected.damping <= 1.0062
@@ -124,11 +124,13 @@ def test_bounds_against_a_grid_and_the_balance_of_moments(name: str) -> None:
     else:
         assert bounds.pressed_angle == pytest.approx(expected.angle, rel=1e-9)
         assert bounds.press_force == pytest.approx(expected.force, rel=1e-6, abs=1e-6)
-    if bounds.lifted is None:
-        assert not len(expected.lifted)
-    elif len(expected.lifted):
-        assert bounds.lifted == pytest.approx((expected.lifted[0], expected.lifted[-1]), abs=4e-4)
-    for angle in bounds.parametric_angles:
+    if bounds.lifted_contact_angles is None:
+        assert not len(expected.lifted_contact_angles)
+    elif len(expected.lifted_contact_angles):
+        assert bounds.lifted_contact_angles == pytest.approx(
+            (expected.lifted_contact_angles[0], expected.lifted_contact_angles[-1]), abs=4e-4
+        )
+    for angle in bounds.parametric_contact_angles:
         arm = bounds.arm
         gain = math.sin(angle) * (math.sin(angle) + arm.friction * (arm.disk_radius / arm.length - math.cos(angle)))
         natural = math.sqrt((arm.joint_stiffness + arm.contact_stiffness * gain) * arm.length**2 / arm.inertia)
@@ -172,7 +174,7 @@ def test_what_is_advised_passes(name: str) -> None:
 def test_no_more_is_advised_than_is_needed() -> None:
     """Where a bound alone fails, by a twentieth beyond it and the rounding to three digits."""
     changes = judged("flat contact").found.changes
-    edge = math.degrees(float(own(judged("flat contact")).lifted[-1]))
+    edge = math.degrees(float(own(judged("flat contact")).lifted_contact_angles[-1]))
     assert [change.key for change in changes] == ["contact_angle_deg"]
     assert 1.05 * edge - 0.02 <= changes[0].new <= 1.05 * edge + 1
 
@@ -200,9 +202,9 @@ def test_no_arm() -> None:
 def test_damping_that_balls_on_the_heavy_side_need_warns() -> None:
     """Between (24) by the imbalance and by imbalance and balls together."""
     bounds = judged("as it is").found.bounds
-    assert bounds.bunched_limit is not None
-    both = (bounds.damping_limit + bounds.bunched_limit) / 2
+    assert bounds.damping_limit_bunched is not None
+    both = (bounds.damping_limit + bounds.damping_limit_bunched) / 2
     check = next(one for one in judge({"joint_damping_N_s_per_m": both}).found.checks if one.code == "ABU502")
     assert check.status == "warn" and "heavy side" in check.message
     carried = judged("as it is").design.autobalancer.capacity / judged("as it is").design.imbalance.value
-    assert bounds.bunched_limit / bounds.damping_limit == pytest.approx(1 + carried, rel=1e-6)
+    assert bounds.damping_limit_bunched / bounds.damping_limit == pytest.approx(1 + carried, rel=1e-6)

@@ -14,7 +14,8 @@ def after(speeds: list[float], restitution: float, slow: float = 0.0) -> tuple[n
     n, speed, total = len(speeds), np.array(speeds), np.zeros(len(speeds))
     room = [np.zeros(n) for _ in range(2)]
     matrix = CHAIN[:n, :n].ravel().copy()
-    assert passed(n, 1e-12, restitution, np.ones(n), np.full(n, slow), speed, total, *room, matrix, np.zeros(n * n))
+    work, chosen = np.zeros(n * n), np.zeros(n, dtype=int)
+    assert passed(n, 1e-12, restitution, np.full(n, slow), speed, total, *room, matrix, work, chosen)
     return speed, total
 
 
@@ -44,7 +45,8 @@ def test_touching_pairs_press_and_never_hold(seed: int) -> None:
     """Torque or parting: no torque is negative, no gap closes, and where there is one there is not the other."""
     closes = np.random.default_rng(seed).uniform(-1, 1, 3)
     speed, torque = np.zeros(3), np.zeros(3)
-    squeezed(3, np.ones(3), np.zeros(3), closes, speed, torque, np.zeros(3), CHAIN.ravel().copy(), np.zeros(9))
+    chosen = np.zeros(3, dtype=int)
+    squeezed(3, np.zeros(3), closes, speed, torque, np.zeros(3), CHAIN.ravel().copy(), np.zeros(9), chosen)
     gaps = closes + CHAIN @ torque
     assert torque.min() >= 0 and gaps.min() > -1e-12
     np.testing.assert_allclose(torque * gaps, 0, atol=1e-12)
@@ -53,7 +55,8 @@ def test_touching_pairs_press_and_never_hold(seed: int) -> None:
 def test_pairs_that_are_near_to_it_get_equal_speeds() -> None:
     """Two of three: the third feels its neighbour's torque."""
     speed, total = np.array((-1.0, 0.3, 0.5)), np.zeros(3)
-    evened(3, np.ones(3), np.array((1.0, 1.0, 0.0)), speed, total, np.zeros(3), CHAIN.ravel().copy(), np.zeros(9))
+    near, chosen = np.array((1.0, 1.0, 0.0)), np.zeros(3, dtype=int)
+    evened(3, near, speed, total, np.zeros(3), CHAIN.ravel().copy(), np.zeros(9), chosen)
     torque = np.linalg.solve(CHAIN[:2, :2], (1.0, -0.3))
     np.testing.assert_allclose(total, (*torque, 0.0), rtol=1e-12)
     np.testing.assert_allclose(speed, (0, 0, 0.5 - torque[1]), rtol=1e-12)
