@@ -218,10 +218,12 @@ def with_motor(start: Start, file: Json) -> Start:
 
 
 def ended(
-    start: Start, result: Json, limit: float, loudest: float = -1e3, steps: int = STEPS, longest: float = 3.0
-) -> Ending:
-    """Run a start; `longest`: settling times permitted (`limit` [s]) that are waited at most; `loudest` [dB]: a level
-    that falls below it need not be followed to its end.
+    start: Start, result: Json, limit: float, loudest: float = -1e3, steps: int = STEPS, longest: float = 3.0,
+    least: float = 0.2,
+) -> Ending:  # fmt: skip
+    """Run a start; `least`, `longest`: settling times permitted (`limit` [s]) that are waited at least and at most.
+
+    `loudest` [dB]: a level that falls below it need not be followed to its end.
     """
     p, n = start.machine, start.machine.balls
     nq = len(p.stiffness)
@@ -239,7 +241,7 @@ def ended(
     angles, slipped = np.zeros((turns, n)), np.zeros((turns, n))
     most = max(most, start.full + 60 * math.tau / p.speed)
     quiet = (5e-8 * 10 ** ((loudest - 0.5) / 20)) ** 2
-    span = (start.full, 0.2 * limit, most, 0.2 * limit)
+    span = (start.full, least * limit, most, 0.2 * limit)
     samples, revs, _ = run(
         p, y, order, span, quiet, steps, workspace(p), moduli, times, means, squares, angles, slipped
     )

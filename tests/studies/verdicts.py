@@ -27,6 +27,8 @@ from tests.studies.outside_runs import Ending, Start, broken, ended, starts, wit
 from tests.studies.random_machines import FAMILIES, family_of, machine_text
 
 CODES = "ABU401", "ABU701", "ABU702", "ABU704"
+WHOLE = 2.9
+"""Settling times permitted: nearly as long as runs last at most."""
 ENOUGH = 200
 """Machines, the least for a record."""
 EDITION = 2
@@ -78,7 +80,9 @@ def tried(seed: int, family: str, text: str, codes: tuple[str, ...], result: dic
     """Random starts and run-ups of a machine that passes."""
     file = tomllib.loads(text)
     limits, how, count, slowest, loudest = file["limits"], [], 0, 0.0, -200.0
-    for k, (start, ending) in enumerate(endings(seed, file, result)):
+    for k, (start, seen) in enumerate(endings(seed, file, result)):
+        # What seems to break a limit is followed to its end: a run may have ended while a vibration was dying out.
+        ending = ended(start, result, limits["settling_time_s"], least=WHOLE) if broken(seen, limits) else seen
         count += 1
         slowest = max(slowest, ending.time / limits["settling_time_s"])
         loudest = max(loudest, ending.level - limits["vibration_level_db"])
