@@ -23,7 +23,7 @@ def design() -> Design:
 
 def outcome(member: Member | None = None, **changed: float | None) -> StartOutcome:
     """A start that passes, unless it is changed."""
-    given = {"settling": 0.5, "residual": 1e-5, "level": 100.0, "slip": 0.0, "imbalance": 1e-5, "allowed": 3e-5}
+    given = {"settling_time": 0.5, "residual": 1e-5, "level": 100.0, "slip": 0.0, "imbalance": 1e-5, "allowed": 3e-5}
     return StartOutcome(member or Member("bunched", DRAG), **{**given, **changed})  # type: ignore[arg-type]
 
 
@@ -46,13 +46,13 @@ def test_only_the_first_two_starts_are_named() -> None:
 
 
 def test_the_race_centre_is_named_unless_it_is_opposite_the_imbalance() -> None:
-    alike = outcome(Member("spread", DRAG, eccentricity=ALIKE), settling=1.5)
+    alike = outcome(Member("spread", DRAG, eccentricity=ALIKE), settling_time=1.5)
     assert "spread, race centre 0°, at a drag" in by_code(alike)["ABU702"].message
-    assert "race centre" not in by_code(outcome(Member("spread", DRAG), settling=1.5))["ABU702"].message
+    assert "race centre" not in by_code(outcome(Member("spread", DRAG), settling_time=1.5))["ABU702"].message
 
 
 def test_balls_that_never_settle_have_no_number() -> None:
-    check = by_code(outcome(settling=None))["ABU702"]
+    check = by_code(outcome(settling_time=None))["ABU702"]
     assert (check.status, check.value, check.limit) == ("fail", None, 1.0)
 
 

@@ -49,5 +49,5 @@ def test_the_section_holds_its_own_lengths(design: Design) -> None:
 
 
 def test_a_level_keeps_its_speed_in_rpm() -> None:
-    level = SpeedLevel.read(LevelAtSpeed(speed=100 * math.pi, after=98.5))
+    level = SpeedLevel.read(LevelAtSpeed(speed=100 * math.pi, level_after=98.5))
     assert (level.speed_rpm, level.level_after_db) == (pytest.approx(3000.0), 98.5)

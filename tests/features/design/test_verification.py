@@ -21,7 +21,7 @@ def design() -> Design:
 
 def start(**values: Any) -> SimpleNamespace:
     member = SimpleNamespace(run_up=values.pop("run_up", False), speed=None, drag=values.pop("drag", DRAG))
-    usual = {"balanced": True, "hanging": False, "slip": 0.0, "time": 0.3, "level": 99.0}
+    usual = {"balanced": True, "hanging": False, "slip": 0.0, "settling_time_or_inf": 0.3, "level": 99.0}
     return SimpleNamespace(member=member, **(usual | values))
 
 
@@ -41,9 +41,9 @@ def test_the_nearest_drags_come_first_and_none_that_is_the_same() -> None:
 
 def test_a_design_passes_when_every_start_at_its_drag_does(design: Design) -> None:
     limits, level = design.case.table.limits, design.case.level_limit
-    assert passes(design, ensemble(start(), start(level=level, time=limits.settling_time_s)))
+    assert passes(design, ensemble(start(), start(level=level, settling_time_or_inf=limits.settling_time_s)))
     assert not passes(design, ensemble(start(), start(level=level + 0.01)))
-    assert not passes(design, ensemble(start(), start(time=limits.settling_time_s + 0.01)))
+    assert not passes(design, ensemble(start(), start(settling_time_or_inf=limits.settling_time_s + 0.01)))
     assert not passes(design, ensemble(start(), start(balanced=False)))
     assert passes(design, ensemble(start(), start(balanced=False, drag=5.0)))  # hot oil: told, not decided by
 

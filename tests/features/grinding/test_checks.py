@@ -70,7 +70,7 @@ def test_a_contact_that_sends_the_balls_away_has_a_rate_below_zero(design: Desig
     [
         (Agreement(axis=0.5 * AGREES, imbalance=0.0), "pass", 50 * AGREES),
         (Agreement(axis=2 * AGREES, imbalance=0.0), "warn", 200 * AGREES),
-        (Agreement(axis=0.0, reached=False), "warn", 0.0),
+        (Agreement(axis=0.0, from_idle=False), "warn", 0.0),
         (Agreement(failure="chaotic"), "not-done", None),
     ],
 )
