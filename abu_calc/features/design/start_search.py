@@ -34,9 +34,6 @@ TIMES: Final = (1.0, 0.6, 1.6)
 ROUNDS: Final = 2
 """Rounds of the search about the worst start case so far."""
 
-MOST_WORK: Final = 250_000
-"""Work of the designed starts, in SciPy's evaluations, beyond which they are thinned; `--patience` takes them all."""
-
 HALF, MARGIN = 0.5, 2.0
 """Share of the permitted settling time, and distance below the permitted level [dB].
 
@@ -96,17 +93,11 @@ def exceeded(times: Sequence[float], share: float) -> float:
     return max(slowest[0], least + excess * math.log(count / (len(slowest) * share)))
 
 
-def search(
-    design: Design, accuracy: float, progress: Progress = silent, workers: int = 1, work: float = 0.0
-) -> SearchResult:
-    """The designed starts, and those near the worst of them. The same whatever the number of workers.
-
-    `work`: mean work of a listed start; if it is large, there are fewer starts, and one round about the worst.
-    """
+def search(design: Design, accuracy: float, progress: Progress = silent, workers: int = 1) -> SearchResult:
+    """The designed starts, and those near the worst of them. The same whatever the number of workers."""
     outcomes, tried, lost = list[StartOutcome](), set[Member](), 0
-    every = max(1, math.ceil(work * len(list(designed(design))) / MOST_WORK)) if not patience.given() else 1
-    round_of_starts = list(designed(design, every))
-    for _ in range(1 + (ROUNDS if every == 1 else 1)):
+    round_of_starts = list(designed(design))
+    for _ in range(1 + ROUNDS):
         tried.update(round_of_starts)
         answers = _run(design, round_of_starts, accuracy, progress, workers)
         lost += len(round_of_starts) - len(answers)
@@ -133,15 +124,13 @@ def _loudness(outcome: StartOutcome) -> float:
     return outcome.loudest
 
 
-def designed(design: Design, every: int = 1) -> Iterator[Member]:
+def designed(design: Design) -> Iterator[Member]:
     """Balls together at angles round the race, then spread anywhere; at full speed and in run-ups, the race off to
-    either side in turn. `every`: the arrangements are thinned to every second, third and so on.
+    either side in turn.
     """
     usual = usual_run_up(design)
     for k, angles in enumerate((*bunches(design), *spreads(design))):
-        if k % every:
-            continue
-        sides = (ALIKE, OPPOSITE) if k // every % 2 else (OPPOSITE, ALIKE)
+        sides = (ALIKE, OPPOSITE) if k % 2 else (OPPOSITE, ALIKE)
         yield Member("placed", design.case.drag, 0.0, sides[0], angles=angles)
         if k >= PLACES and k % 3:
             continue

@@ -198,8 +198,7 @@ def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: in
     """Add the result of further start cases, or a warning if they would take too long."""
     if proof.ensemble is not None and proof.ensemble.work > MOST_SEARCHED and not patience.given():
         return replace(proof, warnings=(*proof.warnings, NOT_SEARCHED))
-    mean = 0.0 if proof.ensemble is None else proof.ensemble.work / max(len(proof.ensemble.outcomes), 1)
-    searched = search(proof.design, accuracy, progress, workers, mean)
+    searched = search(proof.design, accuracy, progress, workers)
     return replace(
         proof, searched=searched if proof.ensemble is None else replace(searched, listed=proof.ensemble.given)
     )
