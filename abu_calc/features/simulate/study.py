@@ -176,9 +176,10 @@ def simulate(
         run = integrated(
             ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator, progress=progress
         )
-        longest = _followed_until(subject, run) if duration_s is None and not len(times) else None
+        longest = _followed_until(subject, run) if duration_s is None else None
         if longest is not None:
             subject = subject.lasting(longest)
+            times = equally_spaced(subject.scene, samples)
             ledger = subject.ledger(accuracy, with_effects, without_effects)
             run = integrated(
                 ledger.scene, accuracy - ledger.spared, times, most_evaluations, integrator=integrator,

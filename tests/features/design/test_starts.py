@@ -109,3 +109,12 @@ def test_the_race_centre_is_for_machines() -> None:
         abu_calc.simulate(abu_calc.simulate(abu_calc.read("avtovaz-707-222")).run.scene, race_centre_deg=0.0)
     with pytest.raises(abu_calc.InputError, match="race's centre"):
         abu_calc.simulate(abu_calc.read("avtovaz-707-222"), race_centre_deg=400.0)
+
+
+def test_samples_change_no_settling_time() -> None:
+    """Balls creep by friction at the end of this scene, so that the run is followed for longer, to its last sample."""
+    source, _ = sized("avtovaz-707-305")
+    hot = source.changed({"autobalancer.rolling_drag_per_s": 45.0})
+    plain, sampled = (abu_calc.simulate(hot, "idle", "standstill", race_centre_deg=0.0, samples=n) for n in (None, 50))
+    assert sampled.settling_time_s == pytest.approx(plain.settling_time_s, rel=1e-9)
+    assert sampled.motion is not None and plain.final.t_s == sampled.final.t_s == sampled.motion.t_s[-1]
