@@ -135,7 +135,7 @@ class SimulateResult(SimulatedScene, Result):
     """The run itself, in SI: scene, response, trajectory with all its states."""
 
 
-FOLLOWED: Final = ("idle", "run-up")
+FOLLOWED: Final = ("idle", "run-up", "swing-arm-idle")
 """Scenes of a machine that are followed until their balls are at rest, as far as settling matters."""
 
 
