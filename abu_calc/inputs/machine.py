@@ -22,7 +22,7 @@ from abu_calc.inputs.bearing_file import (
 )
 from abu_calc.inputs.body import MachineTable, Suspension
 from abu_calc.inputs.duty import Grinding, Motor, RunUp, Start, SwingArm
-from abu_calc.inputs.reading.table import Table, Usual, problem
+from abu_calc.inputs.reading.table import Table, Usual, problem, usual_of
 from abu_calc.inputs.reading.text import shown_short
 from abu_calc.inputs.rolling_bearing import MOST_BEARINGS, Bearing
 from abu_calc.inputs.variation import Sweep
@@ -35,12 +35,15 @@ LARGEST_HAND_HELD: Final = 300.0
 
 
 def larger_than_its_wheel(abu: "Autobalancer", wheel: "Wheel") -> Iterator[tuple[tuple[str, ...], str]]:
-    """An autobalancer that may be larger than the wheel beside which it must vanish."""
+    """An autobalancer that may be larger than the wheel beside which it must vanish.
+
+    Another unit is suggested only for a diameter that is unusual by itself: mounted points have 20 to 40 mm.
+    """
     envelope, diameter = abu.max_outer_diameter_mm, wheel.diameter_mm
     if envelope <= diameter:
         return
-    meant = ""
-    if envelope <= LARGEST_HAND_HELD:
+    meant, usual = "", usual_of(Wheel.model_fields["diameter_mm"])
+    if envelope <= LARGEST_HAND_HELD and not (usual and usual.holds(diameter)):
         from abu_calc.inputs.reading.suggestions import guesses, meant_in
 
         meant = meant_in(guesses("diameter_mm", [diameter], Usual(envelope, LARGEST_HAND_HELD)), " mm")

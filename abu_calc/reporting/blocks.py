@@ -1,6 +1,6 @@
 """Building blocks of a report, and numbers as text: the same for every command and every format of text."""
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from abu_calc.foundation.quantity import Quantity, Record, quantities
 from abu_calc.foundation.units import unit_of
@@ -23,6 +23,30 @@ def number(value: float, digits: int = 4) -> str:
     return f"{rounded:#.{digits}g}"
 
 
+NOISE: Final = {"mm": (1e-6, "0.001 µm"), "µm": (1e-3, "0.001 µm"), "g·mm": (1e-3, "0.001 g·mm"),
+                "°": (1e-3, "0.001°")}  # fmt: skip
+"""Values below which only rounding and integration errors stand, by unit, and how a report writes that bound."""
+
+
+def with_unit(value: float, unit: str, digits: int = 4) -> str:
+    """A number with its unit; of one below the noise only the bound.
+
+    >>> with_unit(2.14e-11, "mm"), with_unit(0.0411, "mm", 3), with_unit(0.0, "mm")
+    ('< 0.001 µm', '0.0411 mm', '0 mm')
+    """
+    least, bound = NOISE.get(unit, (0.0, ""))
+    return f"< {bound}" if 0 < abs(value) < least else f"{number(value, digits)} {unit}".rstrip()
+
+
+def level_text(level: float, digits: int = 4) -> str:
+    """A velocity level with its unit; below 0 dB (0.05 µm/s) only the bound.
+
+    >>> level_text(108.04), level_text(-103.3)
+    ('108.0 dB', '< 0 dB')
+    """
+    return f"{number(level, digits)} dB" if level >= 0 else "< 0 dB"
+
+
 def shown(kind: type[Record], name: str, value: object) -> str:
     """A value of a field of a record with its unit, as text."""
     return shown_as(quantities(kind)[name], unit_of(name), value)
@@ -38,8 +62,12 @@ def shown_as(quantity: Quantity, unit: str, value: object) -> str:
         return f"{number(100 * value, quantity.digits)} %"
     if isinstance(value, (list, tuple)):
         text = ", ".join(number(float(each), quantity.digits) for each in value)
+    elif isinstance(value, float) and unit == "dB" and quantity.symbol == "L":
+        return level_text(value, quantity.digits)
+    elif isinstance(value, float):
+        return with_unit(value, unit, quantity.digits)
     else:
-        text = number(value, quantity.digits) if isinstance(value, float) else str(value)
+        text = str(value)
     return f"{text} {unit}".rstrip()
 
 

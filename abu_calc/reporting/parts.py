@@ -3,6 +3,7 @@
 Levels stand as instruments show them, and measured ones beside predicted ones.
 """
 
+import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
@@ -10,7 +11,7 @@ from abu_calc.foundation.checks import Check, Grade
 from abu_calc.foundation.quantity import Record, quantities
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
-from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number, shown
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number, shown, with_unit
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
 
@@ -31,6 +32,11 @@ MOST_ALIKE: Final = 3
 def of_scene(scene: str) -> str:
     """Scene of a machine, as words; empty for a scene file, which holds but one."""
     return "" if scene == "scene" else f" of the scene {scene}"
+
+
+def file_of(result: Result) -> str:
+    """File or preset of a result as a command line names it; FILE if there is none."""
+    return shlex.quote(result.provenance.file) if result.provenance.file else "FILE"
 
 
 def facts(record: Record, *names: str) -> Facts:
@@ -142,7 +148,7 @@ def written(value: object) -> str:
 
 
 def _value(check: Check) -> str:
-    return "" if check.value is None else f"{number(check.value, _digits(check))} {check.unit or ''}".rstrip()
+    return "" if check.value is None else with_unit(check.value, check.unit or "", _digits(check))
 
 
 def limit_of(check: Check) -> str:

@@ -107,13 +107,20 @@ def _pinned_diameter(case: Case, given_mm: float) -> float:
 
 
 def impossible(key: str, given: float, message: str, allowed: str | None = None) -> InputError:
-    """The error that refuses a choice that no geometry allows."""
+    """The error that refuses a choice that no geometry allows; its action names other keys than `key`."""
+    smaller = "reduce autobalancer.bore_diameter_mm or min_wall_mm"
+    remedies = {
+        "max_outer_diameter_mm": f"Increase it, or {smaller}.",
+        "max_width_mm": "Increase it.",
+        "ball_count": "Reduce it, or specify smaller balls or a larger race.",
+    }
+    larger = "increase autobalancer.max_outer_diameter_mm or max_width_mm"
     return InputError(
         f"geometrically impossible: {message}",
         place=Place(key=f"autobalancer.{key}"),
         found=f"{given:g}",
         allowed=allowed,
-        remedy="Change it, or widen autobalancer.max_outer_diameter_mm or max_width_mm.",
+        remedy=remedies.get(key, f"Change or remove it, or {larger}."),
     )
 
 

@@ -133,9 +133,9 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
         ),
         DrawingRequirement(
             "web and cover",
-            "both must carry the wall, the cover without clearance: the race's two lobes then "
-            f"leave {_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))}; a free "
-            f"ring would go oval by {_um(oval.free_ring)}",
+            "both must carry the wall, the cover without clearance: two-lobe ovality then leaves "
+            f"{_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))} µm; the diameter of "
+            f"a free ring would grow by {_um(oval.free_ring)} µm",
         ),
         DrawingRequirement("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
     )

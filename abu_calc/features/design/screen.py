@@ -9,10 +9,10 @@ from abu_calc.features.design.starts import EnsembleResult
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds, arm_line
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
-from abu_calc.reporting.parts import limit_in_file, measured_after_blocks
+from abu_calc.reporting.parts import file_of, limit_in_file, measured_after_blocks
 from abu_calc.reporting.screen import BLANK, one_screen, verdict_line
 
-ON_ARM = "`abu stability --scene swing-arm-cutting`, the arm's motion and tongue"
+ON_ARM = "`abu stability {} --scene swing-arm-cutting`, the arm's motion and instability region"
 MORE = ("--explain, every formula with its numbers",)
 
 MOST_ROWS = 9
@@ -33,8 +33,9 @@ TENTH: Final = 0.05
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The one screen; the section stands in the room that is left."""
     arm = [BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else []
+    more = (*MORE, ON_ARM.format(file_of(result))) if arm else MORE
     return one_screen(
-        result, about(result), [*numbers_that_matter(result)[1:], *arm], (*MORE, ON_ARM) if arm else MORE,
+        result, about(result), [*numbers_that_matter(result)[1:], *arm], more,
         lambda room: section_picture(result, min(room - 1, MOST_ROWS)),
     )  # fmt: skip
 

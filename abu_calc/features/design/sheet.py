@@ -22,6 +22,7 @@ from abu_calc.reporting.drawings.shapes import (
     plain,
     text_width,
 )
+from abu_calc.reporting.screen import many
 
 if TYPE_CHECKING:
     from abu_calc.features.design.study import SizeResult
@@ -105,7 +106,7 @@ def _title_block(result: "SizeResult", scale: float) -> Iterator[Line | Text]:
     yield Line("frame", (middle, rows[0]), (middle, rows[2]))
     yield Line("frame", (middle, rows[3]), (middle, low))
     name = PurePath(source.file.replace("\\", "/")).name if source.file else "no file"
-    replaced = f", {len(source.overrides)} entries replaced" if source.overrides else ""
+    replaced = f", {many(len(source.overrides), 'entry', 'entries')} replaced" if source.overrides else ""
     cells = (
         (left, right, rows[0], "machine", result.title, 1.4 * HEIGHT),
         (left, middle, rows[1], "drawing", f"autobalancer, {result.section.design}", HEIGHT),

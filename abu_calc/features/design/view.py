@@ -55,7 +55,7 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
         *numbers_that_matter(result),
         *check_blocks(result.checks),
         *warning_blocks(result.warnings),
-        *_design(result.autobalancer),
+        *_design(result),
         *_section(result),
         *_need(result),
         *_vibration(result),
@@ -72,11 +72,14 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
     )
 
 
-def _design(design: AutobalancerRecord) -> list[Block]:
+def _design(result: SizeResult) -> list[Block]:
+    """The chosen autobalancer; the speed that carries balls over concerns horizontal spindles, which ABU102 judges."""
+    design, horizontal = result.autobalancer, any(check.code == "ABU102" for check in result.checks)
     names = (
         *("ball_mass_g", "race_radius_mm", "pitch_radius_mm", "groove_radius_mm", "outer_diameter_mm", "width_mm"),
         *("mass_g", "mass_fraction", "capacity_g_mm", "capacity_ratio", "ball_force_N", "contact_pressure_MPa"),
-        *("hoop_stress_MPa", "carry_over_rpm", "optimum_drag_per_s", "slowest_decay_per_s"),
+        *("hoop_stress_MPa", *(("carry_over_rpm",) if horizontal else ()), "optimum_drag_per_s"),
+        "slowest_decay_per_s",
     )
     rows = ((f"{design.ball_material} {design.corrector}s", "n × 2r", balls(design)), *facts(design, *names).rows)
     return [Heading("Design"), Facts(rows), Paragraph(f"Housing {design.housing}.")]

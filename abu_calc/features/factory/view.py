@@ -12,8 +12,9 @@ NOTE = (
     "in the model moves there."
 )
 ONE_SET = (
-    "One set of assumptions for all: friction arm 0.002 mm, drag 15 1/s, race eccentricity 0.010 mm, springs of 2.5 "
-    "Hz, press force 45 N. Nothing is tuned."
+    "All four presets assume a friction arm of 0.002 mm, a viscous drag rate of 15 1/s, a race eccentricity of 0.010 "
+    "mm, springs of 2.5 Hz and a normal force of 45 N. Some other figures were chosen by published results, see the "
+    "presets."
 )
 
 

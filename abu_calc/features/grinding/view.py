@@ -8,7 +8,7 @@ from abu_calc.features.grinding.start_records import LoadedOutcomeGroup, LoadedS
 from abu_calc.features.grinding.study import GrindingResult
 from abu_calc.features.grinding.wear import WearCourse
 from abu_calc.foundation.checks import Status
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number, with_unit
 from abu_calc.reporting.parts import check_blocks, facts, measured_after_blocks, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened, verdict_line
 
@@ -91,8 +91,9 @@ def balls_blocks(result: GrindingResult) -> list[Block]:
         if len(given) == 1:
             angles = f"{number(result.printed.resultant_g_mm, 4)} g·mm at {angles}"
         blocks.append(Paragraph(
-            f"The printed formula (Kladiev 1996, 4), without friction, has {angles}: off by "
-            f"{number(result.printed.error_deg or 0.0, 3)}°, {number(result.printed.open_g_mm or 0.0, 3)} g·mm left."
+            f"The formula as published (Kladiev 1996, 4), without friction, gives {angles}. Its error is "
+            f"{with_unit(result.printed.error_deg or 0.0, '°', 3)}; it leaves "
+            f"{with_unit(result.printed.open_g_mm or 0.0, 'g·mm', 3)}."
         ))  # fmt: skip
     if result.flutter_drag_limit_per_s is not None and result.flutter_drag_worst_per_s is not None:
         here, worst = (number(each, 3) for each in (result.flutter_drag_limit_per_s, result.flutter_drag_worst_per_s))

@@ -112,6 +112,16 @@ def missing(given: Iterable[str]) -> list[str]:
     return [NAMES[key] for key in needed if key not in given]
 
 
+def listed(names: Sequence[str]) -> str:
+    """Names as a sentence lists them.
+
+    >>> listed(["--bore"]), listed(["--bore", "--outer", "--width"])
+    ('--bore', '--bore, --outer and --width')
+    """
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def several(given: Mapping[str, object]) -> list[dict[str, object]]:
     """One bearing for each pair of the fits that are listed (j5,k5,m5), named after them where there are several."""
     lists = {key: [fit.strip() for fit in str(given[key]).strip(", ").split(",")] for key in FITS if key in given}
@@ -189,7 +199,10 @@ def _of_options(given: dict[str, object], overrides: Sequence[str]) -> "Machine"
     if overrides:
         raise InputError("--set overrides entries of a file, and none is given", found=f"--set {overrides[0]}")
     if absent := missing(given):
-        raise InputError("a file, or the options of one bearing, are needed", found="no " + ", ".join(absent))
+        raise InputError(
+            "the bearing is not known" if given else "neither a machine file nor a bearing is given",
+            remedy=f"Add {listed(absent)}, or --designation{'' if given else ', or name a machine file'}.",
+        )
     bands = {key: band(key, str(given[key])) for key in BANDS if key in given}
     return machine_of_bearings(several(given | bands), NAMES)
 

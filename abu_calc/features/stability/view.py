@@ -13,7 +13,7 @@ from abu_calc.features.swing_arm.view import BOUNDS, arm_bounds, arm_line, motio
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Curve, MarkedPoint, Plot, alike
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import check_blocks, facts, notices, provenance_blocks, value_of
+from abu_calc.reporting.parts import check_blocks, facts, file_of, notices, provenance_blocks, value_of
 from abu_calc.reporting.screen import shortened
 from abu_calc.simulation.records import StabilityBoundary
 
@@ -132,7 +132,7 @@ def stability_screen(result: StabilityResult) -> tuple[Block, ...]:
     if result.arm_motion is None:
         return shortened(result, blocks, *LEFT_OUT, head=3 if result.arm_advice or result.consequence else 2, more=more)
     if result.swing_arm:
-        more = (*more, "`abu size`, the bounds of the arm")
+        more = (*more, f"`abu size {file_of(result)}`, the bounds of the arm")
     if result.hanging:
         first = next(k for k, block in enumerate(blocks) if k and isinstance(block, Heading))
         blocks = (*blocks[:first], Paragraph(hanging_word(result.hanging)), *blocks[first:])

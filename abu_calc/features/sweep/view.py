@@ -110,9 +110,9 @@ MATTER = 0.01
 MOST = 8
 """Values with a bar on one screen."""
 MEMBERS = {
-    "build": "machines built to one design",
-    "design": "machines, each designed anew,",
-    "scene": "runs",
+    "build": ("machine built to one design", "machines built to one design"),
+    "design": ("machine, designed anew,", "machines, each designed anew,"),
+    "scene": ("run", "runs"),
 }
 LIMITS = {
     "balances": "balances",
@@ -169,7 +169,11 @@ def _about(result: SweepResult) -> list[Block]:
     low, high = met.confidence_interval
     does = "balance" if result.what == "scene" else "meet the limits"
     confidence = f"95 % confidence: {percent(low)} to {percent(high)}"
-    text = f"{percent(met.share)} of {met.of} {MEMBERS[result.what]} {does} ({confidence})."
+    one, several = MEMBERS[result.what]
+    text = f"{percent(met.share)} of {met.of} {several} {does} ({confidence})."
+    if met.of == 1:
+        verb = does.replace("meet", "meets").replace("balance", "balances") if met.share else f"does not {does}"
+        text = f"1 {one} {verb} ({confidence})."
     kept = f" Members: {result.store}." if result.store else ""
     varied = many(len(result.varied), "value varies", "values vary")
     return [

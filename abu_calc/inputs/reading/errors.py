@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from abu_calc.foundation.errors import InputError, Place
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.inputs.reading.suggestions import header, meant_key, meant_table, nearest
+from abu_calc.inputs.reading.suggestions import header, meant_key, meant_table, nearest, nearest_numbered
 from abu_calc.inputs.reading.table import RULE, Table, is_array, subtable, table_at, usual_of
 from abu_calc.inputs.reading.text import Part, is_number, key_path, quoted, shown, shown_short, unit_symbol
 from abu_calc.inputs.reading.toml_text import line_of
@@ -217,7 +217,7 @@ def _no_literal(finding: _Finding) -> _Words:
     if is_number(value) and shown(value) in words:
         return "text is expected", expected, f'write "{value}" in quotes'
     plain = shown(value).strip('"').replace(" ", "").replace(",", ".")
-    close = next((word for word in words if word in (plain, f"G{plain}")), None) or nearest(plain, words)
+    close = nearest_numbered(plain, words) or nearest(plain, words)
     return "not one of the known words", expected, f'the nearest is "{close}"' if close else None
 
 

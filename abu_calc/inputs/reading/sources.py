@@ -101,8 +101,10 @@ def _path(source: str) -> Path:
         return preset
     from abu_calc.inputs.reading.suggestions import nearest
 
-    known = names()
-    if close := nearest(path.stem, known):
+    known, beside = names(), path.with_name(f"{path.name}{SUFFIX}") if path.name else path
+    if path.name and beside.is_file():
+        remedy = f"Did you mean {beside}?"
+    elif close := nearest(path.stem, known):
         remedy = f'the nearest preset is "{close}"'
     else:
         remedy = f"presets: {', '.join(known)}" if known else "`abu init FILE` writes a new file"

@@ -2,6 +2,7 @@
 
 import difflib
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from typing import Final, NamedTuple
@@ -16,6 +17,10 @@ _OTHER_UNITS: Final = frozenset(
 )
 
 
+_NUMBERED: Final = re.compile(r"([A-Za-z]*) *(\d+(?:\.\d+)?)")
+"""Letters and a number, as the name of a balance grade."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word nearest to one, whatever its case.
 
@@ -25,6 +30,25 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     folded = {name.lower(): name for name in known}
     close = difflib.get_close_matches(word.lower(), folded, n=1)
     return folded[close[0]] if close else None
+
+
+def nearest_numbered(word: str, known: Iterable[str]) -> str | None:
+    """Return the known word whose number is nearest in ratio, if all known words are the same letters and a number.
+
+    >>> nearest_numbered("G17", ["G16", "G6.3", "G1"]), nearest_numbered("17", ["G16", "G6.3"])
+    ('G16', 'G16')
+    >>> nearest_numbered("wire", ["G16", "G6.3"]), nearest_numbered("G1", ["ball", "G2"])
+    (None, None)
+    """
+    parts = {name: _NUMBERED.fullmatch(name) for name in known}
+    given = _NUMBERED.fullmatch(word)
+    letters = {part[1].lower() for part in parts.values() if part is not None}
+    if given is None or len(letters) != 1 or None in parts.values() or given[1].lower() not in {"", *letters}:
+        return None
+    wanted, sizes = float(given[2]), {name: float(part[2]) for name, part in parts.items() if part is not None}
+    if not wanted > 0:
+        return None
+    return min(sizes, key=lambda name: abs(math.log(sizes[name] / wanted)) if sizes[name] > 0 else math.inf)
 
 
 def other_unit(key: str, known: Iterable[str]) -> str | None:

@@ -42,7 +42,7 @@ def test_every_row_is_of_a_preset_in_an_octave_with_a_word() -> None:
 
 
 def test_presets_assume_alike() -> None:
-    """One set of assumptions, as the table says: nothing is tuned per machine."""
+    """The assumptions that the table says all presets share."""
     files = {row.machine for row in factory_rows()}
     tables = [tomllib.loads((ROOT / "presets" / f"{name}.toml").read_text(encoding="utf-8")) for name in files]
     for table, key, value in (

@@ -205,7 +205,7 @@ def test_a_key_that_plays_no_part_is_not_asked_about(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wheel", "meant"), [(60, None), (23, "cm (230 mm)"), (67.9, None), (11, "cm (110 mm) or inch")]
+    ("wheel", "meant"), [(60, None), (25, None), (67.9, None), (11, "cm (110 mm) or inch")]
 )
 def test_an_autobalancer_larger_than_its_wheel_is_warned_of(tmp_path: Path, wheel: float, meant: str | None) -> None:
     line = lines(tmp_path, f"wheel.diameter_mm={wheel}")[-1]

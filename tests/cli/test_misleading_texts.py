@@ -1,0 +1,74 @@
+"""Texts that could be misread say what they mean: suggestions, units, tiny values, singular and plural."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from abu_calc.inputs.reading import sources
+from tests.cli.runner import abu, once
+
+SMALL = (
+    "--set", "wheel.imbalance_g_mm=0", "--set", "autobalancer.race_eccentricity_mm=0",
+    "--set", "autobalancer.rolling_friction_mm=0", "--set", "run_up={time_s=1}",
+)  # fmt: skip
+
+
+def flat(text: str) -> str:
+    """A text without its line breaks."""
+    return " ".join(text.split())
+
+
+@pytest.mark.parametrize(("grade", "nearest"), [("G17", "G16"), ("G1.1", "G1"), ("G90", "G100"), ("17", "G16")])
+def test_the_nearest_balance_grade_is_nearest_by_its_number(grade: str, nearest: str) -> None:
+    told = abu("validate", "avtovaz-707-222", "--set", f'wheel.balance_grade="{grade}"')
+    assert told.status == 2 and f'the nearest is "{nearest}"' in told.err
+
+
+@pytest.mark.parametrize(("options", "added"), [
+    ((), "Add --bore, --outer and --width, or --designation, or name a machine file."),
+    (("--bore", "20", "--chamfer", "1"), "Add --outer and --width, or --designation."),
+])  # fmt: skip
+def test_a_bearing_without_sizes_is_told_what_to_add(options: tuple[str, ...], added: str) -> None:
+    told = abu("check-fit", *options)
+    assert told.status == 2 and added in flat(told.err) and "found no" not in told.err
+
+
+@pytest.mark.parametrize(("entry", "key"), [
+    ("max_outer_diameter_mm=25", "max_outer_diameter_mm"), ("max_width_mm=3", "max_width_mm"),
+])  # fmt: skip
+def test_an_action_does_not_name_the_key_that_was_given_as_another(entry: str, key: str) -> None:
+    told = abu("size", "avtovaz-707-222", "--set", f"autobalancer.{entry}")
+    assert told.status == 2 and "Increase it" in told.err and told.err.count(key) == 1 and "at least" in told.err
+
+
+def test_a_file_beside_its_bare_name_is_suggested(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "ag125.toml").write_text(sources.text_of("msh-230"), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    told = abu("size", "ag125")
+    assert told.status == 2 and "Did you mean ag125.toml?" in told.err
+
+
+def test_a_mounted_point_is_not_asked_about_its_unit() -> None:
+    told = abu("validate", "avtovaz-707-222", "--set", "wheel.diameter_mm=25")
+    assert told.status == 0 and "larger than the wheel" in flat(told.out) and " cm" not in told.out
+
+
+@pytest.mark.slow
+def test_values_below_the_noise_are_bounds() -> None:
+    for command in ("simulate", "levels"):
+        for told in (once(command, "avtovaz-707-222", *SMALL), once(command, "avtovaz-707-222", *SMALL, "--full")):
+            assert not re.search(r"\de-\d\d? *(mm|µm|°)|-\d+(\.\d+)? dB(?! (below|above))|± 0(\.0)? dB", told.out)
+
+
+def test_the_sheet_counts_one_entry_as_one(tmp_path: Path) -> None:
+    drawing = tmp_path / "section.svg"
+    assert abu("size", "avtovaz-707-370", "--set", "machine.mass_kg=5.4", "--output", str(drawing)).status == 0
+    assert "1 entry replaced" in drawing.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("name", "told"), [("msh-230", False), ("avtovaz-707-222", True)])
+def test_only_a_horizontal_spindle_has_a_speed_that_carries_balls_over(name: str, told: bool) -> None:
+    text = once("size", name, "--full").out
+    assert ("carries balls over" in text) is told
+    assert re.search(r"ring would grow by [\d.]+ µm", flat(text))
