@@ -204,9 +204,7 @@ def test_a_key_that_plays_no_part_is_not_asked_about(tmp_path: Path) -> None:
 # Numbers that do not go together.
 
 
-@pytest.mark.parametrize(
-    ("wheel", "meant"), [(60, None), (25, None), (67.9, None), (11, "cm (110 mm) or inch")]
-)
+@pytest.mark.parametrize(("wheel", "meant"), [(60, None), (25, None), (67.9, None), (11, "cm (110 mm) or inch")])
 def test_an_autobalancer_larger_than_its_wheel_is_warned_of(tmp_path: Path, wheel: float, meant: str | None) -> None:
     line = lines(tmp_path, f"wheel.diameter_mm={wheel}")[-1]
     head = "autobalancer.max_outer_diameter_mm = 68 (line 20) is unusual, larger than the wheel: wheel.diameter_mm = "
