@@ -81,6 +81,14 @@ Grade = Literal["pass", "warn", "fail", "not-done"]
 
 
 @dataclass(frozen=True)
+class Action:
+    """What a reader can do about a check: a sentence, and the entries of the file that do it, each for one `--set`."""
+
+    text: str
+    overrides: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Check:
     """One requirement held against one value, both in `unit` as printed (user units); null where it has none.
 
@@ -96,11 +104,24 @@ class Check:
     unit: str | None = None
     remedy: str | None = None
     bound: Literal["most", "least"] = "most"
+    overrides: tuple[str, ...] = ()
+    """Entries of the file that the action replaces, such as "machine.mass_kg=5.6"; `--set` takes each."""
+
+    def with_action(self, action: "Action | str | None") -> "Check":
+        """The check with another action."""
+        text, overrides = parts_of(action)
+        return replace(self, remedy=text, overrides=overrides)
+
+
+def parts_of(action: Action | str | None) -> tuple[str | None, tuple[str, ...]]:
+    """Sentence and entries of an action; none of an action that no entry of a file makes."""
+    return (action.text, action.overrides) if isinstance(action, Action) else (action, ())
 
 
 def coded(
     code: str, status: Grade, message: str, value: float | None = None, limit: float | None = None,
-    unit: str | None = None, remedy: str | None = None, bound: Literal["most", "least"] = "most", *, of: str = "",
+    unit: str | None = None, remedy: Action | str | None = None, bound: Literal["most", "least"] = "most", *,
+    of: str = "",
 ) -> Check:  # fmt: skip
     """A check by its code, whose name stands in the table of codes; `of` names the one of several that it is of.
 
@@ -108,7 +129,8 @@ def coded(
     'clearance left in the bearing, 6203'
     """
     name = CHECK_CODES[code].name
-    return Check(code, f"{name}, {of}" if of else name, status, message, value, limit, unit, remedy, bound)
+    text, overrides = parts_of(remedy)
+    return Check(code, f"{name}, {of}" if of else name, status, message, value, limit, unit, text, bound, overrides)
 
 
 def overall(checks: Iterable[Check]) -> Status:

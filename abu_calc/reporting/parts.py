@@ -64,7 +64,34 @@ def check_blocks(checks: Sequence[Check]) -> list[Block]:
 
 def reasons(checks: Iterable[Check]) -> list[Paragraph]:
     """Checks that did not simply pass, the worst first, each with its grade, reason and remedy; alike ones together."""
-    return [reason(alike) for alike in unlike(checks)]
+    return told(unlike(checks))
+
+
+def told(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
+    """Each group with its grade, reason and action, and below it the entries of its action unless they stand above."""
+    lines, printed = list[Paragraph](), set[tuple[str, ...]]()
+    for alike in groups:
+        lines.append(reason(alike))
+        if alike[0].overrides not in printed:
+            lines += paste_lines(alike[0].overrides)
+            printed.add(alike[0].overrides)
+    return lines
+
+
+PASTED: Final = 72
+"""Most letters of a line of options."""
+
+
+def paste_lines(overrides: Sequence[str]) -> list[Paragraph]:
+    """Entries as options of a command line that can be pasted: every line but the last goes on in the next."""
+    lines = list[str]()
+    for entry in overrides:
+        option = f"--set {shlex.quote(entry)}"
+        if lines and len(lines[-1]) + len(option) < PASTED:
+            lines[-1] += f" {option}"
+        else:
+            lines.append(option)
+    return [Paragraph(line if line is lines[-1] else f"{line} \\", indent=4) for line in lines]
 
 
 def unlike(checks: Iterable[Check]) -> list[list[Check]]:
@@ -80,7 +107,7 @@ def reason(alike: Sequence[Check]) -> Paragraph:
     first, more = alike[0], len(alike) - MOST_ALIKE
     names = ", ".join(f"{check.code} {check.name}{_found(check)}" for check in alike[:MOST_ALIKE])
     others = f" and {more} more" if more > 0 else ""
-    remedy = f" Remedy: {first.remedy}" if first.remedy else ""
+    remedy = f" Action: {first.remedy}" if first.remedy else ""
     return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
 
 
@@ -147,8 +174,15 @@ def written(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else f"{value}"
 
 
+COUNTED: Final = "start cases"
+"""Unit of values that are counts."""
+
+
 def _value(check: Check) -> str:
-    return "" if check.value is None else with_unit(check.value, check.unit or "", _digits(check))
+    if check.value is None:
+        return ""
+    counted = check.unit == COUNTED
+    return f"{check.value:g} {COUNTED}" if counted else with_unit(check.value, check.unit or "", _digits(check))
 
 
 def limit_of(check: Check) -> str:

@@ -11,7 +11,7 @@ from typing import Final
 
 from abu_calc.foundation.checks import Check, Status
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
-from abu_calc.reporting.parts import reason, unlike, warning_lines
+from abu_calc.reporting.parts import reason, told, unlike, warning_lines
 from abu_calc.reporting.text import height
 from abu_calc.simulation.result import Result
 
@@ -43,7 +43,10 @@ def one_screen(
     room = LINES - height([*about, *last])
     kept = min(2 + _height(warnings), LEAST) if warnings else 0
     taken = room - kept - min(1 + _height(body), LEAST)
-    reasons = _fitted([reason(alike) for alike in groups], [[check.code for check in alike] for alike in groups], taken)
+    reasons = told(groups)
+    if _height(reasons) > taken:  # the entries of actions stand in the whole report, too
+        codes = [[check.code for check in alike] for alike in groups]
+        reasons = _fitted([reason(alike) for alike in groups], codes, taken)
     room -= height(reasons)
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown

@@ -2,116 +2,153 @@
 
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Check, Grade, coded, verdict
+from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.response import balanced_well
 from abu_calc.simulation.scene_of_design import guided
 from abu_calc.simulation.start_cases import OPPOSITE
+from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing.design import Design
+from abu_calc.sizing.vibration import decibels
 
 WORK = 300_000
 """Evaluations that the simulation of one scene within `abu size` may take, some seconds. A wheel that bounces before it
 stays on the work took SciPy 200 000, events counted in, until two runs agreed; other machines take a tenth of that."""
 
-BALANCE = "What lets every start balance, see ABU701; else less friction and eccentricity of the race."
-
-SEE = "See ABU701."
+BALANCE = "See the action of ABU701; else reduce the friction and the eccentricity of the race."
 
 JUDGED = "ABU701", "ABU702", "ABU704"
 
+UNCARRIED = "The balls, side by side, cannot carry the imbalance"
+CARRY = "Add balls or specify larger ones, see ABU201."
 
-def ensemble_checks(design: Design, ensemble: Ensemble | None, remedy: str | None = None) -> tuple[Check, ...]:
-    """Balls that balance from every start, soon enough, and never hang.
 
-    Starts at the drag given fail a check, those at a third and at three times it warn. `remedy`: what was tried. Not
-    done without an ensemble: the balls, side by side, cannot carry the imbalance.
+def ensemble_checks(design: Design, ensemble: Ensemble | None, change: TriedChange | None = None) -> tuple[Check, ...]:
+    """Checks that the balls balance in every start case, soon enough, and that none stalls.
+
+    Start cases at the given viscous drag rate fail a check, those at a third and at three times it warn. `change`: a
+    simulated change of the file; the first check that is not passed tells it. NOT EVALUATED without an ensemble: the
+    balls, side by side, cannot carry the imbalance.
     """
     if ensemble is None:
-        reason = "the balls cannot carry the imbalance side by side"
-        return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in JUDGED)
-    first = _balances(design, ensemble, remedy)
-    advice = SEE if first.remedy else remedy
-    return first, _settles(design, ensemble, advice), _none_hangs(ensemble, advice)
+        return tuple(coded(code, "not-done", UNCARRIED, remedy=CARRY) for code in JUDGED)
+    checks = list[Check]()
+    for judged in (_balances, _settles, _none_stalls):
+        told = next((check.code for check in checks if check.remedy), None)
+        checks.append(judged(design, ensemble, change, told))
+    return tuple(checks)
 
 
-def level_check(closed: Check, ensemble: Ensemble | None, remedy: str | None = None) -> Check:
-    """The check of the idle level with what the starts show beside the closed form; the worse of both stands.
+def level_check(closed: Check, ensemble: Ensemble | None, change: TriedChange | None = None) -> Check:
+    """The check of the idle level with the loudest start case beside the calculated cases; the worse of both stands.
 
-    `remedy`: what was tried. Not done where the patience that was asked for left out a start.
+    `change`: a simulated change of the file. NOT EVALUATED if the patience that was asked for left out a start case.
     """
     if ensemble is None or closed.status == "not-done" or closed.limit is None or closed.value is None:
         return closed
+    limit = closed.limit
     if patience.over() and ensemble.lost and closed.status != "fail":
-        return coded("ABU401", "not-done", "not all starts were simulated in the time of --patience", None,
-                     closed.limit, "dB")  # fmt: skip
-    given, worst = _loudest(ensemble.given), _loudest(ensemble.outcomes)
-    if given is None or worst is None:
+        return coded("ABU401", "not-done", "Not all start cases were simulated in the time of --patience", None,
+                     limit, "dB")  # fmt: skip
+    given, loudest = _loudest(ensemble.given), _loudest(ensemble.outcomes)
+    if given is None or loudest is None:
         return closed
-    if given.level > closed.limit and given.level > closed.value:
+    message = f"{closed.message}. Loudest start case: {_level(given, ensemble, limit)}"
+    value = max(given.level, closed.value)
+    if given.level > limit and given.level > closed.value:
         # A truer race helps where the closed form fails, too; what helps a start that does not balance was tried.
-        advice = closed.remedy if closed.status == "fail" and given.balanced else remedy
-        message = f"simulated, the loudest start is {_named(given)}"
-        return coded("ABU401", "fail", message, given.level, closed.limit, "dB", advice or BALANCE)
-    if closed.status == "pass" and worst.level > closed.limit:
-        return coded("ABU401", "warn", f"kept at the drag given, but not {_named(worst)}: {worst.level:.1f} dB",
-                     max(given.level, closed.value), closed.limit, "dB")  # fmt: skip
-    if given.level <= closed.value:
-        return closed
-    return coded("ABU401", closed.status, f"simulated, the loudest start is {_named(given)}; {closed.message}",
-                 given.level, closed.limit, "dB", closed.remedy)  # fmt: skip
+        advice: Action | str | None = closed.remedy and Action(closed.remedy, closed.overrides)
+        if closed.status != "fail" or not given.balanced:
+            advice = None if change is None else change.action(LOUDEST, lambda outcome: outcome.level, "dB", limit)
+        return coded("ABU401", "fail", message, value, limit, "dB", advice or BALANCE)
+    if closed.status == "pass" and loudest.level > limit:
+        message += f". Loudest start case at another drag rate: {_level(loudest, ensemble, limit)}"
+        return coded("ABU401", "warn", message, value, limit, "dB")
+    return replace(closed, message=message, value=value)
 
 
-def _balances(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
+LOUDEST, SLOWEST = "the loudest start case", "the slowest start case"
+LEFT, STALLED = "the largest imbalance left by a start case", "the number of start cases with stalled balls"
+
+
+def _level(outcome: StartOutcome, ensemble: Ensemble, limit: float) -> str:
+    return f"{decibels(outcome.level, limit)} (limit {limit:g} dB), {_named(outcome, ensemble)}"
+
+
+def _see(told: str | None) -> str | None:
+    """Reference to the check that tells the action."""
+    return None if told is None else f"See the action of {told}."
+
+
+def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
     given = ensemble.given
     failing = [outcome for outcome in given if not outcome.balanced]
     worst = max(given, key=lambda outcome: outcome.imbalance, default=None)
     status = _grade(ensemble, lambda outcome: outcome.balanced)
-    left = f"{ensemble.balanced} of {ensemble.members} starts balance"
+    sentences = [f"{ensemble.balanced} of {_starts(ensemble.members)} balance"]
     others = failing or [outcome for outcome in ensemble.outcomes if not outcome.balanced]
     if others:
-        left += f"; not {_listed(others)}"
+        sentences.append(f"These do not: {_listed(others, ensemble)}")
     moved = design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio)
     if worst and worst.imbalance > moved:
-        left += "; the balls make it worse, they gather on the heavy side or hang"
-    for lost in ensemble.lost[:1]:
-        left += f"; without an answer {_words(lost.member.name, lost.member.drag)}: {lost.reason}"
-    value, limit = (worst.imbalance, worst.allowed) if worst else (None, None)
-    return coded("ABU701", status, f"{left}; imbalance left by the worst", _g_mm(value), _g_mm(limit), "g·mm",
-                 None if status == "pass" else remedy)  # fmt: skip
+        sentences.append("The balls increase the imbalance: they gather on the heavy side or stall")
+    sentences += [f"No answer from {_words(lost.member.name, lost.member.drag, ensemble.drag)}: {lost.reason}"
+                  for lost in ensemble.lost[:1]]  # fmt: skip
+    if worst:
+        sentences.append("The value is the largest imbalance left at the given drag rate")
+    value, limit = (_g_mm(worst.imbalance), _g_mm(worst.allowed)) if worst else (None, None)
+    action = None
+    if change is not None and status != "pass":
+        action = change.action(LEFT, lambda outcome: from_si(outcome.imbalance, "g_mm"), "g·mm", limit)
+    return coded("ABU701", status, ". ".join(sentences), value, limit, "g·mm", action)
 
 
-def _settles(design: Design, ensemble: Ensemble, remedy: str | None) -> Check:
+def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
     limit = design.case.table.limits.settling_time_s
     status = _grade(ensemble, lambda outcome: outcome.settling_time_or_inf <= limit)
     if status == "fail" and balanced_well(design) and all(outcome.balanced for outcome in ensemble.given):
-        message = "the wheel is balanced so well that balls creep to their places; none leaves more than is allowed"
+        message = (
+            "The wheel is balanced so well that the balls creep to their places. No start case leaves more than is "
+            "allowed"
+        )
         return coded("ABU702", "warn", message, None, limit, "s")
     late = max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf, default=None)
     latest = max(ensemble.outcomes, key=lambda outcome: outcome.settling_time_or_inf, default=None)
-    message = "no start gave an answer" if late is None else f"the slowest start is {_named(late)}"
+    sentences = ["No start case gave an answer" if late is None else f"Slowest start case: {_time(late, ensemble)}"]
     if status == "warn" and latest and latest.settling_time_or_inf > limit:
-        when = "never" if math.isinf(latest.settling_time_or_inf) else f"{latest.settling_time_or_inf:.3g} s"
-        message += f"; {_named(latest)}: {when}"
+        sentences.append(f"Slowest at another drag rate: {_time(latest, ensemble)}")
     if guided(design, 0.0).pause:
-        message += "; counted from full speed, after the pause"
+        sentences.append("Settling counts from full speed, after the temporary speed reduction")
     elif any(outcome.member.run_up for outcome in ensemble.given):
-        message += "; counted from full speed, after the run-up"
+        sentences.append("Settling counts from full speed, after the run-up")
     value = None if late is None or math.isinf(late.settling_time_or_inf) else late.settling_time_or_inf
-    return coded("ABU702", status, message, value, limit, "s", None if status == "pass" else remedy)
+    action: Action | str | None = _see(told)
+    if action is None and change is not None:
+        action = change.action(SLOWEST, lambda outcome: outcome.settling_time_or_inf, "s", limit)
+    return coded("ABU702", status, ". ".join(sentences), value, limit, "s", None if status == "pass" else action)
 
 
-def _none_hangs(ensemble: Ensemble, remedy: str | None) -> Check:
+def _time(outcome: StartOutcome, ensemble: Ensemble) -> str:
+    time = outcome.settling_time_or_inf
+    return f"{_named(outcome, ensemble)}, {'never' if math.isinf(time) else f'{time:.3g} s'}"
+
+
+def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
     status = _grade(ensemble, lambda outcome: not outcome.hanging)
-    message = "no start leaves balls going round behind the rotor"
-    for lost in ensemble.lost[:1]:
-        message += f"; without an answer {_words(lost.member.name, lost.member.drag)}"
+    message = "No ball stalls in any start case"
     if ensemble.hanging:
-        message = f"balls hang {_listed(ensemble.hanging)}"
-    return coded("ABU704", status, message, float(len(ensemble.hanging)), 0.0, "starts",
-                 None if status == "pass" else remedy)  # fmt: skip
+        message = f"Balls stall in {_listed(ensemble.hanging, ensemble)}"
+    for lost in ensemble.lost[:1]:
+        message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble.drag)}"
+    action: Action | str | None = _see(told)
+    if action is None and change is not None:
+        action = change.counting(STALLED, lambda outcome: outcome.hanging, "")
+    return coded("ABU704", status, message, float(len(ensemble.hanging)), 0.0, "start cases",
+                 None if status == "pass" else action)  # fmt: skip
 
 
 def _grade(ensemble: Ensemble, good: Callable[[StartOutcome], bool]) -> Grade:
@@ -128,21 +165,31 @@ def _loudest(outcomes: Iterable[StartOutcome]) -> StartOutcome | None:
     return max(outcomes, key=lambda outcome: outcome.level, default=None)
 
 
-def _named(outcome: StartOutcome) -> str:
-    """The start in words, with the race's centre unless that is opposite the imbalance, as in other commands."""
-    side = "" if outcome.member.eccentricity == OPPOSITE else f", race centre {outcome.member.race_centre_deg:g}°,"
-    return _words(f"{outcome.member.name}{side}", outcome.member.drag)
+def _named(outcome: StartOutcome, ensemble: Ensemble) -> str:
+    """The start case in words, with the race's centre unless that is opposite the imbalance, as in other commands."""
+    side = "" if outcome.member.eccentricity == OPPOSITE else f", race centre {outcome.member.race_centre_deg:g}°"
+    return _words(f"{outcome.member.name}{side}", outcome.member.drag, ensemble.drag)
 
 
-def _words(name: str, drag: float) -> str:
-    return f"{name} at a drag of {drag:.4g} 1/s"
+def _words(name: str, drag: float, given: float) -> str:
+    """A start case and its viscous drag rate: as given, or that of hot or cold oil.
+
+    >>> _words("standstill", 5.0, 15.0)
+    'standstill, drag rate 5 1/s (hot oil)'
+    """
+    oil = "as given" if drag == given else "(hot oil)" if drag < given else "(cold oil)"
+    return f"{name}, drag rate {drag:.4g} 1/s {oil}"
 
 
-def _listed(outcomes: Iterable[StartOutcome]) -> str:
+def _starts(count: int) -> str:
+    return f"{count} start case{'' if count == 1 else 's'}"
+
+
+def _listed(outcomes: Iterable[StartOutcome], ensemble: Ensemble) -> str:
     """The first few in words."""
-    names = [_named(outcome) for outcome in outcomes]
-    more = f" and {len(names) - 2} more" if len(names) > 2 else ""
-    return "from " + ", ".join(names[:2]) + more
+    names = [_named(outcome, ensemble) for outcome in outcomes]
+    more = f"; and {len(names) - 2} more" if len(names) > 2 else ""
+    return "; ".join(names[:2]) + more
 
 
 def _g_mm(value: float | None) -> float | None:
@@ -156,7 +203,8 @@ def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str 
     chaotic motion comes to on average, where that is known.
     """
     if mean is not None:
-        return coded("ABU703", "warn", mean, of=scene, remedy="What keeps the wheel on the work, see abu grinding.")
+        return coded("ABU703", "warn", mean, of=scene, remedy="Keep the wheel on the workpiece, see abu grinding FILE.")
     status: Grade = "warn" if answered and scene == "idle" and not patience.over() else "not-done"
-    return coded("ABU703", status, f"no trustworthy simulation: {reason}", of=scene,
-                 remedy="A drag nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).")  # fmt: skip
+    return coded("ABU703", status, f"No simulation of this scene can be trusted: {reason}", of=scene,
+                 remedy="Specify a drag rate nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).",
+                 )  # fmt: skip

@@ -19,7 +19,7 @@ Level = Callable[[float], float]
 """Function from the rms velocity of the axis [m/s] to the level [dB]."""
 LAST: Final = 0.95
 """Share of a run by which balls must have settled to count as settled."""
-TRIES: Final = "abu size tries what helps."
+TRIES: Final = "`abu size FILE` simulates changes that help."
 
 
 @dataclass(frozen=True)
@@ -88,12 +88,12 @@ def one_run_checks(
     if response.scene not in LIMITED:
         return ()
     ramp, limit = response.full_speed, design.case.table.limits.settling_time_s
-    counted = f"{start}; counted from full speed, after {ramp:.3g} s" if ramp else start
+    counted = f". Settling counts from full speed, after {ramp:.3g} s" if ramp else ""
     motor = (check for check in design.checks if check.code == "ABU104")
-    checks = (*motor, *_balancing(design, response, f"from {counted}"), _level(design, response, error))
+    checks = (*motor, *_balancing(design, response, f"Start: {start}{counted}"), _level(design, response, error))
     if asked and LAST * response.duration < ramp + limit and overall(checks) == "fail":
-        reason = f"the run ends after {response.duration:.3g} s, before the limit of the settling time"
-        remedy = "A longer run (--duration, Python: duration_s=)."
+        reason = f"The run ends after {response.duration:.3g} s, before the limit of the settling time"
+        remedy = "Specify a longer run (--duration, Python: duration_s=)."
         return tuple(coded(check.code, "not-done", reason, remedy=remedy) for check in checks)
     return checks
 
@@ -106,32 +106,36 @@ def _balancing(design: Design, response: Response, start: str) -> tuple[Check, .
     autobalancer, limit = design.autobalancer, design.case.table.limits.settling_time_s
     moved = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
     if autobalancer.capacity < moved:
-        reason = "the balls cannot carry the imbalance side by side"
-        return tuple(coded(code, "not-done", reason, remedy="More or larger balls.") for code in ("ABU701", "ABU702"))
+        reason = "The balls, side by side, cannot carry the imbalance"
+        return tuple(
+            coded(code, "not-done", reason, remedy="Add balls or specify larger ones.") for code in ("ABU701", "ABU702")
+        )
     left, allowed, time = response.residual_imbalance, allowed_imbalance(design, moved), response.settling_time
     slipping = slip(response, abs(response.final.speed) or design.case.speed)
     balanced = balances(left, allowed, slipping)
-    message = "imbalance left: the balls end opposite the imbalance"
+    message = "The balls end opposite the imbalance"
     if slipping > SLIPPING:
-        message = "imbalance left: the balls hang, they keep going round behind the rotor"
+        message = "The balls stall: they keep turning more slowly than the rotor"
     elif not balanced:
-        word = "make it worse, they gather on the heavy side" if left > moved else "help, but do not balance"
-        message = f"imbalance left: the balls {word}"
+        worse = "The balls gather on the heavy side and increase the imbalance"
+        message = worse if left > moved else "The balls reduce the imbalance, but do not balance it"
+    message += ". The value is the imbalance left"
     soon = balanced and time is not None and time <= limit
     remedy = None if balanced and soon else TRIES
+    settled = start if balanced else "The balls settle where they do not balance"
     return (
         coded("ABU701", verdict(balanced), message, from_si(left, "g_mm"), from_si(allowed, "g_mm"), "g·mm", remedy),
-        coded("ABU702", verdict(soon), start if balanced else "settled where it does not balance", time, limit, "s",
-              remedy),
-    )  # fmt: skip
+        coded("ABU702", verdict(soon), settled, time, limit, "s", remedy),
+    )
 
 
 def _level(design: Design, response: Response, error: float) -> Check:
     """The loudest place against the limit; a warning where the error of the run leaves it open."""
     loudest, limit = max(levels_at_places(design, response), key=lambda place: place.level), design.case.level_limit
     passed, safe = loudest.level <= limit, loudest.level + 20 * math.log10(1 + error) <= limit
-    message = f"at the end of this run, {loudest.name}"
+    place = "in the wheel plane" if loudest.name == "wheel plane" else f'at the handle "{loudest.name}"'
+    message = f"The level {place} at the end of this run"
     if passed and not safe:
-        message += f"; its error of {error:.2g} leaves it open"
-    remedy = None if passed and safe else TRIES if not passed else "Ask for more accuracy."
+        message += f". The error of {error:.2g} leaves open whether the limit is kept"
+    remedy = None if passed and safe else TRIES if not passed else "Specify more accuracy (--accuracy)."
     return coded("ABU401", verdict(passed, safe), message, loudest.level, limit, "dB", remedy)

@@ -14,7 +14,7 @@ from abu_calc.sizing.case import Case, read_case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.drawing_requirements import drawing
 from abu_calc.sizing.imbalance import Imbalance, find_imbalance
-from abu_calc.sizing.operating_speed import frequency_region
+from abu_calc.sizing.operating_speed import frequency_region, region_check
 from abu_calc.sizing.track import track, track_checks
 from abu_calc.sizing.vibration import idle_vibration, loaded_vibration, speed_levels, vibration_checks, worst_residuals
 
@@ -54,12 +54,12 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     arm = _arm(case, imbalance.value, best)
     advice = drawing(case, best, race)
     checks = (
-        frequency.check,
-        *_motor(case),
-        *candidate_checks(case, imbalance.value, best),
-        *track_checks(case, imbalance.value, best, race),
-        *vibration_checks(case, imbalance.value, best, idle, levels, worst),
-        *power_checks(case),
+        region_check(case, best, frequency),
+        *_motor(case, best),
+        *candidate_checks(case, best),
+        *track_checks(case, best, race),
+        *vibration_checks(case, imbalance.value, best, idle, levels),
+        *power_checks(case, best),
         *(arm.checks if arm else ()),
     )
     warnings = design_warnings(case, best, loaded)
@@ -69,12 +69,12 @@ def _designed(case: Case, imbalance: Imbalance, choice: AutobalancerChoice) -> D
     )  # fmt: skip
 
 
-def _motor(case: Case) -> tuple[Check, ...]:
+def _motor(case: Case, candidate: Candidate) -> tuple[Check, ...]:
     if case.idle_speed is None:
         return ()
     from abu_calc.sizing.operating_speed import motor_checks
 
-    return motor_checks(case)
+    return motor_checks(case, candidate)
 
 
 def _arm(case: Case, imbalance: float, candidate: Candidate) -> "SwingArmBounds | None":

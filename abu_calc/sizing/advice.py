@@ -1,70 +1,98 @@
 """Checks of the chosen autobalancer, and warnings that no check gives."""
 
-from abu_calc.foundation.checks import Check, coded, verdict
+import math
+
+from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing import trials
+from abu_calc.sizing.actions import Moved, followed, pins, set_action
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case
+from abu_calc.sizing.trials import Requirement
 from abu_calc.sizing.vibration import LevelsUnderLoad
 from abu_calc.standards.balls import stock_diameter
 
 
-def candidate_checks(case: Case, imbalance: float, chosen: Candidate) -> tuple[Check, ...]:
+def candidate_checks(case: Case, chosen: Candidate) -> tuple[Check, ...]:
     """Checks of the chosen autobalancer: capacity, residual displacement, mass, and a race near the wheel."""
-    return _capacity(case, imbalance, chosen), _budget(chosen), _mass(case, imbalance, chosen), *_plane(case, chosen)
+    return _capacity(case, chosen), _budget(chosen), _mass(case, chosen), *_plane(case, chosen)
 
 
-def _capacity(case: Case, imbalance: float, candidate: Candidate) -> Check:
+def _capacity(case: Case, candidate: Candidate) -> Check:
     margin = case.autobalancer.capacity_margin
-    need = from_si(candidate.requirement.required * margin, "g_mm")
+    required = Requirement("the capacity", "g·mm", lambda _, other: from_si(other.capacity, "g_mm"), _with_margin,
+                           enough, "the required capacity with its margin")  # fmt: skip
     passed = enough(case, candidate)
-    return coded("ABU201", verdict(passed), f"{candidate.ball_count} balls side by side against {margin:g} × the need",
-        from_si(candidate.capacity, "g_mm"), need, "g·mm",
-        None if passed else trials.remedy(case, imbalance, trials.more_room(case), enough), "least",
+    return coded("ABU201", verdict(passed), f"{candidate.ball_count} balls side by side must carry the required "
+        f"capacity times the margin {margin:g}", from_si(candidate.capacity, "g_mm"), _with_margin(case, candidate),
+        "g·mm", None if passed else trials.remedy(case, candidate, trials.more_room(case), required), "least",
     )  # fmt: skip
+
+
+def _with_margin(case: Case, candidate: Candidate) -> float:
+    """Required capacity times its margin [g·mm]."""
+    return from_si(candidate.requirement.required * case.autobalancer.capacity_margin, "g_mm")
 
 
 def _budget(candidate: Candidate) -> Check:
     budget = candidate.budget
     speed = f"{from_si(budget.speed, 'rpm'):.6g} rpm"
-    return coded("ABU202", verdict(budget.within), "race eccentricity, dry friction and an oval race, expected, "
-        f"against what the limit permits at {speed}", from_si(budget.residual, "um"), from_si(budget.permitted, "um"),
-        "µm",
-        None if budget.within else "What was tried for the level, see ABU401.",
+    return coded("ABU202", verdict(budget.within), f"At {speed}, race eccentricity, dry friction and two-lobe ovality "
+        "leave this displacement, as expected", from_si(budget.residual, "um"), from_si(budget.permitted, "um"), "µm",
+        None if budget.within else "See the action of ABU401.",
     )  # fmt: skip
 
 
-def _mass(case: Case, imbalance: float, candidate: Candidate) -> Check:
-    limit, passed = case.autobalancer.max_mass_fraction, light(case, candidate)
-    return coded("ABU203", verdict(passed), "share of the machine's mass, balls included",
-        100 * candidate.mass_fraction, 100 * limit, "%",
-        None if passed else trials.remedy(case, imbalance, trials.lighter(case), light),
+def _mass(case: Case, candidate: Candidate) -> Check:
+    passed = light(case, candidate)
+    required = Requirement("the autobalancer's share of the machine's mass", "%",
+                           lambda _, other: 100 * other.mass_fraction,
+                           lambda other, _: 100 * other.autobalancer.max_mass_fraction, light)  # fmt: skip
+    return coded("ABU203", verdict(passed), "The autobalancer with its balls takes this share of the machine's mass",
+        100 * candidate.mass_fraction, 100 * case.autobalancer.max_mass_fraction, "%",
+        None if passed else trials.remedy(case, candidate, trials.lighter(case), required),
     )  # fmt: skip
 
 
 def _plane(case: Case, candidate: Candidate) -> tuple[Check, ...]:
-    """The race off the wheel's plane: what rests at the wheel, if the body is known."""
+    """Check of the displacement at the wheel if the race is off the wheel's plane and the body is known."""
     if case.race_offset == 0:
         return ()
     if not case.body.is_rigid:
         return (
-            coded("ABU205", "not-done",
-                "the race is off the wheel's plane, and the rigid body is not known",
-                remedy="Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm.",
-            ),
+            coded("ABU205", "not-done", "The race is off the wheel's plane, and the rigid body is not known",
+                  remedy="Specify machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm."),
         )  # fmt: skip
     rest, permitted = from_si(candidate.budget.plane_offset, "um"), from_si(candidate.budget.permitted, "um")
     near = rest <= permitted
-    return (
-        coded("ABU205", verdict(near), f"the balls need {candidate.requirement.plane_ratio:.3f} × the imbalance, "
-            "and this stays at the wheel", rest, permitted, "µm",
-            None if near else "Bring the race nearer to the wheel.",
-        ),
-    )  # fmt: skip
+    message = (
+        f"The race is off the wheel's plane. The balls carry {candidate.requirement.plane_ratio:.3f} times the "
+        "imbalance, and the wheel keeps this displacement"
+    )
+    action = None if near else _nearer(case, candidate)
+    return (coded("ABU205", verdict(near), message, rest, permitted, "µm", action),)
 
 
-def power_checks(case: Case) -> tuple[Check, ...]:
+NEARER = (0.75, 0.5, 0.25, 0.0)
+"""Shares of the race's distance from the wheel's plane that are tried."""
+
+
+def _nearer(case: Case, candidate: Candidate) -> Action:
+    """The farthest place of the race, of those tried, at which the wheel keeps a permitted displacement."""
+    before = from_si(candidate.budget.plane_offset, "um")
+    for share in NEARER:
+        changed = {"autobalancer.plane_offset_mm": round(share * case.autobalancer.plane_offset_mm, 2)}
+        after = followed(case, {**changed, **pins(candidate)})
+        if after is not None and after.candidate.budget.plane_offset <= after.candidate.budget.permitted:
+            left, limit = after.candidate.budget.plane_offset, after.candidate.budget.permitted
+            moved = Moved("the displacement that the wheel keeps", before, from_si(left, "um"), "µm",
+                          from_si(limit, "um"))  # fmt: skip
+            return set_action(changed, after.candidate, moved)
+    return Action("Bring the race nearer to the wheel.")
+
+
+def power_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
     """Check that the motor has the power that cutting takes; no check if either is not given."""
     power, contact = case.table.machine.power_W, case.contact
     if power is None or contact is None:
@@ -72,11 +100,25 @@ def power_checks(case: Case) -> tuple[Check, ...]:
     rim = case.speed * case.wheel_radius
     cutting = contact.cutting_coefficient * contact.press_force * rim
     enough = cutting <= power
-    return (
-        coded("ABU403", verdict(enough), "f·N·v at the rated speed against the motor's power", cutting,
-            power, "W", None if enough else "A smaller press force or cutting coefficient: these do not go together.",
-        ),
-    )  # fmt: skip
+    message = "Cutting takes the power f·N·v at the rated speed, and the motor must give it"
+    action = None if enough else _less_force(case, candidate, power, cutting)
+    return (coded("ABU403", verdict(enough), message, cutting, power, "W", action),)
+
+
+def _less_force(case: Case, candidate: Candidate, power: float, cutting: float) -> Action:
+    """The largest normal force of three digits that the motor's power permits."""
+    contact = case.contact
+    assert contact is not None
+    force = _rounded_down(contact.press_force * power / cutting)
+    changed = {"grinding.press_force_N": force}
+    moved = Moved("the cutting power", cutting, cutting * force / contact.press_force, "W", power)
+    return set_action(changed, candidate, moved)
+
+
+def _rounded_down(value: float) -> float:
+    """The next number of three digits that is not above."""
+    places = 2 - math.floor(math.log10(value))
+    return round(math.floor(value * 10.0**places) / 10.0**places, max(places, 0))
 
 
 def design_warnings(case: Case, candidate: Candidate, loaded: LevelsUnderLoad | None) -> tuple[str, ...]:
@@ -94,19 +136,19 @@ def _loaded_warnings(loaded: LevelsUnderLoad | None) -> list[str]:
     if loaded is None or loaded.steady.after is not None:
         return []
     return [
-        "No level under load is given with the autobalancer: the balls cannot balance at these speeds, or this contact "
-        "asks for more than they carry."
+        "No level under load is given with the autobalancer. The balls cannot balance at these speeds, or this contact "
+        "requires more capacity than they have."
     ]
 
 
 def _body_warnings(case: Case) -> list[str]:
     if case.body.is_rigid:
         return []
-    clause = " and the imbalance found from it" if case.table.wheel.shown else ""
-    handles = "; every handle moves alike" if case.handles else ""
+    measured = " An imbalance that a measured level gives is as uncertain." if case.table.wheel.shown else ""
+    handles = " All handles move alike." if case.handles else ""
     return [
-        f"The machine is taken as a point mass: a level at a handle{clause} is uncertain by a factor of two to three"
-        f"{handles}. Give machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm to do better."
+        f"The machine is modelled as a point mass: levels at handles are uncertain by a factor of 2 to 3.{measured}"
+        f"{handles} Specify machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm."
     ]
 
 
@@ -116,21 +158,21 @@ def _sheet_warnings(case: Case) -> list[str]:
     if shown is None or shown.weighting != "Wh":
         return []
     return [
-        "The imbalance is found from a weighted acceleration. If that is a data sheet's, it was measured with a test "
-        "wheel of defined imbalance (ISO 28927-1), not with the wheel in use."
+        "The imbalance follows from a weighted acceleration. A data sheet's value was measured with a test wheel of "
+        "defined imbalance (ISO 28927-1), not with the wheel in use."
     ]
 
 
 def _contact_warnings(case: Case, candidate: Candidate) -> list[str]:
     contact, warnings = case.contact, []
     if contact is None:
-        return ["No [grinding]: the capacity is for idling; the need under load, compliant or rigid, was not computed."]
+        return ["The file has no [grinding]: the required capacity is that of idling, without load."]
     if contact.kind != "compliant":
-        return [f"The contact is {contact.kind}: a compliant need was not computed."]
+        return [f"The contact is {contact.kind}: no required capacity of a compliant contact is computed."]
     steady = steady_contact(case, candidate.mass, damped=False)
     if steady is not None and steady.balls_increase_imbalance:
         warnings.append(
-            "At this contact stiffness balls under load would increase the imbalance (it lies between MΩ² and 2MΩ²)."
+            "Under load the balls would increase the imbalance: the contact stiffness lies between MΩ² and 2MΩ²."
         )
     return warnings
 
@@ -138,7 +180,9 @@ def _contact_warnings(case: Case, candidate: Candidate) -> list[str]:
 def _choice_warnings(case: Case, candidate: Candidate) -> list[str]:
     warnings = []
     if stock_diameter(candidate.ball_diameter) is None:
-        warnings.append(f"Balls of {from_si(candidate.ball_diameter, 'mm'):g} mm are not a stock size.")
+        warnings.append(f"Ø{from_si(candidate.ball_diameter, 'mm'):g} mm is not a stock size of balls.")
     if case.autobalancer.corrector == "roller":
-        warnings.append("Rollers: as long as their diameter, cylindrical race; no toroidal groove shakes out friction.")
+        warnings.append(
+            "The rollers are as long as their diameter and run on a cylindrical race. No groove reduces their friction."
+        )
     return warnings

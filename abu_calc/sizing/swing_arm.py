@@ -109,7 +109,7 @@ def doubted(checks: tuple[Check, ...], borrowed: tuple[str, ...]) -> tuple[Check
     """Checks with a warning in place of each pass that rests on another machine's data alone."""
     if not borrowed:
         return checks
-    reason, remedy = "; rests on example data", "Give [swing_arm] its own numbers, see the warning."
+    reason, remedy = ". It rests on example data", "Specify your own numbers in [swing_arm], see the warning."
     return tuple(
         replace(check, status="warn", message=check.message + reason, remedy=remedy)
         if check.status == "pass"
@@ -139,11 +139,11 @@ def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
     arm, limit = bounds.arm, min(bounds.contact_stiffness_limit, bounds.contact_stiffness_limit_exact)
     stiff, stiffness, lifted = arm.contact_stiffness < limit, arm_stiffness(arm), _lifted(bounds.lifted_contact_angles)
     return (
-        coded("ABU501", verdict(stiff), "supercritical at the lowest speed and the worst "
-              "contact angle (the safer of series and exact), while the disk is pressed; necessary, not sufficient",
+        coded("ABU501", verdict(stiff), "The arm is supercritical at the lowest speed and the worst contact angle, by "
+              "the safer of series and exact formula. That is necessary, not sufficient",
               arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
         _damped(arm, bounds.damping_limit, bounds.damping_limit_bunched),
-        coded("ABU504", verdict(stiffness > 0), f"static stiffness with the contact{lifted}",
+        coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}",
               stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].remedy, "least"),
         _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip
@@ -156,10 +156,12 @@ def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
     """
     damped = arm.joint_damping > limit
     safe = bunched is not None and arm.joint_damping > bunched
-    message = "above what parametric resonance at twice the natural frequency can overcome while the disk is pressed"
-    if damped and not safe:
-        message += "; not while the balls stand on the heavy side, as in a start"
-    more = None if bunched is None else f"Above {bunched:.3g} N·s/m it damps that, too."
+    message = "The damping overcomes parametric resonance at twice the natural frequency while the disk is pressed"
+    if not damped:
+        message = "Parametric resonance at twice the natural frequency overcomes the damping while the disk is pressed"
+    elif not safe:
+        message += ". While the balls are together on the heavy side, as in a start, it does not"
+    more = None if bunched is None else f"A joint damping above {bunched:.3g} N·s/m overcomes that, too (calculated)."
     return coded("ABU502", verdict(damped, safe), message, arm.joint_damping, limit, "N·s/m",
                  CHECK_CODES["ABU502"].remedy if not damped else None if safe else more, "least")  # fmt: skip
 
@@ -167,20 +169,21 @@ def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
 def _lifted(angles: tuple[float, float] | None) -> str:
     """Contact angles at which the arm would not stand, in words."""
     if angles is None:
-        return "; it stands at every contact angle"
+        return "The arm stands at every contact angle"
     low, high = (from_si(angle, "deg") for angle in angles)
-    return f"; from {low:.3g}° to {high:.3g}° friction lifts the wheel by itself (static divergence)"
+    return f"From {low:.3g}° to {high:.3g}° friction lifts the wheel by itself (static divergence)"
 
 
 def _pressing(arm: Arm, angle: float | None) -> Check:
     """N = c_n·l·(φ − φ₀)·sin Z presses only when the arm stands and does not point along the normal."""
     touch = from_si(arm.touch_angle, "deg")
     if angle is None or math.sin(arm.contact_angle) < LEAST_SINE:
-        return coded("ABU503", "not-done", "the arm does not stand, or points along the normal, so that no force "
+        return coded("ABU503", "not-done", "The arm does not stand, or points along the normal, so that no force "
                      "presses", None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
     pressed = angle > arm.touch_angle
-    return coded("ABU503", verdict(pressed), "resting angle beyond the touching angle", from_si(angle, "deg"), touch,
-                 "°", None if pressed else CHECK_CODES["ABU503"].remedy, "least")  # fmt: skip
+    return coded("ABU503", verdict(pressed), "The resting angle must be beyond the touching angle",
+                 from_si(angle, "deg"), touch, "°", None if pressed else CHECK_CODES["ABU503"].remedy,
+                 "least")  # fmt: skip
 
 
 PRESSED: Final = 45.0

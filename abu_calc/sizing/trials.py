@@ -1,15 +1,12 @@
-"""Trials of changes to the file with which the best candidate meets its missed requirements.
-
-The same search tries each of them.
-"""
+"""Trials of changed entries with which the best candidate meets a missed requirement; the same search tries each."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
 
-from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.units import from_si
-from abu_calc.sizing.balls import Candidate, choose, sound
+from abu_calc.foundation.checks import Action
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.sizing.actions import PINS, Followed, Moved, followed, pins, set_action, words
+from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.case import Case
 
 ROOM = (1.1, 1.25, 1.5)
@@ -18,87 +15,118 @@ WALLS = (1.5, 2.0, 3.0)
 """Factors on the least wall."""
 HARDEST = 63.0
 """Hardness of a ground race, at most [HRC]."""
-PINS = "ball_count", "ball_diameter_mm", "race_radius_mm"
-
-Holds = Callable[[Case, Candidate], bool]
-Change = tuple[str, Case]
 
 
-def remedy(case: Case, imbalance: float, changes: Iterator[Change], holds: Holds) -> str:
-    """The first change with which the search finds a candidate that falls short of nothing, else of this alone."""
-    tried, partly = [], ""
-    for words, other in changes:
-        try:
-            candidate = choose(other, imbalance).best
-        except AbuError:  # no race fits: no remedy
+@dataclass(frozen=True)
+class Change:
+    """Entries to replace; `free`: whether the search is free of the balls and the race that the file pins."""
+
+    entries: dict[str, object]
+    free: bool = False
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A requirement on the autobalancer: the number that decides it, as printed, and whether a candidate holds it."""
+
+    quantity: str
+    unit: str
+    value: Callable[[Case, Candidate], float]
+    limit: Callable[[Case, Candidate], float]
+    holds: Callable[[Case, Candidate], bool]
+    limit_name: str = "the limit"
+
+    def moved(self, case: Case, candidate: Candidate, after: Followed) -> Moved:
+        """The number before and after a change, or its limit if that moves more."""
+        before, new = self.value(case, candidate), self.value(after.case, after.candidate)
+        limit, new_limit = self.limit(case, candidate), self.limit(after.case, after.candidate)
+        if abs(new_limit - limit) > abs(new - before):
+            return Moved(self.limit_name, limit, new_limit, self.unit, new)
+        return Moved(self.quantity, before, new, self.unit, new_limit)
+
+
+ALL_HOLD = "All other requirements on the autobalancer hold."
+NOT_ALL = "Another requirement on the autobalancer then fails."
+
+
+def remedy(case: Case, present: Candidate, changes: Iterator[Change], required: Requirement) -> Action:
+    """The first change with which the search finds a candidate that meets every requirement, else this one alone.
+
+    Each is followed literally: with its entries, and with the balls and the race that the search has found pinned.
+    """
+    tried, partly = [], None
+    for change in changes:
+        found = followed(_unpinned_case(case) if change.free else case, change.entries)
+        after = None if found is None else followed(case, {**change.entries, **pins(found.candidate)})
+        if after is None:
             continue
-        tried.append(words)
-        trial = f"Tried: with {words}, {_balls(candidate)}"
-        if sound(other, candidate):
-            return f"{trial} holds it, and what else is asked of the autobalancer."
-        if holds(other, candidate) and not partly:
-            partly = f"{trial} holds it, though not all else."
-    return partly or (f"Tried without success: {'; '.join(tried)}." if tried else "What can be changed was not found.")
+        shown = {**change.entries, **pins(after.candidate)} if change.free else change.entries
+        tried.append(words(shown))
+        complete = sound(after.case, after.candidate)
+        if complete or (required.holds(after.case, after.candidate) and partly is None):
+            action = set_action(shown, after.candidate, required.moved(case, present, after),
+                                more=ALL_HOLD if complete else NOT_ALL, present=present)  # fmt: skip
+            if complete:
+                return action
+            partly = action
+    if partly is not None:
+        return partly
+    return Action(f"No change was found. Calculated without success: {'; '.join(tried)}." if tried
+                  else "No change of the file was found.")  # fmt: skip
 
 
 def more_room(case: Case) -> Iterator[Change]:
     """The search free of what is pinned, then less margin, then a larger envelope with it free."""
     yield from _unpinned(case)
     if case.autobalancer.capacity_margin > 1:
-        yield "capacity_margin = 1", _with(case, capacity_margin=1.0)
-    free = dict.fromkeys(PINS)
-    word = ", nothing pinned" if _pinned(case) else ""
+        yield Change({"autobalancer.capacity_margin": 1.0})
     for more in ROOM:
         across, along = (round(more * size, 1) for size in (case.autobalancer.max_outer_diameter_mm,
                                                             case.autobalancer.max_width_mm))  # fmt: skip
-        words = f"max_outer_diameter_mm = {across:g}, max_width_mm = {along:g}{word}"
-        yield words, _with(case, max_outer_diameter_mm=across, max_width_mm=along, **free)
+        entries: dict[str, object] = {"autobalancer.max_outer_diameter_mm": across, "autobalancer.max_width_mm": along}
+        yield Change(entries, free=_pinned(case))
 
 
 def lighter(case: Case) -> Iterator[Change]:
     """The search free of what is pinned, the light design, less margin."""
     yield from _unpinned(case)
     if case.autobalancer.design != "light":
-        yield 'design = "light"', _with(case, design="light")
+        yield Change({"autobalancer.design": "light"})
     if case.autobalancer.capacity_margin > 1:
-        yield "capacity_margin = 1", _with(case, capacity_margin=1.0)
+        yield Change({"autobalancer.capacity_margin": 1.0})
 
 
 def rounder(case: Case) -> Iterator[Change]:
     """A thicker wall, another body, the search free of what is pinned."""
     for more in WALLS:
-        wall = round(more * case.autobalancer.min_wall_mm, 2)
-        yield f"min_wall_mm = {wall:g}", _with(case, min_wall_mm=wall)
+        yield Change({"autobalancer.min_wall_mm": round(more * case.autobalancer.min_wall_mm, 2)})
     yield from stronger(case)
 
 
 def harder(case: Case) -> Iterator[Change]:
     """A harder race, the search free of what is pinned."""
     if case.autobalancer.race_hardness_HRC < HARDEST:
-        yield f"race_hardness_HRC = {HARDEST:g}", _with(case, race_hardness_HRC=HARDEST)
+        yield Change({"autobalancer.race_hardness_HRC": HARDEST})
     yield from _unpinned(case)
 
 
 def stronger(case: Case) -> Iterator[Change]:
     """A body of steel, the search free of what is pinned."""
     if case.autobalancer.design == "light":
-        yield 'design = "one-piece"', _with(case, design="one-piece")
+        yield Change({"autobalancer.design": "one-piece"})
     yield from _unpinned(case)
 
 
 def _unpinned(case: Case) -> Iterator[Change]:
-    if pins := _pinned(case):
-        yield f"{', '.join(pins)} not pinned", _with(case, **dict.fromkeys(PINS))
+    if _pinned(case):
+        yield Change({}, free=True)
 
 
-def _pinned(case: Case) -> list[str]:
-    return [pin for pin in PINS if getattr(case.autobalancer, pin) is not None]
+def _pinned(case: Case) -> bool:
+    return any(getattr(case.autobalancer, pin) is not None for pin in PINS)
 
 
-def _with(case: Case, **changed: Any) -> Case:
-    abu = case.autobalancer.model_copy(update=changed)
+def _unpinned_case(case: Case) -> Case:
+    abu = case.autobalancer.model_copy(update=dict.fromkeys(PINS))
+    abu = type(abu).model_validate(abu.model_dump(exclude_unset=True, exclude=set(PINS)))
     return replace(case, autobalancer=abu, table=case.table.model_copy(update={"autobalancer": abu}))
-
-
-def _balls(candidate: Candidate) -> str:
-    return f"{candidate.ball_count} × Ø{from_si(candidate.ball_diameter, 'mm'):.5g} mm"

@@ -11,11 +11,13 @@ from dataclasses import replace
 from functools import lru_cache
 
 from abu_calc.formulas.friction_band import worst_friction
+from abu_calc.formulas.slow_motion import shaken_drag
 from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
-from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
+from abu_calc.sizing.actions import Followed, Moved, followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
 from abu_calc.sizing.capacity import steady_contact
@@ -157,7 +159,8 @@ def speed_levels(
     curve = tuple(
         at(speed, _residual(case, imbalance, candidate, speed)) for speed in sorted({*steps, *judged_speeds(case)})
     )
-    highest, arranged = max(curve, key=_after), max((at(each.speed, each.residual) for each in worst), key=_after)
+    highest = max(curve, key=_after)
+    arranged = max((at(each.speed, each.residual) for each in worst), key=_after, default=highest)
     return SpeedLevels(curve, highest, arranged)
 
 
@@ -257,6 +260,11 @@ def _level(case: Case, displacement: float) -> float:
 
 SHARES = (0.5, 0.25)
 """Shares of the race's eccentricity and of the friction's lever arm that are tried."""
+EXPECTED, FRICTION = "the expected level", "the worst friction case"
+"""Cases of the idle level that sizing calculates, as actions name them."""
+SHAKEN = (
+    "With the spindle horizontal, gravity shakes the balls free of this case; with it vertical, it stands"
+)  # fmt: skip
 
 
 def vibration_checks(
@@ -265,70 +273,111 @@ def vibration_checks(
     candidate: Candidate,
     idle: VibrationLevels,
     levels: SpeedLevels | None,
-    worst: Sequence[WorstResidual],
 ) -> tuple[Check, ...]:
     """The idle level against the limit over the speed range, and that the autobalancer lowers it."""
     limit, before, after = case.level_limit, idle.worst.before, idle.worst.after
     if after is None or levels is None:
-        reason = "not known, since the balls cannot balance at these speeds"
+        reason = "The level is not known: the balls cannot balance at these speeds"
         allowed = {"ABU401": limit, "ABU402": before}
         return tuple(coded(code, "not-done", reason, None, most, "dB") for code, most in allowed.items())
-    remedy = None
-    if not idle.lowered:
-        remedy = "The wheel is balanced better than balls can do: no autobalancer is needed."
-        if candidate.budget.capacity_shortfall:
-            remedy = "What gives the balls enough capacity, see ABU201."
-        elif candidate.budget.rolling_friction > candidate.budget.race_eccentricity:
-            remedy = "A harder, cleaner race or larger balls: friction leaves more than the wheel's imbalance moves."
-    message = "with the autobalancer against without, idle"
+    message = "The idle level with the autobalancer must be below the level without it"
     return (
-        _level_check(case, imbalance, candidate, levels, worst),
-        coded("ABU402", verdict(idle.lowered), message, after, before, "dB", remedy),
+        _level_check(case, candidate, levels, loudest_place(idle)),
+        coded("ABU402", verdict(idle.lowered), message, after, before, "dB",
+              None if idle.lowered else _lower(case, candidate, after)),
+    )  # fmt: skip
+
+
+def loudest_place(vibration: VibrationLevels) -> str:
+    """The loudest place in words: a handle, or the wheel plane if the file defines no handle."""
+    name = max(vibration.places, key=lambda place: place.levels.after or -math.inf).name
+    return "Wheel plane" if name == "wheel plane" else f'Handle "{name}"'
+
+
+def decibels(level: float, limit: float) -> str:
+    """A level as text that is not shown on the other side of its limit.
+
+    >>> decibels(108.04, 109.0), decibels(109.03, 109.0)
+    ('108.0 dB', '109.03 dB')
+    """
+    return next(
+        (f"{level:.{digits}f} dB" for digits in (1, 2, 3) if (round(level, digits) <= limit) == (level <= limit)),
+        f"{level:.4f} dB",
     )
 
 
-def _level_check(
-    case: Case, imbalance: float, candidate: Candidate, levels: SpeedLevels, worst: Sequence[WorstResidual]
-) -> Check:
-    """Fails on the level as expected where it is highest, warns on that of the worst arrangement."""
+def _level_check(case: Case, candidate: Candidate, levels: SpeedLevels, place: str) -> Check:
+    """Fails on the level as expected where it is highest, warns on that of the worst friction case.
+
+    Gravity shakes balls free of the worst friction case only while the spindle is horizontal. A hand-held machine is
+    used in every position, so the case is judged whatever spindle axis the file gives; the message says the difference.
+    """
     limit, highest, arranged = case.level_limit, levels.highest, levels.arranged
     kept, safe = highest.level_after <= limit, arranged.level_after <= limit
-    of_range = "" if len(levels.by_speed) == 1 else ", the worst of the range"
-    message = f"expected with the autobalancer at the worst handle, at {_rpm(highest)}{of_range}"
-    if kept and not safe:
-        there = "" if arranged.speed == highest.speed else f", at {_rpm(arranged)}"
-        message += f"; {arranged.level_after:.1f} dB{there} where friction holds the balls at their worst"
-    remedy = None if kept and safe else _remedy(case, imbalance, candidate, None if kept else worst)
-    return coded("ABU401", verdict(kept, safe), message, highest.level_after, limit, "dB", remedy)
+    of_range = "" if len(levels.by_speed) == 1 else ", the loudest speed of the range"
+    there = "" if arranged.speed == highest.speed else f" at {_rpm(arranged)}"
+    message = (
+        f"{place}, {_rpm(highest)}{of_range}: expected {decibels(highest.level_after, limit)} (limit {limit:g} dB). "
+        f"Worst friction case{there}: {decibels(arranged.level_after, limit)} (limit {limit:g} dB)"
+    )
+    if not safe and shaken_free(case, candidate, arranged.speed):
+        message += f". {SHAKEN}"
+    action = None if kept and safe else _truer_race(case, candidate, levels, worst=kept)
+    return coded("ABU401", verdict(kept, safe), message, highest.level_after, limit, "dB", action)
 
 
-def _remedy(case: Case, imbalance: float, candidate: Candidate, held: Sequence[WorstResidual] | None) -> str:
-    """The least truer race that keeps the limit, by the same formulas.
+def shaken_free(case: Case, candidate: Candidate, speed: float) -> bool:
+    """True if gravity frees balls that friction holds: the spindle is horizontal and k_r·R_p·Ω²/(r·g) is below 1."""
+    horizontal = case.table.machine.spindle_axis == "horizontal"
+    radius = candidate.ball_diameter / 2
+    return horizontal and bool(
+        shaken_drag(case.friction_arm, radius, candidate.pitch_radius, speed, case.inertia_factor)
+    )
 
-    `held`: where friction holds the balls worst, which is not asked about; None: that is what has to keep it.
-    """
+
+def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst: bool) -> Action:
+    """The least truer race that keeps the limit, followed literally; `worst`: in the worst friction case."""
     background, limit = case.background_level, case.level_limit
     if background is not None and background >= limit:
-        return (
-            f"The background alone is {background:.4g} dB, which no autobalancer lowers: a quieter machine, or another "
-            "limits.vibration_level_db."
+        return Action(
+            f"The background alone is {background:.4g} dB (limit {limit:g} dB), and no autobalancer lowers it. Use a "
+            "quieter machine, or change limits.vibration_level_db."
         )
+    before, least = (levels.arranged if worst else levels.highest).level_after, math.inf
+    for entries in _truer(case):
+        after = followed(case, {**entries, **pins(candidate)})
+        level = math.inf if after is None else _level_of(after, worst=worst)
+        least = min(least, level)
+        if after is not None and level <= limit:
+            return set_action(entries, after.candidate, Moved(FRICTION if worst else EXPECTED, before, level, "dB",
+                                                              limit))  # fmt: skip
+    return Action(
+        f"No change was found: a quarter of the race's eccentricity and rolling friction leaves "
+        f"{decibels(least, limit)} (limit {limit:g} dB, calculated). What remains is {_left(candidate)}a heavier "
+        "machine, or another limits.vibration_level_db."
+    )
 
-    def level(other: Case) -> float:
-        levels = speed_levels(
-            other, imbalance, candidate, held or worst_residuals(other, imbalance, candidate), possible=True
-        )
-        return math.inf if levels is None else (levels.highest if held else levels.arranged).level_after
 
-    *others, (words, truest) = _truer(case)
-    if (least := level(truest)) > limit:
-        return (
-            f"Tried without success: {1 / SHARES[-1]:g} times less eccentricity and friction of the race. What is "
-            f"left: {_left(candidate)}a heavier machine, or another limits.vibration_level_db."
-        )
-    tried = ((each, level(other)) for each, other in others)
-    words, new_level = next((pair for pair in tried if pair[1] <= limit), (words, least))
-    return f"Tried: {words} gives {new_level:.1f} dB."
+def _level_of(after: Followed, *, worst: bool) -> float:
+    """Highest level [dB] over the speed range, as expected or in the worst friction case."""
+    residuals = worst_residuals(*after) if worst else ()
+    levels = speed_levels(*after, residuals, possible=True)
+    if levels is None:
+        return math.inf
+    return (levels.arranged if worst else levels.highest).level_after
+
+
+def _lower(case: Case, candidate: Candidate, level: float) -> Action:
+    """A truer race with which the autobalancer lowers the idle level; else that none is needed."""
+    if candidate.budget.capacity_shortfall:
+        return Action("See the action of ABU201.")
+    for entries in _truer(case):
+        after = followed(case, {**entries, **pins(candidate)})
+        idle = None if after is None else idle_vibration(*after, possible=True)
+        if after is not None and idle is not None and idle.lowered and idle.worst.after is not None:
+            moved = Moved("the idle level with the autobalancer", level, idle.worst.after, "dB", idle.worst.before)
+            return set_action(entries, after.candidate, moved)
+    return Action("The wheel is balanced better than balls can balance it: no autobalancer is needed.")
 
 
 def _left(candidate: Candidate) -> str:
@@ -337,15 +386,19 @@ def _left(candidate: Candidate) -> str:
     return f"{capacity}a race nearer to the wheel's plane, " if candidate.budget.plane_offset else capacity
 
 
-def _truer(case: Case) -> Iterator[tuple[str, Case]]:
-    """A race less eccentric, or with less friction, or both."""
+def _truer(case: Case) -> Iterator[dict[str, object]]:
+    """Entries of a race that is less eccentric, or has less friction, or both."""
+    abu = case.autobalancer
     for share in SHARES:
-        less, smoother = share * case.race_eccentricity, share * case.friction_arm
-        true = f"race_eccentricity_mm = {from_si(less, 'mm'):.3g}"
-        hard = f"rolling_friction_mm = {from_si(smoother, 'mm'):.3g} (harder, cleaner)"
-        yield true, replace(case, race_eccentricity=less)
-        yield hard, replace(case, friction_arm=smoother)
-        yield f"{true} with {hard}", replace(case, race_eccentricity=less, friction_arm=smoother)
+        true: dict[str, object] = {"autobalancer.race_eccentricity_mm": _rounded(share * abu.race_eccentricity_mm)}
+        smooth: dict[str, object] = {"autobalancer.rolling_friction_mm": _rounded(share * abu.rolling_friction_mm)}
+        yield true
+        yield smooth
+        yield {**true, **smooth}
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")
 
 
 def _rpm(level: LevelAtSpeed) -> str:

@@ -63,7 +63,7 @@ def test_the_envelope_holds_what_the_result_holds_and_no_input_without_a_file() 
     assert made["input"] is None and made["warnings"] == ["careful"] and made["result"] == {"mass_g": 240.5}
     assert made["checks"] == [
         {"code": "ABU201", "name": "capacity", "status": "pass", "message": "enough", "value": 2.0, "limit": 1.0,
-         "unit": "g·mm", "remedy": None, "bound": "least"}
+         "unit": "g·mm", "remedy": None, "bound": "least", "overrides": ()}
     ]  # fmt: skip
 
 

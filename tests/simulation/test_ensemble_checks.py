@@ -8,6 +8,7 @@ from abu_calc.foundation.checks import Check, coded
 from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
 from abu_calc.simulation.start_cases import ALIKE, Member
+from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import size
 from abu_calc.sizing.design import Design
 from tests.sizing.machines import PINNED, machine
@@ -27,27 +28,39 @@ def outcome(member: Member | None = None, **changed: float | None) -> StartOutco
     return StartOutcome(member or Member("bunched", DRAG), **{**given, **changed})  # type: ignore[arg-type]
 
 
-def by_code(*outcomes: StartOutcome, lost: tuple[Lost, ...] = (), remedy: str | None = None) -> dict[str, Check]:
-    return {check.code: check for check in ensemble_checks(design(), Ensemble(DRAG, outcomes, lost), remedy)}
+def by_code(
+    *outcomes: StartOutcome, lost: tuple[Lost, ...] = (), mended: tuple[StartOutcome, ...] = ()
+) -> dict[str, Check]:
+    """Checks by code; `mended`: outcomes with three times the drag rate."""
+    before = Ensemble(DRAG, outcomes, lost)
+    change = TriedChange(design().autobalancer, before, {"autobalancer.rolling_drag_per_s": 30.0},
+                         Ensemble(3 * DRAG, mended, ())) if mended else None  # fmt: skip
+    return {check.code: check for check in ensemble_checks(design(), before, change)}
 
 
 def test_the_worst_start_stands_beside_its_limit() -> None:
-    checks = by_code(outcome(), outcome(Member("spread", DRAG), imbalance=4e-5), remedy="Try more oil.")
+    good = outcome(Member("spread", 3 * DRAG), settling_time=0.25, imbalance=2e-5)
+    checks = by_code(outcome(), outcome(Member("spread", DRAG), imbalance=4e-5), mended=(good, good))
     balance = checks["ABU701"]
     assert (balance.status, balance.value, balance.limit) == ("fail", pytest.approx(40.0), pytest.approx(30.0))
-    assert "1 of 2 starts balance; not from spread at a drag of 10 1/s" in balance.message
-    assert balance.remedy == "Try more oil." and checks["ABU702"].remedy == "See ABU701."
+    assert "1 of 2 start cases balance. These do not: spread, drag rate 10 1/s as given" in balance.message
+    assert balance.remedy == (
+        "Set rolling_drag_per_s = 30: the largest imbalance left by a start case falls from 40.0 to 20.0 g·mm "
+        "(simulated). All 2 start cases at the given drag rate then pass."
+    )
+    assert balance.overrides[0] == "autobalancer.rolling_drag_per_s=30" and "ball_count=4" in balance.overrides[1]
+    assert checks["ABU702"].remedy == "See the action of ABU701."
 
 
 def test_only_the_first_two_starts_are_named() -> None:
     failing = [outcome(Member(start, DRAG), imbalance=4e-5) for start in ("bunched", "behind", "spread", "standstill")]
     message = by_code(*failing)["ABU701"].message
-    assert "from bunched" in message and "behind" in message and "and 2 more" in message and "spread" not in message
+    assert ": bunched" in message and "behind" in message and "and 2 more" in message and "spread" not in message
 
 
 def test_the_race_centre_is_named_unless_it_is_opposite_the_imbalance() -> None:
     alike = outcome(Member("spread", DRAG, eccentricity=ALIKE), settling_time=1.5)
-    assert "spread, race centre 0°, at a drag" in by_code(alike)["ABU702"].message
+    assert "spread, race centre 0°, drag rate" in by_code(alike)["ABU702"].message
     assert "race centre" not in by_code(outcome(Member("spread", DRAG), settling_time=1.5))["ABU702"].message
 
 
@@ -71,7 +84,7 @@ def test_a_loud_start_at_another_drag_warns() -> None:
     starts = Ensemble(DRAG, (outcome(), outcome(Member("spread", 3 * DRAG), level=112.0)), ())
     check = level_check(CLOSED, starts)
     assert (check.status, check.value) == ("warn", 105.0)
-    assert "spread at a drag of 30 1/s: 112.0 dB" in check.message
+    assert "112.0 dB (limit 109 dB), spread, drag rate 30 1/s (cold oil)" in check.message
 
 
 def test_a_scene_that_was_not_simulated_passes_nothing() -> None:

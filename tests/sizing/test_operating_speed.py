@@ -111,7 +111,7 @@ def test_cutting_slows_a_motor_or_stops_it() -> None:
     (stopped,) = (one for one in size(with_motor(stall=1.0, no_load=5800.0, grinding=grinding)).checks
                   if one.code == "ABU104")  # fmt: skip
     assert stopped.status == "warn"
-    assert "the cutting torque stops it" in stopped.message
+    assert "The cutting torque stops it" in stopped.message
 
 
 def test_a_rim_too_fast_at_the_no_load_speed_is_told() -> None:

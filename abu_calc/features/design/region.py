@@ -4,8 +4,8 @@
 counts the start cases at whose end dry friction holds every ball at rest in its race.
 """
 
+import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -17,16 +17,16 @@ from abu_calc.dynamics.stability.stall import HangingBounds
 from abu_calc.dynamics.stability.two_modes import LinearMotion
 from abu_calc.dynamics.stability.verdict import judged
 from abu_calc.dynamics.switching.stick_slip import AT_REST
-from abu_calc.features.design.verification import DAMPED, other_drags
-from abu_calc.formulas.suspension import Springs
+from abu_calc.features.design.verification import design_with, more_damping, other_drags
 from abu_calc.foundation import patience
-from abu_calc.foundation.checks import Check, coded
+from abu_calc.foundation.checks import Action, Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
 from abu_calc.simulation.start_cases import Member, members
+from abu_calc.sizing.actions import Moved, set_action, speeds_from
 from abu_calc.sizing.design import Design
 
 
@@ -49,9 +49,9 @@ class StuckBalls:
     def words(self) -> str:
         """The proof, or why there is none."""
         if not self.starts:
-            return "no dry friction is given that could hold the balls"
-        proof = "dry friction holds all balls at rest" if self.proves else "dry friction holds the balls"
-        return f"{proof} in {self.held} of {self.starts} simulated starts"
+            return "The file gives no dry friction that could hold the balls"
+        balls = "all balls" if self.proves else "the balls"
+        return f"Dry friction holds {balls} at rest in {self.held} of {self.starts} simulated start cases"
 
 
 def stuck_balls(design: Design, doubtful: float, accuracy: float = 0.01) -> StuckBalls:
@@ -130,15 +130,16 @@ def true_region(design: Design, accuracy: float = 0.01) -> TrueRegion:
     try:
         speeds = _speed_range(design)
         if speeds is None:
-            reason = "there is no balanced state: the balls cannot carry the imbalance"
-            remedy = "Heavier or more balls, a larger race, or a better balanced wheel."
+            reason = "There is no balanced state: the balls cannot carry the imbalance"
+            remedy = "Specify heavier or more balls, a larger race, or a better balanced wheel."
             check = coded("ABU103", "fail", reason, unit="1/s", remedy=remedy)
             return TrueRegion(False, (), modes, hanging, check)
         check = _stable(design, speeds) if speeds.stable else _unstable(design, speeds, hanging, accuracy)
         return TrueRegion(speeds.rated < -MARGIN * design.case.speed, speeds.boundaries, modes, hanging, check)
     except NotTrustworthyError as error:
-        reason = f"not known: {str(error).splitlines()[0]}"
-        check = coded("ABU103", "not-done", reason, unit="1/s", remedy="Another drag, or springs in place of hands.")
+        reason = f"Stability is not known: {str(error).splitlines()[0]}"
+        remedy = "Specify another drag rate, or springs in place of hands."
+        check = coded("ABU103", "not-done", reason, unit="1/s", remedy=remedy)
         return TrueRegion(None, None, modes, hanging, check)
 
 
@@ -187,67 +188,63 @@ def _rate(motions: Sequence[LinearMotion], speed: float) -> float:
 
 def _stable(design: Design, speeds: SpeedRange) -> Check:
     low, high = design.case.speed_range
-    where = f"the slowest at {_rpm(speeds.worst_speed)}" if low < high else f"at {_rpm(speeds.worst_speed)}"
-    message = f"every small disturbance dies out, {where}, in the worst arrangement that balances"
+    where = f", slowest at {_rpm(speeds.worst_speed)}" if low < high else f" at {_rpm(speeds.worst_speed)}"
+    message = f"Every small disturbance dies out{where}. Judged is the worst arrangement of the balls that balances"
     return coded("ABU103", "pass", message, speeds.growth, 0.0, "1/s")
 
 
 def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accuracy: float) -> Check:
     """A failure, or a warning where dry friction holds the balls in every start that was simulated."""
     low, high = design.case.speed_range
-    message = (
-        f"not every small disturbance dies out at {_rpm(speeds.worst_speed)}, in the worst arrangement that balances"
-    )
+    sentences = [
+        f"A small disturbance grows at {_rpm(speeds.worst_speed)}, in the worst arrangement of the balls that balances"
+    ]
     nearest = sorted(speeds.boundaries, key=lambda limit: abs(limit.speed - speeds.worst_speed))[:NAMED]
     if nearest:
         named = (f"{_rpm(limit.speed)} ({'stable' if limit.stable_above else 'unstable'} above)" for limit in nearest)
-        message += f"; stability changes at {', '.join(named)}"
+        sentences.append(f"Stability changes at {', '.join(named)}")
     held = StuckBalls(0, 0)
     if low < high:
-        message += "; starts prove nothing for a range of speeds"
+        sentences.append("Start cases prove nothing for a range of speeds")
     else:
         held = stuck_balls(design, hanging.largest or 0.0, accuracy)
-        message += f"; {held.words}"
+        sentences.append(held.words)
         if not held.proves and patience.over():
-            message += ", the others were not simulated in the time of --patience"
-            return coded("ABU103", "not-done", message, speeds.growth, 0.0, "1/s")
-    return coded(
-        "ABU103", "warn" if held.proves else "fail", message, speeds.growth, 0.0, "1/s", _action(design, speeds)
-    )  # fmt: skip
+            sentences.append("The others were not simulated in the time of --patience")
+            return coded("ABU103", "not-done", ". ".join(sentences), speeds.growth, 0.0, "1/s")
+    grade: Grade = "warn" if held.proves else "fail"
+    return coded("ABU103", grade, ". ".join(sentences), speeds.growth, 0.0, "1/s", _action(design, speeds))
 
 
-def _action(design: Design, speeds: SpeedRange) -> str:
-    """Speeds above the last boundary where it is inside the range; else the first change that makes the range stable.
+ABOVE: Final = 1.02
+"""Factor over a boundary of stability at which the lowest speed is tried."""
 
-    Changes are other drags, the nearest first, and more damping of springs; each is judged as the design was.
+
+def _action(design: Design, speeds: SpeedRange) -> Action:
+    """The first change of the file, of those tried, that makes every speed of the range stable.
+
+    If the last boundary is inside the range: speeds above it. Else other drag rates, the nearest first, and more
+    damping of springs. Each is followed literally and judged as the design was.
     """
-    low, high = design.case.speed_range
+    case, (low, high) = design.case, design.case.speed_range
     last = speeds.boundaries[-1] if speeds.boundaries and speeds.boundaries[-1].stable_above else None
-    if last and low < last.speed < high:
-        return f"Keep all speeds above {_rpm(last.speed)}."
-    case = design.case
-    for drag in other_drags(case.drag, only_more=False):
-        changed = _speed_range(replace(design, case=replace(case, drag=drag)), with_boundaries=False)
+    inside = last is not None and low < last.speed < high
+    tried = list[dict[str, object]]()
+    if last and inside:
+        tried += speeds_from(case, math.ceil(ABOVE * from_si(last.speed, "rpm")))
+    tried += [{"autobalancer.rolling_drag_per_s": drag} for drag in other_drags(case.drag, only_more=False)]
+    if damping := more_damping(design):
+        tried.append(damping)
+    for entries in tried:
+        other = design_with(design, entries)
+        changed = None if other is None else _speed_range(other, with_boundaries=False)
         if changed and changed.stable:
-            return _calculated(
-                f"autobalancer.rolling_drag_per_s = {drag:.3g} (instead of {case.drag:.3g})", speeds, changed
-            )
-    if isinstance(case.suspension, Springs):
-        x, y = (DAMPED * damping for damping in case.suspension.damping)
-        held = replace(design, case=replace(case, suspension=replace(case.suspension, damping=(x, y))))
-        changed = _speed_range(held, with_boundaries=False)
-        if changed and changed.stable:
-            return _calculated("suspension.damping_ratios twice as large", speeds, changed)
-    above = f"Keep all speeds above {_rpm(last.speed)}, beyond this range. " if last else ""
-    return (
-        f"{above}No other drag makes it stable: change the damping, use lighter balls, or hold the machine more softly."
-    )
-
-
-def _calculated(change: str, before: SpeedRange, after: SpeedRange) -> str:
-    return (
-        f"Set {change}: the growth rate falls from {before.growth:.3g} to {after.growth:.3g} 1/s (calculated, in the "
-        "worst arrangement)."
+            moved = Moved("the growth rate", speeds.growth, changed.growth, "1/s", 0.0)
+            return set_action(entries, design.autobalancer, moved)
+    above = f"Keep all speeds above {_rpm(last.speed)}. " if last else ""
+    return Action(
+        f"{above}No change of the drag rate or the damping was found that makes these speeds stable. Use lighter "
+        "balls, or hold the machine more softly."
     )
 
 

@@ -204,24 +204,26 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
     broken = [outcome for outcome in searched.outcomes if breaks(outcome, design)]
     if not broken and searched.hurried:
         return replace(
-            check, status="not-done", message=f"{check.message}; --patience ended the search of further starts"
+            check, status="not-done", message=f"{check.message}. --patience ended the search of further start cases"
         )
     if not broken and searched.lost:
-        return replace(check, status="warn", message=f"{check.message}; {searched.lost} further starts gave no answer")
+        return replace(
+            check, status="warn", message=f"{check.message}. {searched.lost} further start cases gave no answer"
+        )
     limit = design.case.table.limits.settling_time_s
     rare = check.code == "ABU702" and searched.outcomes and searched.foreseen > limit
     if not broken and not rare:
         return check
     worst = max(broken or searched.outcomes, key=order)
-    share = f"{len(broken)} of {len(searched.outcomes)} further starts {words(worst)}"
+    share = f"{len(broken)} of {len(searched.outcomes)} further start cases {words(worst)}"
     if not broken:
         share = (
-            f"by the slowest of all starts tried, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s; the slowest "
-            f"further start settles in {worst.settling_time_or_inf:.3g} s"
+            f"By the slowest of all start cases, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s (limit "
+            f"{limit:g} s). The slowest further start case settles in {worst.settling_time_or_inf:.3g} s"
         )
-    again = f"The worst again: abu simulate FILE {repeated(worst, design)}"
+    again = f"To repeat the worst of these: `abu simulate FILE {repeated(worst, design)}`."
     remedy = f"{check.remedy} {again}" if check.remedy else again
-    return replace(check, status="warn", message=f"{check.message}; {share}", remedy=remedy)
+    return replace(check, status="warn", message=f"{check.message}. {share}", remedy=remedy)
 
 
 def _late(outcome: StartOutcome, design: Design) -> bool:
@@ -236,17 +238,17 @@ def _time_in_words(outcome: StartOutcome) -> str:
     return (
         "never settle"
         if math.isinf(outcome.settling_time_or_inf)
-        else f"settle too late, the latest in {outcome.settling_time_or_inf:.3g} s"
+        else f"settle too late, the slowest in {outcome.settling_time_or_inf:.3g} s"
     )
 
 
 Broken = tuple[Callable[[StartOutcome, Design], bool], Callable[[StartOutcome], float], Callable[[StartOutcome], str]]
 
 BROKEN: Final[dict[str, Broken]] = {
-    "ABU401": (_loud, _loudness, lambda outcome: f"are too loud, the worst with {outcome.loudest:.1f} dB"),
+    "ABU401": (_loud, _loudness, lambda outcome: f"are too loud, the loudest with {outcome.loudest:.1f} dB"),
     "ABU701": (lambda outcome, _: not outcome.balanced, lambda outcome: outcome.imbalance, lambda _: "do not balance"),
     "ABU702": (_late, _slowness, _time_in_words),
-    "ABU704": (lambda outcome, _: outcome.hanging, lambda outcome: outcome.slip, lambda _: "leave balls hanging"),
+    "ABU704": (lambda outcome, _: outcome.hanging, lambda outcome: outcome.slip, lambda _: "leave stalled balls"),
 }
 """Rules of each check that start cases decide.
 

@@ -21,7 +21,7 @@ from abu_calc.features.design.start_search import with_searched
 from abu_calc.features.design.starts import EnsembleResult, SettlingOfStart, Starts
 from abu_calc.features.design.verification import Proven, proven
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, LowerBound, lower_bound, with_starts
-from abu_calc.features.grinding.start_cases import FEW, WHEN, loaded_ensemble
+from abu_calc.features.grinding.start_cases import FEW, WHEN, Pressed, loaded_ensemble
 from abu_calc.features.grinding.start_records import LevelBound, LoadedStarts
 from abu_calc.features.grinding.work import Work, loaded_levels, work_of
 from abu_calc.features.seats.records import SeatResult, seat_results
@@ -184,7 +184,7 @@ def size(
             region.check,
             *(
                 with_searched(check, tried.searched, design)
-                for check in ensemble_checks(design, tried.ensemble, tried.remedy)
+                for check in ensemble_checks(design, tried.ensemble, tried.change)
             ),
             *lost,
         ),
@@ -247,7 +247,7 @@ def _checks(tried: Proven, seat_checks: Sequence[Check], arm: "ArmJudgement | No
     held = {arm_check.code: arm_check for arm_check in arm.checks} if arm else {}
     for check in tried.design.checks:
         if check.code == "ABU401":
-            yield with_searched(level_check(check, tried.ensemble, tried.remedy), tried.searched, tried.design)
+            yield with_searched(level_check(check, tried.ensemble, tried.change), tried.searched, tried.design)
         else:
             yield held.pop(check.code, check)
     yield from seat_checks
@@ -271,7 +271,10 @@ def _mean(failure: SceneFailure, work: Work | SceneFailure | None) -> str | None
     """Average result of the grinding scene; None unless it is chaotic and the average is known."""
     if failure.scene != "grinding" or not isinstance(work, Work) or not work.at_once.scatter:
         return None
-    return f"chaotic bouncing, {work.level_at_once:.1f} ± {work.at_once.scatter:.1f} dB on average"
+    return (
+        f"The wheel bounces chaotically. Mean level of the early-pressed run: {work.level_at_once:.1f} ± "
+        f"{max(work.at_once.scatter, LEAST_SCATTER):.1f} dB"
+    )
 
 
 def _pressed(
@@ -291,7 +294,9 @@ def _under_load(
     if bound is not None and bound.sentence:
         yield bound.sentence
     if loads is not None:
-        yield from _starts(loads, stays=isinstance(work, Work) and work.stays_loud)
+        known = work if isinstance(work, Work) else None
+        bare = None if known is None else known.levels.before
+        yield from _starts(loads, bare, stays=known is not None and known.stays_loud)
     if isinstance(work, SceneFailure):
         yield f"Levels under load are not known: {work.reason}."
         return
@@ -299,28 +304,49 @@ def _under_load(
         return
     sides = [side for side in (work.without, work.fitted, work.at_once) if side.scatter]
     scatter = max((side.scatter for side in sides), default=0.0)
-    yield from dict.fromkeys(f"grinding: {text}, known to {scatter:.1f} dB" for side in sides if side.run
-                             for text in side.run.warnings)  # fmt: skip
-    if work.stays_loud:
-        louder = [] if loads is None else loads.louder("at once")
-        share = f", in {len(louder)} of {loads.count('at once')} start cases" if loads is not None and louder else ""
+    yield from dict.fromkeys(
+        f"grinding: {text}. Levels under load are known to {max(scatter, LEAST_SCATTER):.1f} dB"
+        for side in sides if side.run for text in side.run.warnings
+    )  # fmt: skip
+    loud, bare = work.level_at_once, work.levels.before
+    count = len(loads.louder("at once")) if loads is not None else 0
+    if loud is not None and (work.stays_loud or (not count and bare is not None and loud > bare)):
+        bouncing = " Wheel and workpiece go on bouncing." if work.stays_loud else ""
         yield (
-            f"Pressed to the work before the balls have settled, wheel and work go on bouncing, at "
-            f"{work.level_at_once:.1f} dB{share}: abu grinding tells what prevents it."
+            f"Under load, pressed before the balls have settled: {loud:.1f} dB with the autobalancer"
+            f"{_without(loud, bare)}{_share(count, loads, 'at once')}.{bouncing} `abu grinding FILE` tells what helps."
         )
 
 
-def _starts(loads: GrindingOutcomes, *, stays: bool) -> Iterator[str]:
-    """The start cases of grinding that do not lower the level, and those without an answer.
+LEAST_SCATTER: Final = 0.1
+"""Scatter of levels [dB] below which none is told."""
 
-    `stays`: pressed at once the machine keeps bouncing louder, which a sentence of its own tells.
+
+def _without(level: float, bare: float | None) -> str:
+    """The level [dB] without the autobalancer beside the level with it."""
+    return "" if bare is None else f", {'louder than' if level > bare else 'below the'} {bare:.1f} dB without"
+
+
+def _share(count: int, loads: GrindingOutcomes | None, when: Pressed) -> str:
+    """Share of the start cases of grinding that are louder with the autobalancer."""
+    if loads is None or not count:
+        return ""
+    total = loads.count(when)
+    return f", in {count} of {total} start case{'' if total == 1 else 's'}"
+
+
+def _starts(loads: GrindingOutcomes, bare: float | None, *, stays: bool) -> Iterator[str]:
+    """The start cases of grinding that are louder with the autobalancer than without, and those without an answer.
+
+    `bare`: level [dB] without the autobalancer; `stays`: pressed at once the machine keeps bouncing louder, which a
+    sentence of its own tells.
     """
     for when in ("settled", "at once"):
         if (louder := loads.louder(when)) and not (stays and when == "at once"):
             yield (
-                f"Under load the level is not lower than without the autobalancer in {len(louder)} of "
-                f"{loads.count(when)} start cases pressed {WHEN[when]}, {louder[-1].level:.1f} dB at most: abu "
-                "grinding runs more of them."
+                f"Under load, pressed {WHEN[when]}: up to {louder[-1].level:.1f} dB with the autobalancer"
+                f"{_without(louder[-1].level, bare)}{_share(len(louder), loads, when)}. `abu grinding FILE` simulates "
+                "more of them."
             )
     if loads.lost:
         yield (

@@ -1,26 +1,29 @@
-"""Verification of a design: the first candidate that balances from every start case, and tried remedies.
+"""Verification of a design: the first candidate that balances from every start case, and simulated changes.
 
-Remedies are small changes of a machine with which its design passes from every start case. Each is tried before it is
+Changes are entries of the file with which the design passes from every start case. Each is simulated before it is
 named.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import islice
 
 from abu_calc.features.design.start_search import SearchResult, search
 from abu_calc.formulas.suspension import Springs
 from abu_calc.foundation import patience
+from abu_calc.foundation.errors import AbuError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import simulate_members
 from abu_calc.simulation.ensemble_results import Ensemble
+from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import instead
+from abu_calc.sizing.actions import pins, with_entries, words
 from abu_calc.sizing.balls import Candidate, sound
-from abu_calc.sizing.design import Design
+from abu_calc.sizing.design import Design, built
 
 OILS = (3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0, 60.0)
 """Drags h₀ [1/s] of oils and greases, of which those nearest to the drag given are tried."""
@@ -42,53 +45,77 @@ The least stalling speed is a share of the rotor's speed; slower balls hardly tu
 
 @dataclass(frozen=True)
 class MachineChange:
-    """Change in words, and the machines with it, each of which must pass."""
+    """Entries of the file to replace, and further variants of them that must pass, too."""
 
-    name: str
-    designs: tuple[Design, ...]
+    entries: dict[str, object]
+    variants: tuple[dict[str, object], ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The change in words."""
+        return words(self.entries)
+
+    def designs(self, design: Design) -> tuple[Design, ...]:
+        """The machines with the change, each of which must pass, built to the design; none if the file refuses it."""
+        changed = (design_with(design, entries) for entries in (self.entries, *self.variants))
+        return tuple(other for other in changed if other is not None)
 
 
-def remedy(design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: int) -> str | None:
+def design_with(design: Design, entries: Mapping[str, object]) -> Design | None:
+    """A design with entries of its file replaced, its balls and race pinned; None if the file refuses them."""
+    try:
+        table = with_entries(design.case.table, {**entries, **pins(design.autobalancer)})
+        return replace(built(design, table), swing_arm=design.swing_arm)
+    except (AbuError, ValueError):
+        return None
+
+
+def tried_change(
+    design: Design, first: Ensemble, most: int, accuracy: float, progress: Progress, workers: int
+) -> TriedChange | None:
     """The first change with which every start at the drag given passes; else all that were tried without success.
 
     `first`: the starts of the design as it is; `most`: evaluations that all trials may take, None where it is none.
     """
-    tried = []
+    tried = list[str]()
     for change in changes(design, first):
         if most <= 0:
             break
-        for variant in change.designs:
+        ensembles = list[Ensemble]()
+        for variant in change.designs(design):
             ensemble = simulate_members(variant, accuracy, within(progress, f"with {change.name}"), workers, (1.0,))
             most -= ensemble.work
             if not passes(variant, ensemble):
                 break
-        else:
-            return f"Tried: with {change.name} all {ensemble.members} starts pass."
+            ensembles.append(ensemble)
+        if len(ensembles) == 1 + len(change.variants):
+            return TriedChange(design.autobalancer, first, change.entries, ensembles[0])
         tried.append(change.name)
-    return f"Tried without success: {'; '.join(tried)}." if tried else None
+    return TriedChange(design.autobalancer, first, {}, None, tuple(tried)) if tried else None
 
 
 def changes(design: Design, first: Ensemble) -> Iterator[MachineChange]:
-    """Another drag, a pause where balls hang, a faster run-up where run-ups alone fail, more damping."""
+    """Another drag rate, a temporary speed reduction if balls stall, a faster run-up if run-ups alone fail, more
+    damping.
+    """
     case, table = design.case, design.case.table
     drags = other_drags(case.drag, only_more=bool(first.hanging))
-    with_drags = [
-        MachineChange(
-            f"autobalancer.rolling_drag_per_s = {drag:.3g}", (replace(design, case=replace(case, drag=drag)),)
-        )
-        for drag in drags
-    ]
+    with_drags = [MachineChange({"autobalancer.rolling_drag_per_s": drag}) for drag in drags]
     yield from with_drags[:BEFORE]
     yield from _pause(design, first)
     if table.run_up and not table.motor and all(start.member.run_up for start in first.given if not start.balanced):
-        time = FASTER * table.run_up.time_s
-        yield MachineChange(f"run_up.time_s = {time:.3g}", (_running_up(design, table.run_up, time_s=time),))
-    if isinstance(case.suspension, Springs):
-        x, y = (DAMPED * damping for damping in case.suspension.damping)
-        held = replace(case.suspension, damping=(x, y))
-        damped = replace(design, case=replace(case, suspension=held))
-        yield MachineChange("suspension.damping_ratios twice as large", (damped,))
+        yield MachineChange({"run_up.time_s": _rounded(FASTER * table.run_up.time_s)})
+    if damping := more_damping(design):
+        yield MachineChange(damping)
     yield from with_drags[BEFORE:]
+
+
+def more_damping(design: Design) -> dict[str, object] | None:
+    """Entries that double the damping of springs; None for another suspension."""
+    dampings = design.case.table.suspension.dampings
+    if dampings is None or not isinstance(design.case.suspension, Springs):
+        return None
+    return {"suspension.damping_ratios": [float(f"{DAMPED * damping:.6g}") for damping in dampings]}
 
 
 def _pause(design: Design, first: Ensemble) -> Iterator[MachineChange]:
@@ -106,19 +133,12 @@ def _pause(design: Design, first: Ensemble) -> Iterator[MachineChange]:
     if table.motor or caught < LEAST * speed or low >= min(given.pause_speed_rpm or math.inf, lowest):
         return
     rise = _rounded((1 - low / from_si(speed, "rpm")) * given.time_s)
-    rises = rise, FASTER * rise
-    designs = tuple(_running_up(design, given, pause_speed_rpm=low, pause_rise_s=rise_time) for rise_time in rises)
-    yield MachineChange(f"run_up.pause_speed_rpm = {low:.0f} and run_up.pause_rise_s = {rise:g}", designs)
+    slow: dict[str, object] = {"run_up.pause_speed_rpm": low, "run_up.pause_rise_s": rise}
+    yield MachineChange(slow, ({**slow, "run_up.pause_rise_s": FASTER * rise},))
 
 
 def _rounded(value: float) -> float:
     return float(f"{value:.2g}")
-
-
-def _running_up(design: Design, given: RunUp, **changed: float) -> Design:
-    """The machine with another run-up."""
-    table = design.case.table.model_copy(update={"run_up": given.model_copy(update=changed)})
-    return replace(design, case=replace(design.case, table=table))
 
 
 def other_drags(given: float, *, only_more: bool) -> list[float]:
@@ -142,8 +162,8 @@ share of these that remedies may take in any case."""
 
 
 NOT_SEARCHED = (
-    "Further starts were not tried, since each takes long: --patience 300 tries them, in seconds. The starts that are "
-    "listed all pass."
+    "Further start cases were not simulated, since each takes long: --patience 300 allows them 300 s. All listed start "
+    "cases pass."
 )
 
 MOST_SEARCHED = 2_000_000
@@ -156,7 +176,7 @@ class Proven:
 
     design: Design
     ensemble: Ensemble | None
-    remedy: str | None = None
+    change: TriedChange | None = None
     warnings: tuple[str, ...] = ()
     searched: SearchResult | None = None
     """Result of further start cases, if all listed ones pass."""
@@ -184,14 +204,17 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
     for runner_up in islice(others, MOST_OTHERS):
         if spent > MOST_WORK:
             break
-        other = instead(design, runner_up, "does not balance from every start")
+        other = instead(design, runner_up, "does not pass from every start case")
         ensemble = simulate_members(other, accuracy, within(progress, f"{_words(runner_up)} instead"), workers)
         spent += ensemble.work
         if passes(other, ensemble):
-            text = f"{_words(design.autobalancer)}, the best by weight, does not pass from every start; this one does."
+            text = (
+                f"{_words(design.autobalancer)} balls, the lightest choice, do not pass from every start case; "
+                f"{_words(runner_up)} balls do."
+            )
             return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)
     left = max(MOST_WORK - spent, int(REMEDIES * MOST_WORK))
-    return Proven(design, first, remedy(design, first, left, accuracy, progress, workers))
+    return Proven(design, first, tried_change(design, first, left, accuracy, progress, workers))
 
 
 def _with_search(proof: Proven, accuracy: float, progress: Progress, workers: int) -> Proven:

@@ -13,11 +13,12 @@ from abu_calc.dynamics.effects.lift_off import LiftOffEffect
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.verdict import critical_damping, stability
 from abu_calc.features.swing_arm.verdict import CUTTING, IDLE, ArmJudgement, changed
-from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.simulation.design_scenes import SceneRun, simulated
 from abu_calc.simulation.durations import DECAY_TIMES
+from abu_calc.sizing.actions import SIMULATED, Moved, set_action
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import ArmRepair, up
 
@@ -41,26 +42,26 @@ def on_work(design: Design, runs: Sequence[SceneRun], accuracy: float, progress:
     run = next((run for run in runs if run.ledger.scene.name == CUTTING), None)
     effect = None if run is None else run.simulation.scene.effect("lift_off")
     if run is None:
-        return coded("ABU506", "not-done", "the scene at the work gave no answer, see ABU703", unit="%")
+        return coded("ABU506", "not-done", "The scene on the workpiece gave no answer, see ABU703", unit="%")
     if not isinstance(effect, LiftOffEffect):
         return None
     samples = run.simulation.trajectory
     share, last = 100 * effect.share_apart(samples), effect.last_apart(samples)
     if share:
-        message = "disk and work part again and again, so that the bounds on the arm do not say how it moves"
-        return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, accuracy, progress))
+        message = "Disk and workpiece lose contact again and again, so the bounds on the arm do not tell its motion"
+        return coded("ABU506", "fail", message, share, 0.0, "%", _firmer(design, share, accuracy, progress))
     if last is None:
-        return coded("ABU506", "pass", "the disk is pressed to its work throughout", 0.0, 0.0, "%")
+        return coded("ABU506", "pass", "The disk stays on its workpiece throughout", 0.0, 0.0, "%")
     time, limit = run.simulation.response.settling_time, design.case.table.limits.settling_time_s
     soon = time is not None and time <= limit
-    message = f"the disk leaves its work until {last:.3g} s, then the bounds on the arm hold"
+    message = f"The disk leaves its workpiece until {last:.3g} s. Then the bounds on the arm hold"
     if not soon:
-        message += f"; the balls need more than the {limit:g} s allowed to settle there"
+        message += f". The balls need more than the permitted {limit:g} s to settle there"
     return coded("ABU506", verdict(True, soon), message, 0.0, 0.0, "%")
 
 
-def _firmer(design: Design, accuracy: float, progress: Progress) -> str:
-    """Sentence on the pressing moments that were tried."""
+def _firmer(design: Design, share: float, accuracy: float, progress: Progress) -> Action:
+    """The least pressing moment, of those simulated, with which the disk stays on its workpiece."""
     table = design.case.table.swing_arm
     assert table is not None
     for times in FIRMER:
@@ -71,8 +72,10 @@ def _firmer(design: Design, accuracy: float, progress: Progress) -> str:
         runs, _ = simulated(other, accuracy, within(progress, f"with {change.text}"), (CUTTING,))
         effect = runs[0].simulation.scene.effect("lift_off") if runs else None
         if isinstance(effect, LiftOffEffect) and not effect.share_apart(runs[0].simulation.trajectory):
-            return f"Tried: {change.text}; the disk then stays on its work in the end."
-    return f"A better balanced wheel. Tried without success: up to {FIRMER[-1]:g} times the pressing moment."
+            entries = {f"swing_arm.{change.key}": change.new}
+            moved = Moved("the share of time off the workpiece", share, 0.0, "%", 0.0)
+            return set_action(entries, design.autobalancer, moved, SIMULATED)
+    return Action(f"Balance the wheel better. Up to {FIRMER[-1]:g} times the pressing moment did not help (simulated).")
 
 
 def damping_to_simulate(
@@ -126,10 +129,13 @@ def advise_scene(scene: Scene) -> str | None:
             return f"nothing to change. The bound asks for {share} of the joint damping."
         for changed, description in _changed(scene):
             if _holds(*changed):
-                return f"change {description}. Tried: it is stable, and the bound on the joint damping holds."
+                return f"change {description}. Calculated: it is stable, and the bound on the joint damping holds."
     except NotTrustworthyError as error:
         return f"no change was tried: {str(error).splitlines()[0]}."
-    return f"no change found. Tried: up to {INERTIA[-1]:g} times the inertia, {DAMPING[-1]:g} times the joint damping."
+    return (
+        f"no change found by calculating up to {INERTIA[-1]:g} times the inertia and {DAMPING[-1]:g} times the joint "
+        "damping."
+    )
 
 
 def _changed(scene: Scene) -> Iterator[tuple[tuple[Scene, float], str]]:

@@ -8,13 +8,14 @@ from typing import Final
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.stability.arrangements import Arrangement
 from abu_calc.dynamics.stability.verdict import stability
-from abu_calc.foundation.checks import Check, Grade, coded, verdict
+from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import SwingArm
 from abu_calc.simulation.scene_of_design import contact_half_angle, scene_of_design
+from abu_calc.sizing.actions import Moved, overrides, pins, words
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import ArmRepair, SwingArmBounds, Way, changes, doubted, swing_arm_bounds
 
@@ -28,13 +29,6 @@ FAR: Final = math.log(10)
 """Another way that asks for more than so much of a key is not worth telling."""
 
 IDLE, CUTTING = "swing-arm-idle", "swing-arm-cutting"
-BOUNDS: Final = {
-    "ABU501": ("moment_of_inertia_kg_m2",),
-    "ABU502": ("joint_damping_N_s_per_m",),
-    "ABU503": ("pressing_moment_N_m", "contact_angle_deg"),
-    "ABU504": ("contact_angle_deg",),
-}
-"""Keys that the action of each check changes."""
 
 
 @dataclass(frozen=True)
@@ -70,11 +64,14 @@ def judge_arm(design: Design, progress: Progress = silent) -> ArmJudgement | Non
         return ArmJudgement(bounds, checks, "the balls cannot carry the imbalance: no change of the arm helps.")
     plans = _tried(design, bad, progress)
     if not plans:
-        text = f"no change found. Tried: inertia, damping and contact angle, to {MARGINS[-1]:g} times their bounds"
+        text = (
+            f"no change found by calculating inertia, damping and contact angle to {MARGINS[-1]:g} times their bounds"
+        )
         return ArmJudgement(bounds, checks, f"{text}.{doubt}")
     advice = "; or ".join(", ".join(change.text for change in plan) for plan in plans)
-    text = f"change {advice}. {'Each tried' if len(plans) > 1 else 'Tried'}: all checks of the arm pass.{doubt}"
-    return ArmJudgement(bounds, tuple(_remedied(check, plans[0]) for check in checks), text, plans[0])
+    each = "with each, all" if len(plans) > 1 else "all"
+    text = f"change {advice}. Calculated: {each} checks of the arm pass.{doubt}"
+    return ArmJudgement(bounds, _with_actions(design, checks, plans[0]), text, plans[0])
 
 
 def balanced_check(design: Design) -> Check:
@@ -85,27 +82,28 @@ def balanced_check(design: Design) -> Check:
     """
     code, unit = "ABU505", "1/s"
     if not _carries(design):
-        return coded(code, "not-done", "the balls cannot carry the imbalance, see ABU201", unit=unit,
-                     remedy="Heavier or more balls, or a better balanced wheel.")  # fmt: skip
+        return coded(code, "not-done", "The balls cannot carry the imbalance, see ABU201", unit=unit,
+                     remedy="Specify heavier or more balls, or a better balanced wheel.")  # fmt: skip
     try:
         rates, missing = _rates(design)
         worst = _worst_angle(design)
     except NotTrustworthyError as error:
-        reason = f"not known: {str(error).splitlines()[0]}"
-        return coded(code, "not-done", reason, unit=unit, remedy="Another drag, or more joint damping.")
+        reason = f"Stability is not known: {str(error).splitlines()[0]}"
+        return coded(code, "not-done", reason, unit=unit, remedy="Specify another drag rate, or more joint damping.")
     place = max(rates, key=lambda location: rates[location][0], default="")
     rate, stable = rates.get(place, (None, True))
     if stable and missing:
         grade: Grade = "warn" if rates else "not-done"
-        return coded(code, grade, f"{missing}, and is not judged there", rate, 0.0, unit, "See ABU503 and ABU504.")
-    message = f"every small disturbance dies out, off the work and on it; the slowest {place}"
-    remedy = None
+        message = f"{missing}. The balanced state is not judged there"
+        return coded(code, grade, message, rate, 0.0, unit, "See the actions of ABU503 and ABU504.")
+    message = f"Every small disturbance dies out, off the workpiece and on it, slowest {place}"
+    remedy: str | None = None
     if not stable:
-        message, remedy = f"not every small disturbance dies out {place}", "More joint damping or more inertia."
+        message, remedy = f"A small disturbance grows {place}", "Add joint damping or inertia."
     elif not worst:
-        message += "; not at the worst contact angle"
+        message += ". At the worst contact angle a disturbance grows"
         angle = from_si(_bounds(design).worst_contact_angle, "deg")
-        remedy = f"Stay away from a contact angle of {angle:.3g}°, or more inertia."
+        remedy = f"Keep away from a contact angle of {angle:.3g}°, or add inertia."
     return coded(code, verdict(stable, worst), message, rate, 0.0, unit, remedy)
 
 
@@ -113,16 +111,16 @@ def _rates(design: Design) -> tuple[dict[str, tuple[float, bool]], str]:
     """Growth rate [1/s] and whether it is stable, by place and speed; and why a place could not be judged."""
     speeds = dict.fromkeys((*design.case.speed_range, design.case.speed))
     table, rates, missing = _table(design), dict[str, tuple[float, bool]](), ""
-    for name, words in ((IDLE, "off the work"), (CUTTING, "at work")):
+    for name, place in ((IDLE, "off the workpiece"), (CUTTING, "on the workpiece")):
         if name == IDLE and not table.joint_stiffness_N_per_m:
             continue  # nothing holds it there
         try:
             scene = scene_of_design(design, name)
         except NotTrustworthyError as error:
-            missing = f"at work: {str(error).splitlines()[0]}"
+            missing = f"On the workpiece: {str(error).splitlines()[0]}"
             continue
         for speed in speeds:
-            rpm = f"{words}, at {from_si(speed, 'rpm'):.6g} rpm"
+            rpm = f"{place}, at {from_si(speed, 'rpm'):.6g} rpm"
             rates[rpm] = _growth(design, replace(scene, speed=speed), "worst")
     return rates, missing
 
@@ -237,14 +235,40 @@ def _with(design: Design, table: SwingArm) -> Design:
     return replace(design, case=replace(design.case, table=whole))
 
 
-def _remedied(check: Check, plan: tuple[ArmRepair, ...]) -> Check:
-    """A check that failed, with its part of the change."""
-    if not _bad(check):
-        return check
-    own = [change.text for change in plan if change.key in BOUNDS.get(check.code, ())] or [
-        "what the line on the arm says"
-    ]
-    return replace(check, remedy=f"Tried: {', '.join(own)}.")
+NAMES: Final = {
+    "ABU501": ("the contact stiffness", "the permitted contact stiffness"),
+    "ABU502": ("the joint damping", "the required joint damping"),
+    "ABU503": ("the resting angle", "the touching angle"),
+    "ABU504": ("the static stiffness", "the required static stiffness"),
+    "ABU505": ("the growth rate", "the permitted growth rate"),
+}
+"""Value and limit of each check, as actions name them."""
+
+
+def _with_actions(design: Design, checks: tuple[Check, ...], plan: tuple[ArmRepair, ...]) -> tuple[Check, ...]:
+    """The checks with the whole change as their action, and what it does to the value or the limit of each."""
+    after = changed(design, plan)
+    bounds = None if after is None else after.swing_arm
+    if after is None or bounds is None:
+        return checks
+    new = {check.code: check for check in (*bounds.checks, balanced_check(after))}
+    entries = {f"swing_arm.{change.key}": change.new for change in plan}
+    return tuple(
+        check.with_action(_action(design, check, new[check.code], entries)) if _bad(check) else check
+        for check in checks
+    )  # fmt: skip
+
+
+def _action(design: Design, check: Check, new: Check, entries: dict[str, float]) -> Action:
+    line = overrides({**entries, **pins(design.autobalancer)})
+    if check.value is None or new.value is None or check.limit is None or new.limit is None:
+        return Action(f"Set {words(entries)}: this check and all others of the arm pass (calculated).", line)
+    quantity, limit = NAMES[check.code]
+    unit = check.unit or ""
+    moved = Moved(quantity, check.value, new.value, unit, new.limit)
+    if abs(new.limit - check.limit) > abs(new.value - check.value):
+        moved = Moved(limit, check.limit, new.limit, unit, new.value)
+    return Action(f"Set {words(entries)}: {moved.text} (calculated). All checks of the arm then pass.", line)
 
 
 def _room(bounds: SwingArmBounds) -> str:

@@ -63,8 +63,10 @@ def test_a_range_that_begins_where_balls_flutter_fails(tmp_path: Path) -> None:
     assert boundaries is not None
     (one,) = boundaries
     assert one.stable_above and 1739 < one.speed_rpm < 1750
-    assert f"{one.speed_rpm:.6g} rpm" in (check.remedy or "")
-    assert true_region(design_of(written(tmp_path), "machine.speed_range_rpm=[1760, 9000]")).check.status == "pass"
+    assert f"{one.speed_rpm:.6g} rpm (stable above)" in check.message
+    after = true_region(design_of(written(tmp_path), *check.overrides)).check
+    assert "speed_range_rpm = [17" in (check.remedy or "") and after.status == "pass"
+    assert after.value is not None and f"to {after.value:.3g} 1/s (calculated)" in (check.remedy or "")
 
 
 def test_the_boundary_of_the_even_fan(tmp_path: Path) -> None:
@@ -132,7 +134,7 @@ def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
     assert 10500 < from_si(last.speed, "rpm") < 10890
     assert f"{from_si(last.speed, 'rpm'):.6g} rpm (unstable above)" in check.message
     assert check.remedy is not None and "above 167" not in check.remedy
-    drag = float(check.remedy.split("rolling_drag_per_s = ")[1].split(" ")[0])
+    drag = float(check.remedy.split("rolling_drag_per_s = ")[1].split(":")[0])
     assert 20 <= drag <= 30
     assert true_region(design_of(HANDS, f"autobalancer.rolling_drag_per_s={drag}")).check.status == "pass"
     found = abu_calc.stability(abu_calc.read(HANDS), speeds_rpm=(9000.0, 12000.0))
@@ -143,7 +145,10 @@ def test_a_boundary_below_the_speed_is_named_and_the_action_works() -> None:
 
 def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
     held = true_region(design_of(HANDS)).check
-    assert held.status == "warn" and "dry friction holds all balls at rest in 12 of 12 simulated starts" in held.message
+    assert (
+        held.status == "warn"
+        and "Dry friction holds all balls at rest in 12 of 12 simulated start cases" in held.message
+    )
     rolling = true_region(design_of(HANDS, "autobalancer.rolling_friction_mm=0")).check
     assert rolling.status == "fail" and "no dry friction" in rolling.message
 
@@ -151,7 +156,7 @@ def test_friction_that_holds_every_start_warns_and_its_proof_is_told() -> None:
 def test_friction_that_does_not_hold_every_start_fails() -> None:
     hands = ['suspension={"model" = "hands"}', "autobalancer.rolling_drag_per_s=1"]
     check = true_region(design_of("msh-230", *hands)).check
-    assert check.status == "fail" and " simulated starts" in check.message
+    assert check.status == "fail" and " simulated start cases" in check.message
 
 
 def test_bounds_over_the_range_and_at_rest() -> None:

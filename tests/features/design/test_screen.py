@@ -170,7 +170,7 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
     result = replace(sized, checks=(*sized.checks, graded("warn")), warnings=("One.",))
     text = as_text(size_screen(result))
     assert result.status == "pass" and "PASS with 2 warnings" in text
-    assert "WARN ABU401 thing 1 (1.000 dB, at most 2.000): reason 1. Remedy: Remedy 1 of many" in flat(text)
+    assert "WARN ABU401 thing 1 (1.000 dB, at most 2.000): reason 1. Action: Remedy 1 of many" in flat(text)
 
 
 # room

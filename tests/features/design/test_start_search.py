@@ -75,7 +75,8 @@ def test_what_the_listed_starts_miss_warns_and_can_be_repeated(name: str) -> Non
     (check,) = (check for check in abu_calc.size(abu_calc.read(file)).checks if check.code == "ABU702")
     assert check.status == "warn" and check.remedy
     time = float(check.message.rsplit("in ", 1)[1].removesuffix(" s"))
-    again = abu("simulate", file, *shlex.split(check.remedy.split("abu simulate FILE ")[1]), "--json").document
+    line = check.remedy.split("`abu simulate FILE ")[1].split("`")[0]
+    again = abu("simulate", file, *shlex.split(line), "--json").document
     assert again["result"]["settling_time_s"] == pytest.approx(time, rel=0.02)
 
 
@@ -105,7 +106,7 @@ def test_each_check_is_broken_by_its_own(code: str, bad: StartOutcome) -> None:
         if status in ("fail", "not-done"):
             assert told == check
         else:
-            assert told.status == "warn" and told.message.startswith("as listed; 1 of 2 further starts")
+            assert told.status == "warn" and told.message.startswith("as listed. 1 of 2 further start cases")
             assert told.remedy and "--set start.angles_deg=[" in told.remedy
     passed = Check(code, "", "pass", "as listed", 1.0, 2.0, "s", None)
     assert with_searched(passed, SearchResult((good,), lost=1), found).status == "warn"

@@ -1,0 +1,186 @@
+"""Actions on checks: entries of the file that are replaced, followed literally, and the number that they move.
+
+Each action is calculated or simulated with the very entries that it names, and names the balls and the race that were
+judged, so that whoever follows it gets the number told.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Final, NamedTuple
+
+from abu_calc.foundation.checks import Action
+from abu_calc.foundation.errors import AbuError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.units import from_si
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.sizing.balls import Candidate, choose_for_motor
+from abu_calc.sizing.case import Case, read_case
+from abu_calc.sizing.imbalance import find_imbalance
+
+Entries = Mapping[str, object]
+"""Values by key path: {"autobalancer.race_eccentricity_mm": 0.005}."""
+
+PINS: Final = ("ball_count", "ball_diameter_mm", "race_radius_mm")
+"""Keys of [autobalancer] that pin the choice of balls and race."""
+
+CALCULATED: Final = "calculated"
+SIMULATED: Final = "simulated"
+
+DECIMALS: Final = range(1, 5)
+DIGITS: Final = range(3, 9)
+
+
+class Followed(NamedTuple):
+    """A case with replaced entries, as sizing reads it, its imbalance [kg m] and its autobalancer."""
+
+    case: Case
+    imbalance: float
+    candidate: Candidate
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A quantity before and after a change, in `unit` as printed; `limit`: what it is held against."""
+
+    quantity: str
+    before: float
+    after: float
+    unit: str
+    limit: float | None = None
+
+    @property
+    def text(self) -> str:
+        """The change as a clause.
+
+        >>> Moved("the worst friction case", 113.49, 107.96, "dB", 109.0).text
+        'the worst friction case falls from 113.5 to 108.0 dB'
+        """
+        before, after = figures(self.before, self.after, self.limit, self.unit)
+        if before == after:
+            return f"{self.quantity} stays at {after} {self.unit}".rstrip()
+        verb = "falls" if self.after < self.before else "rises"
+        return f"{self.quantity} {verb} from {before} to {after} {self.unit}".rstrip()
+
+
+def figures(before: float, after: float, limit: float | None, unit: str) -> tuple[str, str]:
+    """Two numbers as text, with so many digits that they differ, and that none is shown across the limit.
+
+    >>> figures(109.03, 108.98, 109.0, "dB"), figures(1.0229, 0.65, 1.0, "s"), figures(math.inf, 0.5, 1.0, "s")
+    (('109.03', '108.98'), ('1.02', '0.650'), ('never', '0.500'))
+    """
+    for digits in DECIMALS if unit == "dB" else DIGITS:
+        texts = [_text(value, digits, unit) for value in (before, after)]
+        shown = [math.inf if text == "never" else float(text) for text in texts]
+        kept = limit is None or [x <= limit for x in shown] == [x <= limit for x in (before, after)]
+        if shown[0] != shown[1] and kept:
+            break
+    return texts[0], texts[1]
+
+
+def _text(value: float, digits: int, unit: str) -> str:
+    if math.isinf(value):
+        return "never"
+    if value == 0 or not unit:
+        return f"{value:g}"
+    if unit == "dB":
+        return f"{value:.{digits}f}"
+    whole = f"{value:#.{digits}g}"
+    return f"{float(whole):.0f}" if "e" in whole and abs(value) >= 1 else whole.rstrip(".")
+
+
+def overrides(entries: Entries) -> tuple[str, ...]:
+    """Entries as `--set` takes them.
+
+    >>> overrides({"autobalancer.design": "light", "machine.speed_range_rpm": [2600.0, 9000.0]})
+    ('autobalancer.design=light', 'machine.speed_range_rpm=[2600,9000]')
+    """
+    return tuple(f"{key}={_plain(value)}" for key, value in entries.items())
+
+
+def _plain(value: object) -> str:
+    if isinstance(value, (list, tuple)):
+        return f"[{','.join(map(_plain, value))}]"
+    return f"{value:.10g}" if isinstance(value, float) else f"{value}"
+
+
+def words(entries: Entries) -> str:
+    """Entries as a sentence lists them, those of [autobalancer] without their table.
+
+    >>> words({"autobalancer.race_eccentricity_mm": 0.005, "run_up.time_s": 0.5})
+    'race_eccentricity_mm = 0.005 and run_up.time_s = 0.5'
+    """
+    parts = [f"{key.removeprefix('autobalancer.')} = {_quoted(value)}" for key, value in entries.items()]
+    *first, last = parts
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _quoted(value: object) -> str:
+    return f'"{value}"' if isinstance(value, str) else _plain(value).replace(",", ", ")
+
+
+def pins(candidate: Candidate) -> dict[str, object]:
+    """The entries that pin the choice of a candidate."""
+    values = (
+        candidate.ball_count,
+        _millimetres(candidate.ball_diameter),
+        _millimetres(candidate.race_radius),
+    )
+    return {f"autobalancer.{key}": value for key, value in zip(PINS, values, strict=True)}
+
+
+def _millimetres(length: float) -> float:
+    return float(f"{from_si(length, 'mm'):.10g}")
+
+
+def with_entries(table: MachineFile, entries: Entries) -> MachineFile:
+    """The tables of a file with entries replaced, checked as if the file said so; raises ValueError for what is not.
+
+    Entries that take the place of another source of the same quantity are not among them.
+    """
+    values = table.model_dump(exclude_unset=True)
+    for path, value in entries.items():
+        *parents, key = path.split(".")
+        held = values
+        for parent in parents:
+            held = held.setdefault(parent, {})
+        held[key] = tuple(value) if isinstance(value, list) else value
+    return MachineFile.model_validate(values)
+
+
+def followed(case: Case, entries: Entries) -> Followed | None:
+    """The case with entries replaced, sized by the search; None if the file refuses them, or no race fits."""
+    try:
+        other = read_case(with_entries(case.table, entries))
+        imbalance = find_imbalance(other).value
+        return Followed(other, imbalance, choose_for_motor(other, imbalance).best)
+    except (AbuError, ValueError):
+        return None
+
+
+def set_action(
+    changed: Entries, candidate: Candidate, moved: Moved, how: str = CALCULATED, more: str = "",
+    present: Candidate | None = None,
+) -> Action:  # fmt: skip
+    """Action that replaces entries and pins the candidate: which number goes from what to what, and how it is known.
+
+    `present`: the candidate of today; another one is named in the sentence.
+    """
+    other = present is not None and pins(present) != pins(candidate) and not pins(candidate).items() <= changed.items()
+    chosen = f", with {in_words(candidate)}" if other else ""
+    text = f"Set {words(changed)}{chosen}: {moved.text} ({how}).{f' {more}' if more else ''}"
+    return Action(text, overrides({**changed, **pins(candidate)}))
+
+
+def in_words(candidate: Candidate) -> str:
+    """Balls and race of a candidate."""
+    return (
+        f"{candidate.ball_count} × Ø{from_si(candidate.ball_diameter, 'mm'):.6g} mm balls on a race of "
+        f"R {from_si(candidate.race_radius, 'mm'):.6g} mm"
+    )
+
+
+def speeds_from(case: Case, lowest_rpm: float) -> Iterator[dict[str, object]]:
+    """Entries that raise the lowest working speed: the range alone, else the rated speed with it."""
+    rated, (_, high) = case.table.machine.speed_rpm, case.table.machine.speed_range
+    whole: dict[str, object] = {"machine.speed_range_rpm": [lowest_rpm, max(high, lowest_rpm)]}
+    yield whole if rated >= lowest_rpm else {"machine.speed_rpm": lowest_rpm, **whole}
