@@ -227,14 +227,19 @@ def measured_after_line(comparison: MeasuredAfterRecord) -> str:
     measured = f"Measured with the autobalancer, idle, {comparison.place}: {comparison.measured}"
     if comparison.unit != "dB":
         measured += f", that is {comparison.measured_level_db:.1f} dB"
-    loaded = "" if comparison.predicted_loaded_db is None else f"; {comparison.predicted_loaded_db:.1f} dB under load"
+    others = [
+        f"{name}: {level:.1f} dB."
+        for name, level in (("This run", comparison.this_run_db), ("Under load", comparison.predicted_loaded_db))
+        if level is not None
+    ]
     if comparison.predicted_level_db is None or comparison.difference_db is None:
-        return f"{measured}; no idle level is predicted{loaded}."
+        return " ".join([f"{measured}. No idle level is predicted.", *others])
     predicted = f"{comparison.predicted_level_db:.1f} dB"
     if comparison.unit != "dB" and comparison.predicted_value is not None:
         predicted += f" ({number(comparison.predicted_value, 3)} {comparison.unit} on that instrument)"
     word = "above" if comparison.difference_db >= 0 else "below"
-    return f"{measured}: {abs(comparison.difference_db):.1f} dB {word} what is predicted, {predicted}{loaded}."
+    distance = f"The measurement is {abs(comparison.difference_db):.1f} dB {word} it."
+    return " ".join([f"{measured}. Predicted, median of the start cases: {predicted}. {distance}", *others])
 
 
 def measured_after_blocks(comparison: MeasuredAfterRecord | None) -> list[Block]:

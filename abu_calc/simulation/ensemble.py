@@ -306,4 +306,5 @@ def outcome_of(design: Design, member: Member, scene: Scene, response: Response)
         imbalance=response.residual_imbalance,
         allowed=allowed_imbalance(design, scene.imbalance, _felt(design, scene)),
         ball_angles=response.final.ball_angles,
+        velocity=response.velocity_rms,
     )

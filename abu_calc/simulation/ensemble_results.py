@@ -36,6 +36,8 @@ class StartOutcome:
     """Angles of the balls in the rotor at the end [rad]."""
     duration: float = 0.0
     """Duration [s] of a run that went on longer than its scene, since the balls were not at rest by then; else 0."""
+    velocity: float = 0.0
+    """Rms velocity [m/s] of the axis at the end, at the race."""
 
     @property
     def hanging(self) -> bool:

@@ -1,13 +1,12 @@
 """Levels as instruments show them, and the measurement with the autobalancer beside its prediction."""
 
-import math
 from typing import Annotated, ClassVar, Self
 
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
 from abu_calc.foundation.units import level_from_velocity, velocity_from_level
 from abu_calc.inputs.wheel import Shown
-from abu_calc.sizing.budget import accuracy_budget, displacement_level
+from abu_calc.sizing.budget import displacement_level
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.imbalance import measured_velocity
@@ -51,19 +50,6 @@ def compared(case: Case, level: float | None) -> Compared | None:
     measured = measured_velocity(shown, case.speed, "measured_after")
     predicted = None if level is None else velocity_from_level(level)
     return Compared(shown, measured_place(case, shown)[0], case.speed, measured, predicted)
-
-
-def compared_design(design: Design) -> Compared | None:
-    """Against what the accuracy budget leaves, idle at the rated speed, background included."""
-    case, chosen, possible = design.case, design.autobalancer, design.frequency.balancing_possible
-    table = case.table.measured_after
-    if table is None or table.shown is None:
-        return None
-    budget = accuracy_budget(
-        case, design.imbalance.value, chosen.requirement, chosen.balls, chosen.budget.resting_angles, case.speed
-    )
-    known = possible and math.isfinite(budget.residual)
-    return compared(case, level_where_measured(design, budget.residual if known else None))
 
 
 def level_where_measured(design: Design, moved: float | None) -> float | None:
@@ -130,25 +116,28 @@ class HandleLevels(Record):
 class MeasuredAfterRecord(Record):
     """Measurement with the autobalancer, idle, beside the prediction for the same place.
 
+    The prediction is the median of the start cases at the given viscous drag rate, in every command.
     `predicted_loaded_db`: the prediction there under load, in reports of the machine at its workpiece.
+    `this_run_db`: the level of the one idle run that a command reports.
     """
 
     schema_title: ClassVar[str] = "MeasuredAfter"
 
-    optional: ClassVar[frozenset[str]] = frozenset({"predicted_loaded_db"})
+    optional: ClassVar[frozenset[str]] = frozenset({"predicted_loaded_db", "this_run_db"})
 
     place: Annotated[str, Quantity("measured at")]
     measured: Annotated[str, Quantity("as measured")]
     measured_level_db: Annotated[float, Quantity("measured", "L")]
-    predicted_level_db: Annotated[float | None, Quantity("predicted", "L")]
+    predicted_level_db: Annotated[float | None, Quantity("predicted, median of the start cases", "L")]
     difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3)]
     predicted_value: Annotated[float | None, Quantity("predicted, as the instrument shows it")]
     unit: Annotated[str, Quantity("unit of that value")]
     predicted_loaded_db: Annotated[float | None, Quantity("predicted under load", "L")] = None
+    this_run_db: Annotated[float | None, Quantity("level of this run", "L")] = None
 
     @classmethod
-    def of(cls, comparison: Compared | None, loaded: float | None = None) -> Self | None:
-        """None without a measured value; `loaded`: level [dB] that is predicted under load."""
+    def of(cls, comparison: Compared | None, loaded: float | None = None, this_run: float | None = None) -> Self | None:
+        """None without a measured value; levels [dB]: `loaded` predicted under load, `this_run` of an idle run."""
         if comparison is None:
             return None
         predicted = comparison.predicted
@@ -160,4 +149,5 @@ class MeasuredAfterRecord(Record):
             predicted_value=as_shown(comparison.shown, predicted, comparison.speed) if predicted else None,
             unit=UNITS[comparison.shown.key],
             predicted_loaded_db=loaded,
+            this_run_db=this_run,
         )

@@ -9,7 +9,6 @@ from abu_calc.reporting.parts import (
     limit_in_file,
     limit_of,
     measured_after_line,
-    of_scene,
     provenance_blocks,
     reasons,
     unlike,
@@ -86,8 +85,10 @@ def record(**changes: Any) -> MeasuredAfterRecord:
 
 
 def test_a_measurement_is_above_or_below_the_prediction() -> None:
-    assert measured_after_line(record()).endswith("rear: 103 dB: 3.0 dB above what is predicted, 100.0 dB.")
-    assert "2.0 dB below" in measured_after_line(record(difference_db=-2.0))
-    assert "no idle level is predicted" in measured_after_line(record(predicted_level_db=None, difference_db=None))
-    assert measured_after_line(record(predicted_loaded_db=105.0)).endswith("100.0 dB; 105.0 dB under load.")
-    assert of_scene("scene") == "" and of_scene("idle") == " of the scene idle"
+    assert measured_after_line(record()).endswith(
+        "rear: 103 dB. Predicted, median of the start cases: 100.0 dB. The measurement is 3.0 dB above it."
+    )
+    assert "2.0 dB below it" in measured_after_line(record(difference_db=-2.0))
+    assert "No idle level is predicted" in measured_after_line(record(predicted_level_db=None, difference_db=None))
+    assert measured_after_line(record(predicted_loaded_db=105.0)).endswith("above it. Under load: 105.0 dB.")
+    assert measured_after_line(record(this_run_db=99.0)).endswith("above it. This run: 99.0 dB.")

@@ -217,18 +217,22 @@ class EnsembleResult(Record):
     settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
     level_db: Annotated[Spread, Quantity("level", "L")]
     residual_um: Annotated[Spread, Quantity("residual", "w")]
+    predicted_level_db: Annotated[
+        float | None, Quantity("predicted level, median of the start cases at the given drag rate", "L")
+    ]
     worst_member: Annotated[WorstMember | None, Quantity("worst start")]
     settling_by_start: tuple[SettlingOfStart, ...]
 
     @classmethod
-    def of(cls, ensemble: Ensemble) -> Self:
-        """Record in user units."""
+    def of(cls, ensemble: Ensemble, predicted_level: float | None = None) -> Self:
+        """Record in user units; `predicted_level` [dB]: the one that measurements are compared with."""
         return cls.read(
             ensemble,
             hanging=len(ensemble.hanging),
             settling_time_s=Spread.of(ensemble, lambda outcome: outcome.settling_time_or_inf),
             level_db=Spread.of(ensemble, lambda outcome: outcome.level),
             residual_um=Spread.of(ensemble, lambda outcome: from_si(outcome.residual, "um")),
+            predicted_level_db=predicted_level,
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
             settling_by_start=SettlingOfStart.all_of(ensemble),
         )

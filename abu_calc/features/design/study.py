@@ -39,12 +39,13 @@ from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.design_scenes import SceneFailure, SceneRun, simulated
 from abu_calc.simulation.ensemble_checks import ensemble_checks, level_check, not_simulated
 from abu_calc.simulation.ensemble_results import Ensemble, Lost, StartOutcome
+from abu_calc.simulation.predicted_level import compared_starts, predicted_level
 from abu_calc.simulation.records import SceneModel, SettlingEstimate, SimulatedScene
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.rotor_view import RotorView
 from abu_calc.simulation.run_checks import loudest
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared_design, level_where_measured
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 
@@ -217,9 +218,12 @@ def size(
             bound=None if bound is None else LevelBound.read(bound),
         ),
         measured_after=MeasuredAfterRecord.of(
-            compared_design(design), level_where_measured(design, work.moved) if isinstance(work, Work) else None
+            compared_starts(design, tried.ensemble),
+            level_where_measured(design, work.moved) if isinstance(work, Work) else None,
         ),
-        ensemble=None if tried.ensemble is None else EnsembleResult.of(tried.ensemble),
+        ensemble=None
+        if tried.ensemble is None
+        else EnsembleResult.of(tried.ensemble, predicted_level(design, tried.ensemble)),
         simulation=tuple(
             SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
         ),

@@ -3,6 +3,7 @@
 `factory_rows` gives the maker's measurements of machines with autobalancers.
 """
 
+from statistics import fmean
 from typing import Annotated, ClassVar
 
 from abu_calc.features.design.study import SizeResult, size
@@ -11,7 +12,7 @@ from abu_calc.foundation.checks import Status
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.quantity import Quantity, Record, record
-from abu_calc.foundation.units import to_si
+from abu_calc.foundation.units import level_from_velocity, to_si, velocity_from_level
 from abu_calc.inputs.read_machine import Machine, read
 from abu_calc.simulation.arguments import checked
 from abu_calc.simulation.result import Provenance, Result
@@ -77,7 +78,7 @@ class FactoryLevel(Record):
         float | None, Quantity("without, predicted", "L", 4, "idle: as taken from the file")
     ]
     with_measured_db: Annotated[Span | None, Quantity("with, measured", "L")]
-    with_predicted_db: Annotated[float | None, Quantity("with, predicted", "L", 4, "idle: the median start")]
+    with_predicted_db: Annotated[float | None, Quantity("with, predicted", "L", 4, "idle: median of the start cases")]
     with_predicted_worst_db: Annotated[float | None, Quantity("with, the worst start", "L")]
     lowered_measured_db: Annotated[Span | None, Quantity("lowered, measured", "ΔL")]
     lowered_predicted_db: Annotated[float | None, Quantity("lowered, predicted", "ΔL", 3)]
@@ -85,6 +86,7 @@ class FactoryLevel(Record):
         float | None,
         Quantity("outside what was measured", "", 2, "with it, else what it lowers"),
     ]
+    difference_db: Annotated[float | None, Quantity("measured − predicted", "ΔL", 3, "mean of the range in velocity")]
     louder_octave_hz: Annotated[
         float | None, Quantity("louder octave of the model", "", 4, "pressed before the balls have settled")
     ]
@@ -142,7 +144,7 @@ def factory(progress: Progress = silent) -> FactoryResult:
 
 
 def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: Progress) -> _Predicted:
-    """Idle the starts of the ensemble, in the octave of the spindle; at work in the plane the simulated octaves.
+    """Idle the median of the start cases, in the octave of the spindle; at work in the plane the simulated octaves.
 
     Pressed to the work when the balls have settled, as one works; `louder`: pressed before.
     """
@@ -160,7 +162,7 @@ def _predicted(row: FactoryRow, machine: Machine, design: SizeResult, progress: 
     if many is None:
         return _Predicted(design.vibration.level_before_db, design.vibration.level_after_db)
     known_levels = [level for level in (many.level_db.worst, design.vibration.level_after_db) if level is not None]
-    return _Predicted(design.vibration.level_before_db, many.level_db.typical, max(known_levels, default=None))
+    return _Predicted(design.vibration.level_before_db, many.predicted_level_db, max(known_levels, default=None))
 
 
 def _octaves(machine: Machine, start: str, progress: Progress) -> dict[float, float]:
@@ -187,6 +189,7 @@ def _row(row: FactoryRow, forecast: _Predicted) -> FactoryLevel:
         lowered_measured_db=measured,
         lowered_predicted_db=(forecast.without or 0.0) - (forecast.fitted or 0.0) if both else None,
         outside_db=_outside(row, forecast),
+        difference_db=_difference(row, forecast),
         louder_octave_hz=None if forecast.louder is None else forecast.louder[0],
         louder_octave_db=None if forecast.louder is None else forecast.louder[1],
         named=row.peak,
@@ -199,11 +202,18 @@ def _outside(row: FactoryRow, forecast: _Predicted) -> float | None:
     if forecast.fitted is None:
         return None
     if row.fitted is not None:
-        return _gap(row.fitted, forecast.fitted, forecast.worst or forecast.fitted)
+        return _gap(row.fitted, forecast.fitted)
     if row.lowered is None or forecast.without is None:
         return None
-    return _gap(row.lowered, forecast.without - (forecast.worst or forecast.fitted), forecast.without - forecast.fitted)
+    return _gap(row.lowered, forecast.without - forecast.fitted)
 
 
-def _gap(measured: Span, least: float, most: float) -> float:
-    return max(0.0, measured[0] - most, least - measured[1])
+def _difference(row: FactoryRow, forecast: _Predicted) -> float | None:
+    """Measured − predicted [dB] with the autobalancer, the mean of the span in velocity as in [measured_after]."""
+    if row.fitted is None or forecast.fitted is None:
+        return None
+    return level_from_velocity(fmean(map(velocity_from_level, row.fitted))) - forecast.fitted
+
+
+def _gap(measured: Span, predicted: float) -> float:
+    return max(0.0, measured[0] - predicted, predicted - measured[1])

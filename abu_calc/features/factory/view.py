@@ -7,9 +7,9 @@ from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import provenance_blocks
 
 NOTE = (
-    "dB re 5e-8 m/s in the octave, measured beside predicted. With: the median of many starts, … the worst, or what "
-    "the accuracy budget leaves; loaded: pressed to the work when the balls have settled. –: not published, or nothing "
-    "in the model moves there."
+    "dB re 5e-8 m/s in the octave, measured beside predicted. Idle, predicted: median of the start cases at the given "
+    "drag rate. Loaded, predicted: pressed to the workpiece after the balls have settled. Diff.: measured − predicted "
+    "with the autobalancer. –: not published, or nothing in the model moves there."
 )
 ONE_SET = (
     "All four presets assume a friction arm of 0.002 mm, a viscous drag rate of 15 1/s, a race eccentricity of 0.010 "
@@ -21,14 +21,14 @@ ONE_SET = (
 def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
     """The one screen."""
     rows = result.rows
-    heading = "", "octave", "without", "taken", "with", "pred.", "lowered", "pred."
+    heading = "", "Hz", "without", "taken", "with", "pred.", "diff.", "lowered", "pred."
     cells = tuple((f"{k} {row.short}{_state(row)}", *_cells(row)) for k, row in enumerate(rows, 1))
     words = (Paragraph(f"{k} {row.word}{_elsewhere(row)}", hang=2) for k, row in enumerate(rows, 1))
     return (
         Heading(result.title),
         Paragraph(_verdict(rows)),
         Paragraph(""),
-        Grid(heading, cells, frozenset(range(1, 8))),
+        Grid(heading, cells, frozenset(range(1, 9))),
         Paragraph(NOTE),
         Paragraph(""),
         *words,
@@ -56,15 +56,13 @@ def _elsewhere(level: FactoryLevel) -> str:
 
 
 def _cells(level: FactoryLevel) -> tuple[str, ...]:
-    predicted = _one(level.with_predicted_db)
-    if level.with_predicted_worst_db is not None:
-        predicted += f"…{_one(level.with_predicted_worst_db)}"
     return (
         f"{level.octave_hz:g}",
         level.named or _span(level.without_measured_db),
         _one(level.without_predicted_db),
         _span(level.with_measured_db),
-        predicted,
+        _one(level.with_predicted_db),
+        "–" if level.difference_db is None else f"{level.difference_db:+.1f}",
         _span(level.lowered_measured_db),
         _one(level.lowered_predicted_db),
     )
@@ -83,6 +81,6 @@ def _verdict(rows: Sequence[FactoryLevel]) -> str:
     known = [row.outside_db for row in rows if row.outside_db is not None]
     within = sum(1 for off in known if off == 0)
     return (
-        f"Of {len(rows)} measurements the model speaks of {len(known)}: {within} within what was measured, the "
-        f"others up to {max(known, default=0.0):.1f} dB off."
+        f"Of {len(rows)} measurements the model predicts {len(known)}: {within} within the measured range, the others "
+        f"up to {max(known, default=0.0):.1f} dB outside it."
     )

@@ -59,9 +59,10 @@ from abu_calc.foundation.units import from_si, wrapped_deg
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine
 from abu_calc.simulation.arguments import checked
+from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.simulate import ACCURACY
-from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared_design, level_where_measured
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, level_where_measured
 from abu_calc.sizing import size as size_design
 from abu_calc.sizing.design import Design
 
@@ -223,7 +224,9 @@ def grinding(machine: Machine, accuracy: float = 0.01, progress: Progress = sile
         at_once_stays=work.stays_loud,
         starts=LoadedStarts.of(loads),
         bound=None if bound is None else LevelBound.read(bound),
-        measured_after=MeasuredAfterRecord.of(compared_design(design), level_where_measured(design, work.moved)),
+        measured_after=MeasuredAfterRecord.of(
+            compared_starts(design, starts_for_measurement(design, progress)), level_where_measured(design, work.moved)
+        ),
         remedies=tuple(map(TriedRemedy.of, tried)),
         ball_resultant_g_mm=None if resultant is None else from_si(abs(resultant), "g_mm"),
         ball_resultant_angle_deg=None if not resultant else wrapped_deg(cmath.phase(resultant)),

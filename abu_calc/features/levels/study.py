@@ -33,11 +33,12 @@ from abu_calc.inputs.recording import QUANTITIES, Recording
 from abu_calc.inputs.recording_files import is_recording, read_recording
 from abu_calc.inputs.scene import SceneDescription, read_any
 from abu_calc.simulation.arguments import checked, one_of
+from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.simulate import ACCURACY
 from abu_calc.simulation.simulate import simulate as integrated
 from abu_calc.simulation.subject import Subject, subject_of
-from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared, compared_design, measured_place
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 from abu_calc.sizing.design import Design
 from abu_calc.standards.vibration import daily_exposure, octaves
 
@@ -307,7 +308,7 @@ def _of_motion(
     measured = None
     if design is not None:
         records = _with_design(design, places, minutes, idle=subject.scene.name == "idle")
-        measured = _measured(design, at_axis, idle=subject.scene.name == "idle")
+        measured = _measured(design, at_axis, progress, idle=subject.scene.name == "idle")
     return _result(
         subject.title,
         records,
@@ -334,15 +335,16 @@ def _with_design(
     return tuple(PlaceLevel.of(place, minutes, before.get(place.name), loads.get(place.name)) for place in places)
 
 
-def _measured(design: Design, at_axis: PlaceLevels, *, idle: bool) -> MeasuredAfterRecord | None:
-    """[measured_after] against the simulated level of its place; at work against what sizing predicts of it idle."""
+def _measured(design: Design, at_axis: PlaceLevels, progress: Progress, *, idle: bool) -> MeasuredAfterRecord | None:
+    """[measured_after] against the median of the start cases, with the level of this run at the same place."""
     table = design.case.table.measured_after
     if table is None or table.shown is None:
         return None
     level_db = level(moved_at(design, at_axis, *measured_place(design.case, table.shown)).velocity)
+    comparison = compared_starts(design, starts_for_measurement(design, progress))
     if idle:
-        return MeasuredAfterRecord.of(compared(design.case, level_db))
-    return MeasuredAfterRecord.of(compared_design(design), level_db)
+        return MeasuredAfterRecord.of(comparison, this_run=level_db)
+    return MeasuredAfterRecord.of(comparison, level_db)
 
 
 def _held_remarks(design: Design | None, start: str) -> Iterator[str]:

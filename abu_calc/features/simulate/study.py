@@ -26,6 +26,7 @@ from abu_calc.simulation.arguments import checked, one_of
 from abu_calc.simulation.effect_selection import EffectAudit
 from abu_calc.simulation.effect_selection import audit as with_all_effects
 from abu_calc.simulation.ensemble import followed_until
+from abu_calc.simulation.predicted_level import compared_starts, starts_for_measurement
 from abu_calc.simulation.records import SceneModel, SimulatedLevel, SimulatedScene, in_words
 from abu_calc.simulation.response import Response, settling_count
 from abu_calc.simulation.result import Result
@@ -35,7 +36,7 @@ from abu_calc.simulation.simulate import ACCURACY, Simulation
 from abu_calc.simulation.simulate import simulate as integrated
 from abu_calc.simulation.start_cases import idle_speed
 from abu_calc.simulation.subject import Source, Subject, subject_of
-from abu_calc.simulation.vibration_records import MeasuredAfterRecord, compared, compared_design, measured_place
+from abu_calc.simulation.vibration_records import MeasuredAfterRecord, measured_place
 
 Array = NDArray[np.float64]
 
@@ -207,7 +208,7 @@ def simulate(
         model=SceneModel.of(run.scene),
         level_at=_level_at(subject, run.response),
         handles=_handles(subject, run.response),
-        measured_after=_measured(subject, run.response),
+        measured_after=_measured(subject, run.response, progress),
         provenance=subject.provenance,
         description=in_words(run.scene),
         start=subject.start,
@@ -262,11 +263,8 @@ def _level_at(subject: Subject, response: Response) -> str:
     return "axis" if response.final.tilt is None else "axis, centre of mass"
 
 
-def _measured(subject: Subject, response: Response) -> MeasuredAfterRecord | None:
-    """[measured_after] of a machine, held against the level of the idle scene at its place.
-
-    At work against the idle level that sizing predicts, with that of the run under load beside it.
-    """
+def _measured(subject: Subject, response: Response, progress: Progress) -> MeasuredAfterRecord | None:
+    """[measured_after] of a machine against the median of the start cases, with the level of this run at its place."""
     design = subject.design
     if design is None or response.scene not in ("idle", "grinding"):
         return None
@@ -274,9 +272,10 @@ def _measured(subject: Subject, response: Response) -> MeasuredAfterRecord | Non
     if table is None or table.shown is None:
         return None
     level = level_at(design, response, measured_place(design.case, table.shown)[1])
+    comparison = compared_starts(design, starts_for_measurement(design, progress))
     if response.scene == "idle":
-        return MeasuredAfterRecord.of(compared(design.case, level))
-    return MeasuredAfterRecord.of(compared_design(design), level)
+        return MeasuredAfterRecord.of(comparison, this_run=level)
+    return MeasuredAfterRecord.of(comparison, level)
 
 
 def _handles(subject: Subject, response: Response) -> tuple[SimulatedLevel, ...] | None:

@@ -8,7 +8,8 @@ from abu_calc.simulation.result import Provenance
 
 EMPTY = dict.fromkeys(
     ("without_measured_db", "without_predicted_db", "with_measured_db", "with_predicted_db", "with_predicted_worst_db",
-     "lowered_measured_db", "lowered_predicted_db", "outside_db", "louder_octave_hz", "louder_octave_db", "named")
+     "lowered_measured_db", "lowered_predicted_db", "outside_db", "difference_db", "louder_octave_hz",
+     "louder_octave_db", "named")
 )  # fmt: skip
 
 
@@ -30,17 +31,20 @@ def grid(result: FactoryResult) -> tuple[tuple[str, ...], ...]:
 
 def test_each_row_has_its_numbers_or_a_dash() -> None:
     full = level(without_measured_db=(108.0, 111.0), without_predicted_db=111.04, with_predicted_db=98.66,
-                 with_predicted_worst_db=103.0, lowered_measured_db=(6.0, 9.0))  # fmt: skip
+                 with_predicted_worst_db=103.0, difference_db=3.44, lowered_measured_db=(6.0, 9.0))  # fmt: skip
     rows = grid(table(full, level(state="not said", named="loud")))
-    assert rows[0] == ("1 straight idle", "125", "108–111", "111.0", "–", "98.7…103.0", "6–9", "–")
-    assert rows[1] == ("2 straight", "125", "loud", "–", "–", "–", "–", "–")
+    assert rows[0] == ("1 straight idle", "125", "108–111", "111.0", "–", "98.7", "+3.4", "6–9", "–")
+    assert rows[1] == ("2 straight", "125", "loud", "–", "–", "–", "–", "–", "–")
 
 
 def test_the_verdict_counts_what_the_model_speaks_of() -> None:
     """Of four rows one has no prediction; two lie within, one is off by 2.5 dB."""
     rows = [level(outside_db=off) for off in (0.0, None, 2.5, 0.0)]
     text = " ".join(as_text(factory_screen(table(*rows)), 80).split())
-    assert "Of 4 measurements the model speaks of 3: 2 within what was measured, the others up to 2.5 dB off." in text
+    assert (
+        "Of 4 measurements the model predicts 3: 2 within the measured range, the others up to 2.5 dB outside it."
+        in text
+    )
 
 
 def test_a_louder_octave_of_the_model_is_told_with_its_row() -> None:

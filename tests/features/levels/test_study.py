@@ -111,7 +111,9 @@ def test_a_machine_has_the_level_that_its_simulation_has() -> None:
     assert found.measured_after is not None
     mean = 20 * math.log10((10 ** (102 / 20) + 10 ** (103 / 20)) / 2)
     assert found.measured_after.measured_level_db == pytest.approx(mean, abs=1e-9)
-    assert found.measured_after.difference_db == pytest.approx(mean - found.level_db, abs=1e-6)
+    assert found.measured_after.this_run_db == pytest.approx(found.level_db, abs=1e-6)
+    predicted = found.measured_after.predicted_level_db
+    assert predicted is not None and found.measured_after.difference_db == pytest.approx(mean - predicted, abs=1e-6)
 
 
 def test_handles_of_a_rigid_body_move_and_carry_as_mechanics_has_it() -> None:

@@ -1,0 +1,50 @@
+"""The one idle level that is compared with measurements: the median of the start cases at the given drag rate."""
+
+import math
+import statistics
+
+from abu_calc.foundation.parallel import processors
+from abu_calc.foundation.progress import Progress, silent
+from abu_calc.simulation.ensemble import simulate_members
+from abu_calc.simulation.ensemble_results import Ensemble
+from abu_calc.simulation.vibration_records import Compared, compared, level_where_measured
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.vibration import level_at_loudest
+
+
+def predicted_displacement(design: Design, ensemble: Ensemble) -> float | None:
+    """Idle displacement 0–peak [m] of the race that measurements are compared with; None without start cases.
+
+    It is the median over the start cases at the given viscous drag rate and the rated speed of the held machine. Hot
+    and cold oil, the ends of a speed range and a swing arm do not count. A measured machine was switched on an unknown
+    number of times, so the median stands for it, neither the closed form nor the loudest start case.
+    """
+    velocities = [outcome.velocity for outcome in ensemble.given
+                  if outcome.member.speed is None and not outcome.member.on_arm]  # fmt: skip
+    return math.sqrt(2) * statistics.median(velocities) / design.case.speed if velocities else None
+
+
+def predicted_level(design: Design, ensemble: Ensemble | None) -> float | None:
+    """The idle level [dB] of `predicted_displacement` at the loudest place, background included."""
+    moved = None if ensemble is None else predicted_displacement(design, ensemble)
+    return None if moved is None else level_at_loudest(design.case, design.autobalancer, moved)
+
+
+def compared_starts(design: Design, ensemble: Ensemble | None) -> Compared | None:
+    """[measured_after] beside the predicted level at its place; None without a measurement."""
+    moved = None if ensemble is None else predicted_displacement(design, ensemble)
+    if moved is not None:
+        moved = math.hypot(moved, design.autobalancer.budget.plane_offset)
+    return compared(design.case, level_where_measured(design, moved))
+
+
+def starts_for_measurement(design: Design, progress: Progress = silent) -> Ensemble | None:
+    """The start cases that `predicted_level` needs, for commands that simulate none; None without a measurement.
+
+    They are those of `abu size`, so that every command predicts the same level of the same design.
+    """
+    table, autobalancer = design.case.table.measured_after, design.autobalancer
+    carried = design.imbalance.value * abs(autobalancer.requirement.plane_ratio)
+    if table is None or table.shown is None or autobalancer.capacity < carried:
+        return None
+    return simulate_members(design, progress=progress, workers=processors(), shares=(1.0,))
