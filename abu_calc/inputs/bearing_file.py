@@ -97,7 +97,7 @@ Expected = Annotated[
 ]
 
 EXPECTED = (
-    'What `abu verify` holds the file to: "quoted.path.in.result" = value; relative tolerances per path stand in '
+    'What `abu verify FILE` holds the file to: "quoted.path.in.result" = value; relative tolerances per path stand in '
     "[expected.tolerance]."
 )
 

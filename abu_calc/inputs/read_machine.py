@@ -68,7 +68,7 @@ class Machine(FileReading):
         raise InputError(
             f"this file holds bearings only, {needs}",
             place=Place(self.file, key="machine"),
-            remedy="Use `abu check-fit`, or add [suspension], [wheel] and [autobalancer].",
+            remedy="Use `abu check-fit FILE`, or add [suspension], [wheel] and [autobalancer].",
         )
 
 

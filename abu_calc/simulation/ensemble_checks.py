@@ -67,7 +67,8 @@ def level_check(closed: Check, ensemble: Ensemble | None, change: TriedChange | 
         return coded("ABU401", "fail", message, value, limit, "dB", advice or BALANCE)
     if closed.status == "pass" and loudest.level > limit:
         message += f". Loudest start case at another drag rate: {_level(loudest, ensemble, limit)}"
-        return coded("ABU401", "warn", message, value, limit, "dB")
+        loud = None if change is None else change.action(LOUDEST, lambda outcome: outcome.level, "dB", limit)
+        return coded("ABU401", "warn", message, value, limit, "dB", loud)
     return replace(closed, message=message, value=value)
 
 
@@ -134,7 +135,7 @@ def _settles(design: Design, ensemble: Ensemble, change: TriedChange | None, tol
 
 def _time(outcome: StartOutcome, ensemble: Ensemble) -> str:
     time = outcome.settling_time_or_inf
-    return f"{_named(outcome, ensemble)}, {'never' if math.isinf(time) else f'{time:.3g} s'}"
+    return f"{_named(outcome, ensemble)}, {'never' if math.isinf(time) else f'{time:#.3g} s'}"
 
 
 def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None, told: str | None) -> Check:
@@ -203,7 +204,9 @@ def not_simulated(scene: str, reason: str, *, answered: bool = False, mean: str 
     chaotic motion comes to on average, where that is known.
     """
     if mean is not None:
-        return coded("ABU703", "warn", mean, of=scene, remedy="Keep the wheel on the workpiece, see abu grinding FILE.")
+        return coded(
+            "ABU703", "warn", mean, of=scene, remedy="Keep the wheel on the workpiece, see `abu grinding FILE`."
+        )
     status: Grade = "warn" if answered and scene == "idle" and not patience.over() else "not-done"
     return coded("ABU703", status, f"No simulation of this scene can be trusted: {reason}", of=scene,
                  remedy="Specify a drag rate nearer to the optimum, or less accuracy (--accuracy, Python: accuracy=).",

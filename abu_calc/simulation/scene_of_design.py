@@ -201,7 +201,7 @@ def _refuse_what_is_missing(design: Design, which: str) -> None:
             f"the scene {which} needs the table [{needed}]",
             place=Place(key=needed),
             found="none in the file",
-            remedy=f"Add [{needed}]; `abu init` writes a file that shows it.",
+            remedy=f"Add [{needed}]; `abu init FILE` writes a file that shows it.",
         )
 
 

@@ -46,7 +46,7 @@ def test_the_worst_start_stands_beside_its_limit() -> None:
     assert "1 of 2 start cases balance. These do not: spread, drag rate 10 1/s as given" in balance.message
     assert balance.remedy == (
         "Set rolling_drag_per_s = 30: the largest imbalance left by a start case falls from 40.0 to 20.0 g·mm "
-        "(simulated). All 2 start cases at the given drag rate then pass."
+        "(simulated). All 2 start cases, at the given drag rate, then pass."
     )
     assert balance.overrides[0] == "autobalancer.rolling_drag_per_s=30" and "ball_count=4" in balance.overrides[1]
     assert checks["ABU702"].remedy == "See the action of ABU701."

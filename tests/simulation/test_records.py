@@ -13,6 +13,7 @@ from abu_calc.features.accuracy import study as accuracy_module
 from abu_calc.features.effects.study import known_effects
 from abu_calc.features.stability import command as cli_stability
 from abu_calc.features.stability import study as stability_module
+from abu_calc.foundation.quantity import as_plain
 from abu_calc.simulation import scene_of_design as from_design
 from abu_calc.simulation.result import Result
 from abu_calc.simulation.subject import subject_of
@@ -38,7 +39,7 @@ def same(result: Result, *arguments: str) -> None:
     document = abu(*arguments, "--json").document
     assert without_clock(result.to_dict()) == without_clock(document["result"])
     assert (result.status, list(result.warnings)) == (document["status"], document["warnings"])
-    assert [vars(check) for check in result.checks] == document["checks"]
+    assert [as_plain(vars(check)) for check in result.checks] == document["checks"]
     assert result.model.to_dict().keys() == document["model"].keys()
     assert result.provenance.input == document["input"]
 

@@ -18,7 +18,7 @@ from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.duty import RunUp
 from abu_calc.simulation.ensemble import simulate_members
-from abu_calc.simulation.ensemble_results import Ensemble
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
 from abu_calc.simulation.tried_changes import TriedChange
 from abu_calc.sizing import instead
 from abu_calc.sizing.actions import pins, with_entries, words
@@ -32,6 +32,9 @@ MOST_DRAGS, NEAR = 5, 1.2
 
 FASTER, DAMPED = 0.5, 2.0
 """Factors on the time of the run-up and on the damping of the suspension."""
+
+MOST_OILS = 3
+"""Drag rates that are tried for start cases in hot or cold oil."""
 
 BEFORE = 2
 """Drags that are tried before what leaves the oil as it is."""
@@ -94,6 +97,39 @@ def tried_change(
     return TriedChange(design.autobalancer, first, {}, None, tuple(tried)) if tried else None
 
 
+def change_for_oils(
+    design: Design, first: Ensemble, accuracy: float, progress: Progress, workers: int
+) -> TriedChange | None:
+    """The nearest drag rate, of those tried, with which start cases in hot and cold oil pass, too.
+
+    None if all pass as the design is, or if some gave no answer. If start cases fail in hot oil alone, only greater
+    drag rates are tried, if in cold oil alone, only smaller ones.
+    """
+    bad = [outcome.member.drag for outcome in first.outcomes if not _good(design, outcome)]
+    if not bad or first.lost or patience.over() or not design.frequency.balancing_possible:
+        return None
+    most, tried, drag = int(REMEDIES * MOST_WORK), list[str](), design.case.drag
+    for other in other_drags(drag, only_more=False):
+        if (max(bad) < drag and other < drag) or (min(bad) > drag and other > drag):
+            continue
+        if most <= 0 or len(tried) >= MOST_OILS:
+            break
+        change = MachineChange({"autobalancer.rolling_drag_per_s": other})
+        for variant in change.designs(design):
+            ensemble = simulate_members(variant, accuracy, within(progress, f"with {change.name}"), workers)
+            most -= ensemble.work
+            if not ensemble.lost and all(_good(variant, outcome) for outcome in ensemble.outcomes):
+                return TriedChange(design.autobalancer, first, change.entries, ensemble, in_all_oils=True)
+        tried.append(change.name)
+    return TriedChange(design.autobalancer, first, {}, None, tuple(tried), in_all_oils=True) if tried else None
+
+
+def _good(design: Design, outcome: StartOutcome) -> bool:
+    """True if a start case balances, in time and within the level."""
+    limits = design.case.table.limits
+    return outcome.settling_time_or_inf <= limits.settling_time_s and outcome.level <= design.case.level_limit
+
+
 def changes(design: Design, first: Ensemble) -> Iterator[MachineChange]:
     """Another drag rate, a temporary speed reduction if balls stall, a faster run-up if run-ups alone fail, more
     damping.
@@ -149,11 +185,8 @@ def other_drags(given: float, *, only_more: bool) -> list[float]:
 
 def passes(design: Design, ensemble: Ensemble) -> bool:
     """True if every start case at the given drag rate balances, in time and within the level."""
-    limits, level = design.case.table.limits, design.case.level_limit
     lost = any(start.member.drag == ensemble.drag for start in ensemble.lost)
-    return not lost and all(
-        start.settling_time_or_inf <= limits.settling_time_s and start.level <= level for start in ensemble.given
-    )
+    return not lost and all(_good(design, start) for start in ensemble.given)
 
 
 MOST_OTHERS, MOST_WORK, REMEDIES = 3, 600_000, 0.5
@@ -191,7 +224,8 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         return Proven(design, None)
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first):
-        return _with_search(Proven(design, first), accuracy, progress, workers)
+        change = change_for_oils(design, first, accuracy, progress, workers)
+        return _with_search(Proven(design, first, change), accuracy, progress, workers)
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
     spent, placed = first.work, design.case.table.start

@@ -30,7 +30,7 @@ CONVENTIONS = (
 START = (
     "Every scene starts at full speed, the axis at rest at its place, balls at rest in the race, bunched side by side "
     "20° ahead of the imbalance, the race's centre at 180° from it; rolling inertia and viscous drag are always in. A "
-    "weight is what leaving the effect out may change, `abu effects` tells more."
+    "weight is what leaving the effect out may change, `abu effects FILE` tells more."
 )
 
 WAYS = (
@@ -38,7 +38,7 @@ WAYS = (
     "decay by h₀/2J whatever the balls, above it heavier balls are quicker: see the runners-up. From standstill they "
     "take up the speed by h₀/J. The groove's radius plays no part in the plane. Settling times count from full speed. "
     "Each is that of the slower side of the race: its centre at 0° from the imbalance, or, at the drag given, at 180°. "
-    "`abu simulate --start … --race-centre 0` repeats one."
+    "`abu simulate FILE --start spread --race-centre 0` repeats one."
 )
 ROWS = 15
 """Rows of the section's picture."""

@@ -292,8 +292,8 @@ def _refuse_idle(tables: MachineFile) -> None:
             "`abu grinding` needs the machine at its work",
             place=Place(key="grinding"),
             found="no [grinding] in the file",
-            remedy="Add a table [grinding] with press_force_N, cutting_coefficient and contact; `abu init` writes a "
-            "file that shows it.",
+            remedy="Add a table [grinding] with press_force_N, cutting_coefficient and contact; "
+            "`abu init FILE` writes a file that shows it.",
         )
 
 

@@ -269,7 +269,7 @@ def _start(recorded: Recording, from_s: float | None) -> float:
 def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
     """Remarks on a record that a reader must know."""
     if recorded.simulated and signals[0].whole:
-        yield "A trajectory of a simulation: means are taken from the last twentieth on, as abu simulate takes them."
+        yield "The file is a trajectory of a simulation: means are taken over its last twentieth."
     folded = max(map(folded_share, signals))
     if folded > FOLDED:
         yield (
@@ -351,7 +351,7 @@ def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
     """Remarks on what the levels lack."""
     if design is None:
         return
-    yield f"One start is simulated: {start}. Others may leave more: abu size runs many."
+    yield f"One start case is simulated: {start}. Others may be louder: `abu size FILE` simulates many."
     if design.case.background_level is not None:
         yield (
             f"The background of {design.case.background_level:g} dB is not in these levels: which octaves hold it is "

@@ -235,7 +235,7 @@ def _at_rated_speed(subject: Subject) -> tuple[str, ...]:
     needed = "" if design.case.table.run_up else "add [run_up]: "
     return (
         f"The motor idles at {idling:.0f} rpm; this scene turns at machine.speed_rpm = {rated:.6g}. For the motion at "
-        f"the idle speed {needed}`--scene run-up` lets the motor bring the machine there. `abu size` judges both.",
+        f"the idle speed {needed}`--scene run-up` lets the motor bring the machine there. `abu size FILE` judges both.",
     )
 
 

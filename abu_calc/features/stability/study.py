@@ -325,7 +325,10 @@ def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
     if judgement.reason is not None:
         remedy = "A second race in another plane, or bearings alike along x and y." if way != "start" else None
         if pressed:
-            remedy = "`abu simulate` shows it at work; without grinding_contact in its file the idle state is judged."
+            remedy = (
+                "`abu simulate FILE` shows it on the workpiece; without grinding_contact in its file the idle state is "
+                "judged."
+            )
         return Check(*name, "not-done", judgement.reason, unit="1/s", remedy=remedy)
     if judgement.angles is None:
         return Check(

@@ -26,7 +26,7 @@ ONE_STATE = (
     "elsewhere."
 )
 WHAT_TELLS = (
-    "What tells: `abu size`, or `abu simulate --scene run-up`; of a scene file, `abu simulate` with "
+    "Simulations show it: `abu size FILE`, or `abu simulate FILE --scene run-up`. A scene file needs "
     "[scene.effects.run_up]."
 )
 ON_A_GRID = (

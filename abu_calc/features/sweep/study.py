@@ -285,7 +285,7 @@ def _share(met: MeetsLimits, least: float | None) -> Check:
         if status == "pass"
         else "More members narrow the interval."
         if status == "warn"
-        else ("Tighten what the report names, or change the design: `abu size` judges it.")
+        else ("Tighten what the report names, or change the design: `abu size FILE` judges it.")
     )
     return coded("ABU822", status, message, 100 * met.share, 100 * least, "%", remedy, "least")  # type: ignore[arg-type]
 
@@ -305,7 +305,7 @@ def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -
     checks = (*plan.design.checks, *bearing_checks(plan.design.case.table.bearing)) if plan.design else ()
     failing = [check.code for check in checks if check.status == "fail"]
     if failing:
-        notes.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size`.")
+        notes.append(f"The design itself does not pass {', '.join(dict.fromkeys(failing))}: see `abu size FILE`.")
     rows = plan.study.sample.base
     if 0 < rows < ROUGH:
         notes.append(f"Sensitivities by {rows} rows of Saltelli's design are rough: --runs {ROUGH} or more do better.")

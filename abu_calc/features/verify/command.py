@@ -72,7 +72,7 @@ def _path_of(machine: "FileReading") -> Path:
         raise InputError(
             "only a file can be updated, not a preset by name, nor standard input",
             place=Place(machine.file),
-            remedy="Name its file, or `abu init` a copy.",
+            remedy="Name its file, or write a copy with `abu init FILE`.",
         )
     return path
 

@@ -13,6 +13,7 @@ from abu_calc.foundation.errors import AbuError
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.inputs.read_machine import Machine, machine_from, read_machine
 from abu_calc.inputs.reading.overrides import following, parse_overrides
+from abu_calc.simulation.tried_changes import IN_ALL_OILS
 from tests.remembered import recalled
 from tests.studies.random_machines import family_of, machine_text
 
@@ -41,6 +42,8 @@ def quantity(result: SizeResult, code: str, what: str) -> float | None:
     """The number that an action speaks of, in another result."""
     many = result.starts.of
     given = () if many is None else many[1].given
+    if what.endswith(IN_ALL_OILS) and many is not None:
+        what, given = what.removesuffix(IN_ALL_OILS), many[1].outcomes
     check = next((one for one in result.checks if one.code == code), None)
     vibration = result.vibration
     match what:
