@@ -23,19 +23,32 @@ def number(value: float, digits: int = 4) -> str:
     return f"{rounded:#.{digits}g}"
 
 
-NOISE: Final = {"mm": (1e-6, "0.001 µm"), "µm": (1e-3, "0.001 µm"), "g·mm": (1e-3, "0.001 g·mm"),
-                "°": (1e-3, "0.001°")}  # fmt: skip
+NOISE: Final = {
+    "mm": (1e-6, "0.001 µm"),
+    "µm": (1e-3, "0.001 µm"),
+    "mm/s": (1e-4, "0.0001 mm/s"),
+    "g·mm": (1e-3, "0.001 g·mm"),
+    "°": (1e-3, "0.001°"),
+}
 """Values below which only rounding and integration errors stand, by unit, and how a report writes that bound."""
+
+
+SHORTEST: Final = 1e-4
+"""Length [mm] below which a report writes micrometres."""
 
 
 def with_unit(value: float, unit: str, digits: int = 4) -> str:
     """A number with its unit; of one below the noise only the bound.
 
-    >>> with_unit(2.14e-11, "mm"), with_unit(0.0411, "mm", 3), with_unit(0.0, "mm")
-    ('< 0.001 µm', '0.0411 mm', '0 mm')
+    >>> with_unit(2.14e-11, "mm"), with_unit(9.25e-5, "mm", 3), with_unit(0.0411, "mm", 3), with_unit(0.0, "mm")
+    ('< 0.001 µm', '0.0925 µm', '0.0411 mm', '0 mm')
     """
     least, bound = NOISE.get(unit, (0.0, ""))
-    return f"< {bound}" if 0 < abs(value) < least else f"{number(value, digits)} {unit}".rstrip()
+    if 0 < abs(value) < least:
+        return f"< {bound}"
+    if unit == "mm" and 0 < abs(value) < SHORTEST:
+        return f"{number(1e3 * value, digits)} µm"
+    return f"{number(value, digits)} {unit}".rstrip()
 
 
 def level_text(level: float, digits: int = 4) -> str:

@@ -11,7 +11,7 @@ from abu_calc.foundation.checks import Check, Grade
 from abu_calc.foundation.quantity import Record, quantities
 from abu_calc.inputs.reading.text import key_path
 from abu_calc.inputs.reading.text import shown as exact
-from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, number, shown, with_unit
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, level_text, number, shown, with_unit
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
 
@@ -181,8 +181,11 @@ COUNTED: Final = "start cases"
 def _value(check: Check) -> str:
     if check.value is None:
         return ""
-    counted = check.unit == COUNTED
-    return f"{check.value:g} {COUNTED}" if counted else with_unit(check.value, check.unit or "", _digits(check))
+    if check.unit == COUNTED:
+        return f"{check.value:g} {COUNTED}"
+    if check.unit == "dB":
+        return level_text(check.value, _digits(check))
+    return with_unit(check.value, check.unit or "", _digits(check))
 
 
 def limit_of(check: Check) -> str:

@@ -139,16 +139,16 @@ def unreached(
     if growth > SENSITIVE and (otherwise is None or growth * MOVED > FELT * accuracy):
         return ChaoticError(
             f"{first}: the motion is chaotic, {MOVED:g} rad at its start grow {growth:.0e} times\n"
-            "  shorten the run, start the balls at other places, or give them more drag"
+            "  Shorten the run, start the balls at other places, or specify a greater drag rate."
         )
     if otherwise:
         return otherwise
     if math.isinf(worst):
         return NotTrustworthyError(
-            f"{first}: the end of the run decides\n  lengthen or shorten the run (--duration, Python: duration_s=)"
+            f"{first}: the end of the run decides\n  Lengthen or shorten the run (--duration, Python: duration_s=)."
         )
     return NotTrustworthyError(
-        f"{first}: rounding decides\n  ask for less accuracy, shorten the run, or start the balls at other places"
+        f"{first}: rounding decides\n  Specify less accuracy, shorten the run, or start the balls at other places."
     )
 
 

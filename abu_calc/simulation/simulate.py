@@ -99,8 +99,8 @@ def without_size(scene: Scene) -> tuple[str, ...]:
     shares = np.where(unknown, (balls.factors - 1) * radii / balls.radii, 0.0)
     most, k = float(shares.max()), int(shares.argmax())
     return (
-        f"the speed changes, but ball_radius_mm of [[scene.race]] is not given: the spin that the race gives the balls "
-        f"is left out, about {most:.0%} of how far they lag while the speed rises (by a steel ball of "
+        f"The speed changes, but [[scene.race]] has no ball_radius_mm: the spin that the race gives the balls is left "
+        f"out. That is about {most:.0%} of their lag while the speed rises (steel ball of "
         f"{1000 * balls.masses[k]:.3g} g, r = {1000 * radii[k]:.2g} mm)",
     )
 
@@ -136,8 +136,8 @@ It applies to the mean speed against the race; a bouncing wheel may still shake 
 """
 
 CHAOTIC_END = (
-    "the motion is chaotic, so that errors decide how it gets to its end: in every run the balls come to rest and "
-    "carry the imbalance; the numbers are those of one run, and another start gives others"
+    "The motion is chaotic, so errors decide its way to the end. In every run the balls come to rest and carry the "
+    "imbalance. The numbers are those of one run; another start case gives others"
 )
 
 LAST_TOLERANCE = 1e-13

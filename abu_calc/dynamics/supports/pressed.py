@@ -18,12 +18,12 @@ STOPPED: Final = 0.01
 _REMEDY: Final = ": press harder, or run the wheel truer"
 
 PARTING: Final = (
-    f"wheel and work part again and again{_REMEDY}; nothing damps their contact, so how far they bounce may depend on "
-    "the start"
+    f"wheel and workpiece lose contact again and again{_REMEDY}. Nothing damps their contact, so the bouncing may "
+    "depend on the start case"
 )
 DRIVEN: Final = (
-    "with rotation_sense = 1 the work drives the rotor, as printed in Kladiev 1996; a wheel that cuts is braked: "
-    "rotation_sense = -1"
+    "with rotation_sense = 1 the workpiece drives the rotor, as published in Kladiev 1996. A cutting wheel is braked: "
+    "set rotation_sense = -1"
 )
 
 BRAKES: Final = {

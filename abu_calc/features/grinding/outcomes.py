@@ -270,7 +270,7 @@ class LowerBound:
             return ""
         shown = "" if self.total is None else f" (a_hv {self.total:.2g} m/s²)"
         return (
-            f"The level under load{shown} is a lower bound: the model sets it by {_listed(self.set_by)}, and lacks "
+            f"The level under load{shown} is a lower bound. The model sets it by {_listed(self.set_by)}. It lacks "
             f"{_listed(self.lacks)}."
         )
 

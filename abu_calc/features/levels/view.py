@@ -55,10 +55,15 @@ def _about(result: LevelsResult) -> list[Block]:
 
 def _sentence(result: LevelsResult) -> str:
     where = "" if result.source == "recording" else f" at the {_place(result.loudest_place)}"
-    level = "No level is known" if result.level_db is None else f"{result.level_db:.1f} dB{where}"
+    level = "No level is known" if result.level_db is None else f"{_loud(result.level_db)}{where}"
     kind = f"recorded {result.quantity}" if result.source == "recording" else "simulated motion"
     last = f"{number(result.duration_s, 3)} s of {kind}, {number(result.sampling_rate_hz, 5)} samples a second"
     return f"{level}, the louder axis; {last}." if len(result.places[0].axes) > 1 else f"{level}; {last}."
+
+
+def _loud(level: float) -> str:
+    """A level to a tenth of a decibel; one below 0 dB says nothing."""
+    return f"{level:.1f} dB" if level >= 0 else "< 0 dB"
 
 
 def _place(name: str) -> str:
