@@ -1,0 +1,216 @@
+"""Writes the reference pages from the program itself, before they are read: commands, keys, checks, formulas, results.
+
+Pages are written to reference/generated/, which is not kept under version control.
+"""
+
+import importlib
+import inspect
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from command_output import run
+from sphinx.application import Sphinx
+
+KINDS = {
+    "machine": ("Machine files", "`abu init FILE` writes a complete machine file with a comment at each key."),
+    "scene": ("Scene files", "`abu init --scene FILE` writes a complete scene file."),
+    "readings": ("Readings of a balancing rig", "`abu init --readings FILE` writes a complete file of readings."),
+}
+
+CHECK_LABELS = {
+    "question": "Question",
+    "asks": "Question",
+    "pass_if": "PASS if",
+    "passes": "PASS if",
+    "warn_if": "WARN if",
+    "warns": "WARN if",
+    "fail_if": "FAIL if",
+    "fails": "FAIL if",
+    "not_evaluated_if": "NOT EVALUATED if",
+    "not_evaluated": "NOT EVALUATED if",
+    "action": "Action",
+    "remedy": "Action",
+}
+"""Labels of the texts of a check, by the fields of `CheckCode`."""
+
+
+def write(app: Sphinx) -> None:
+    """Write all pages whose text has changed."""
+    folder = Path(app.srcdir) / "reference" / "generated"
+    folder.mkdir(parents=True, exist_ok=True)
+    pages = {
+        "commands": commands(),
+        **{f"{kind}-file": keys(kind) for kind in KINDS},
+        "checks": checks(),
+        "formulas": formulas(),
+        "results": results(),
+        "python": python(),
+    }
+    for name, text in pages.items():
+        file = folder / f"{name}.md"
+        if not file.is_file() or file.read_text(encoding="utf-8") != text:
+            file.write_text(text, encoding="utf-8")
+
+
+def commands() -> str:
+    """Help of each command, in the order of `abu --help`."""
+    from abu_calc.registry import FEATURES
+
+    helped = ((feature.name, run(f"{feature.name} --help").stdout) for feature in FEATURES)
+    sections = (f"## abu {name}\n\n```text\n{text.rstrip()}\n```\n" for name, text in helped)
+    opening = "# Commands\n\nThis page is the output of `abu --help` and of `abu COMMAND --help`.\n"
+    return "\n".join((opening, f"```text\n{run('--help').stdout.rstrip()}\n```\n", *sections))
+
+
+def keys(kind: str) -> str:
+    """Tables and keys of one kind of file, from its schema."""
+    title, opening = KINDS[kind]
+    schema = json.loads(run(f"schema {kind}").stdout)
+    lines = [f"# {title}", "", f"{opening} `abu schema {kind}` prints the JSON Schema that this page is made from.", ""]
+    for path, table in tables(schema):
+        lines += [f"## {path}", "", _escaped(table.get("description", "")), "", "| key | meaning |", "|---|---|"]
+        required = set(table.get("required", ()))
+        for key, entry in table["properties"].items():
+            needed = " (required)" if key in required else ""
+            lines.append(f"| `{key}`{needed} | {_cell(_described(entry, schema))} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def tables(schema: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Tables of a schema in the order of a file, with their headers as TOML writes them."""
+    entries = schema.get("anyOf") or schema["allOf"]
+    seen = set[str]()
+
+    def below(name: str, path: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        table = schema["definitions"][name]
+        if path and path not in seen:
+            seen.add(path)
+            yield f"`{path}`", table
+        for key, entry in table["properties"].items():
+            found = re.search(r"#/definitions/(\w+)", json.dumps(entry))
+            if found:
+                inner = f"{path.strip('[]')}.{key}".strip(".")
+                yield from below(found[1], f"[[{inner}]]" if '"array"' in json.dumps(entry) else f"[{inner}]")
+
+    for entry in entries:
+        yield from below(entry["$ref"].rsplit("/", 1)[1], "")
+
+
+def _described(entry: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
+    text = entry.get("description", "")
+    found = re.search(r"#/definitions/(\w+)", json.dumps(entry))
+    if not text and found:
+        text = schema["definitions"][found[1]].get("description", "")
+    if "enum" in entry and not all(str(value) in text for value in entry["enum"]):
+        text += " One of: " + ", ".join(map(str, entry["enum"])) + "."
+    return text
+
+
+def checks() -> str:
+    """Texts of all checks by their codes."""
+    from abu_calc.foundation.checks import CHECK_CODES
+
+    lines = [
+        "# Checks",
+        "",
+        "A check ends with PASS, WARN, FAIL or NOT EVALUATED (in JSON `not-done`). `abu explain CODE` prints its entry.",
+        "",
+    ]
+    for code in sorted(CHECK_CODES, key=lambda code: int(code[3:])):
+        check = CHECK_CODES[code]
+        lines += [f"({code.lower()})=", f"## {code}: {check.name}", ""]
+        for field in fields(check):  # type: ignore[arg-type]
+            text = getattr(check, field.name)
+            if field.name in CHECK_LABELS and text:
+                lines += [f"**{CHECK_LABELS[field.name]}:** {_escaped(text)}", ""]
+        if check.step:
+            lines += [f"Formulas: {{ref}}`step-{check.step}`", ""]
+    return "\n".join(lines)
+
+
+def formulas() -> str:
+    """Formulas of all steps, with range, source and misprints."""
+    from abu_calc.features.explain.steps import STEPS
+
+    lines = [
+        "# Formulas",
+        "",
+        "Equations take SI units; the units in brackets are those of files and reports. `abu explain STEP` prints a "
+        "section, and `abu size MACHINE --explain` puts the numbers of a machine into it.",
+        "",
+    ]
+    for name, step in STEPS.items():
+        lines += [f"(step-{name})=", f"## {step.title}", ""]
+        for formula in step.formulas:
+            texts = [text for text in formula.for_users if not text.startswith("Equations take SI")]
+            lines += [f"### {formula.name.capitalize()}", "", "```text", *texts, "```", ""]
+    return "\n".join(lines)
+
+
+def results() -> str:
+    """Keys of results, from their schema."""
+    schema = json.loads(run("schema result").stdout)
+    lines = [
+        "# Results",
+        "",
+        "Keys of `result` in the JSON of each command. `abu schema result` prints the JSON Schema.",
+        "Units stand in the names. A value that could not be computed is null; a check or a warning names the reason.",
+        "",
+    ]
+    for name, entry in schema["$defs"].items():
+        if "properties" not in entry:
+            continue
+        lines += [f"## {name}", "", _escaped(entry.get("description", "")), "", "| key | meaning |", "|---|---|"]
+        for key, value in entry["properties"].items():
+            found = re.search(r"#/\$defs/(\w+)", json.dumps(value))
+            text = value.get("description", "")
+            lines.append(f"| `{key}` | {_cell(text or (f'see {found[1]}' if found else ''))} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def python() -> str:
+    """Public names of the package, with signatures and docstrings."""
+    import abu_calc
+
+    lines = ["# Python", "", "All public names of `abu_calc`. Results are frozen, typed, and in the units of their names.", ""]
+    for name in sorted(abu_calc.__all__, key=str.lower):
+        value = getattr(abu_calc, name)
+        if not callable(value):
+            continue
+        lines += [f"## {name}", ""]
+        if not inspect.isclass(value):
+            lines += ["```python", _signature(name, value), "```", ""]
+        lines += ["```text", inspect.getdoc(value) or "", "```", ""]
+    return "\n".join(lines)
+
+
+def _signature(name: str, value: Any) -> str:
+    unwrapped = inspect.unwrap(value)
+    module = importlib.import_module(unwrapped.__module__)
+    entries = []
+    for parameter in inspect.signature(unwrapped).parameters.values():
+        text = str(parameter)
+        entries.append(re.sub(r"\babu_calc(?:\.\w+)+\.(\w+)", r"\1", text.replace(f"{module.__name__}.", "")))
+    shown = f"{name}({', '.join(entries)})"
+    return shown if len(shown) <= 100 else f"{name}(\n    " + ",\n    ".join(entries) + ",\n)"
+
+
+def _escaped(text: str) -> str:
+    """Text whose signs Markdown leaves alone."""
+    return re.sub(r"([\\*_<>\[\]|$])", r"\\\1", text)
+
+
+def _cell(text: str) -> str:
+    return _escaped(" ".join(text.split()))
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Write the pages when the builder is ready."""
+    app.connect("builder-inited", write)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
