@@ -64,7 +64,7 @@ class Machine(FileReading):
         """The tables of a whole machine; raises InputError, naming the command, for a file of bearings alone."""
         if not isinstance(self.tables, BearingFile):
             return self.tables
-        needs = f"`abu {command}` needs a whole machine" if command else "not a whole machine"
+        needs = "and this command needs a whole machine" if command else "not a whole machine"
         raise InputError(
             f"this file holds bearings only, {needs}",
             place=Place(self.file, key="machine"),

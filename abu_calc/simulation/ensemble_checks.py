@@ -1,7 +1,7 @@
 """Checks of `abu size` on the many start cases of an idle machine."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from abu_calc.foundation import patience
@@ -93,7 +93,8 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, to
     sentences = [f"{ensemble.balanced} of {_starts(ensemble.members)} balance"]
     others = failing or [outcome for outcome in ensemble.outcomes if not outcome.balanced]
     if others:
-        sentences.append(f"These do not: {_listed(others, ensemble)}")
+        verb = "does" if len(others) == 1 else "do"
+        sentences.append(f"{len(others)} {verb} not: {_first(others, ensemble)}")
     moved = design.imbalance.value * abs(design.autobalancer.requirement.plane_ratio)
     if worst and worst.imbalance > moved:
         sentences.append("The balls increase the imbalance: they gather on the heavy side or stall")
@@ -142,7 +143,8 @@ def _none_stalls(design: Design, ensemble: Ensemble, change: TriedChange | None,
     status = _grade(ensemble, lambda outcome: not outcome.hanging)
     message = "No ball stalls in any start case"
     if ensemble.hanging:
-        message = f"Balls stall in {_listed(ensemble.hanging, ensemble)}"
+        count = f"{len(ensemble.hanging)} of {_starts(ensemble.members)}"
+        message = f"Balls stall in {count}: {_first(ensemble.hanging, ensemble)}"
     for lost in ensemble.lost[:1]:
         message += f". No answer from {_words(lost.member.name, lost.member.drag, ensemble.drag)}"
     action: Action | str | None = _see(told)
@@ -178,19 +180,19 @@ def _words(name: str, drag: float, given: float) -> str:
     >>> _words("standstill", 5.0, 15.0)
     'standstill, drag rate 5 1/s (hot oil)'
     """
-    oil = "as given" if drag == given else "(hot oil)" if drag < given else "(cold oil)"
-    return f"{name}, drag rate {drag:.4g} 1/s {oil}"
+    if drag == given:
+        return f"{name}, given drag rate {drag:.4g} 1/s"
+    return f"{name}, drag rate {drag:.4g} 1/s ({'hot' if drag < given else 'cold'} oil)"
 
 
 def _starts(count: int) -> str:
     return f"{count} start case{'' if count == 1 else 's'}"
 
 
-def _listed(outcomes: Iterable[StartOutcome], ensemble: Ensemble) -> str:
-    """The first few in words."""
-    names = [_named(outcome, ensemble) for outcome in outcomes]
-    more = f"; and {len(names) - 2} more" if len(names) > 2 else ""
-    return "; ".join(names[:2]) + more
+def _first(outcomes: Sequence[StartOutcome], ensemble: Ensemble) -> str:
+    """The first of several start cases in words."""
+    first = _named(outcomes[0], ensemble)
+    return first if len(outcomes) == 1 else f"one is {first}"
 
 
 def _g_mm(value: float | None) -> float | None:

@@ -5,8 +5,9 @@ from typing import Final
 
 from abu_calc.foundation.checks import Action
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
-from abu_calc.sizing.actions import SIMULATED, Moved, set_action
+from abu_calc.sizing.actions import SIMULATED, set_action
 from abu_calc.sizing.balls import Candidate
 
 IN_ALL_OILS: Final = " in hot or cold oil"

@@ -4,13 +4,12 @@ Each action is calculated or simulated with the very entries that it names, and 
 judged, so that whoever follows it gets the number told.
 """
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import Final, NamedTuple
 
 from abu_calc.foundation.checks import Action
 from abu_calc.foundation.errors import AbuError
-from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import MachineFile
 from abu_calc.sizing.balls import Candidate, choose_for_motor
@@ -26,9 +25,6 @@ PINS: Final = ("ball_count", "ball_diameter_mm", "race_radius_mm")
 CALCULATED: Final = "calculated"
 SIMULATED: Final = "simulated"
 
-DECIMALS: Final = range(1, 5)
-DIGITS: Final = range(3, 9)
-
 
 class Followed(NamedTuple):
     """A case with replaced entries, as sizing reads it, its imbalance [kg m] and its autobalancer."""
@@ -36,56 +32,6 @@ class Followed(NamedTuple):
     case: Case
     imbalance: float
     candidate: Candidate
-
-
-@dataclass(frozen=True)
-class Moved:
-    """A quantity before and after a change, in `unit` as printed; `limit`: what it is held against."""
-
-    quantity: str
-    before: float
-    after: float
-    unit: str
-    limit: float | None = None
-
-    @property
-    def text(self) -> str:
-        """The change as a clause.
-
-        >>> Moved("the worst friction case", 113.49, 107.96, "dB", 109.0).text
-        'the worst friction case falls from 113.5 to 108.0 dB'
-        """
-        before, after = figures(self.before, self.after, self.limit, self.unit)
-        if before == after:
-            return f"{self.quantity} stays at {after} {self.unit}".rstrip()
-        verb = "falls" if self.after < self.before else "rises"
-        return f"{self.quantity} {verb} from {before} to {after} {self.unit}".rstrip()
-
-
-def figures(before: float, after: float, limit: float | None, unit: str) -> tuple[str, str]:
-    """Two numbers as text, with so many digits that they differ, and that none is shown across the limit.
-
-    >>> figures(109.03, 108.98, 109.0, "dB"), figures(1.0229, 0.65, 1.0, "s"), figures(math.inf, 0.5, 1.0, "s")
-    (('109.03', '108.98'), ('1.02', '0.650'), ('never', '0.500'))
-    """
-    for digits in DECIMALS if unit == "dB" else DIGITS:
-        texts = [_text(value, digits, unit) for value in (before, after)]
-        shown = [math.inf if text == "never" else float(text) for text in texts]
-        kept = limit is None or [x <= limit for x in shown] == [x <= limit for x in (before, after)]
-        if shown[0] != shown[1] and kept:
-            break
-    return texts[0], texts[1]
-
-
-def _text(value: float, digits: int, unit: str) -> str:
-    if math.isinf(value):
-        return "never"
-    if value == 0 or not unit:
-        return f"{value:g}"
-    if unit == "dB":
-        return f"{value:.{digits}f}"
-    whole = f"{value:#.{digits}g}"
-    return f"{float(whole):.0f}" if "e" in whole and abs(value) >= 1 else whole.rstrip(".")
 
 
 def overrides(entries: Entries) -> tuple[str, ...]:
@@ -166,8 +112,8 @@ def set_action(
     `present`: the candidate of today; another one is named in the sentence.
     """
     other = present is not None and pins(present) != pins(candidate) and not pins(candidate).items() <= changed.items()
-    chosen = f", with {in_words(candidate)}" if other else ""
-    text = f"Set {words(changed)}{chosen}: {moved.text} ({how}).{f' {more}' if more else ''}"
+    chosen = f" The choice is then {in_words(candidate)}." if other else ""
+    text = f"Set {words(changed)}: {moved.text} ({how}).{chosen}{f' {more}' if more else ''}"
     return Action(text, overrides({**changed, **pins(candidate)}))
 
 

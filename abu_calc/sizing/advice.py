@@ -3,9 +3,10 @@
 import math
 
 from abu_calc.foundation.checks import Action, Check, coded, verdict
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.sizing import trials
-from abu_calc.sizing.actions import Moved, followed, pins, set_action
+from abu_calc.sizing.actions import followed, pins, set_action
 from abu_calc.sizing.balls import Candidate, enough, light
 from abu_calc.sizing.capacity import steady_contact
 from abu_calc.sizing.case import Case

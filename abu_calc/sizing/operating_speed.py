@@ -8,9 +8,10 @@ from abu_calc.formulas.suspension import dynamic_stiffness, natural_frequency
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.foundation.validity import Range
-from abu_calc.sizing.actions import Entries, Moved, followed, overrides, pins, set_action, speeds_from, words
+from abu_calc.sizing.actions import Entries, followed, overrides, pins, set_action, speeds_from, words
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.case import Case, working_speeds
 
@@ -187,7 +188,7 @@ def motor_checks(case: Case, candidate: Candidate) -> tuple[Check, ...]:
         entries = {"machine.speed_range_rpm": [float(math.floor(min(low, idle))), float(math.ceil(max(high, idle)))]}
         end, verb = ("highest", "rises") if idle > limit else ("lowest", "falls")
         actions = [
-            f"If machine.speed_rpm is the speed under load: set {words(entries)}; the {end} working speed {verb} from "
+            f"If machine.speed_rpm is the speed under load: set {words(entries)}. The {end} working speed {verb} from "
             f"{limit:.6g} to {_end(entries, highest=idle > limit):.6g} rpm (calculated).",
             "If it is the idle speed: correct motor.no_load_speed_rpm.",
             f"If the machine is used at {idle:.0f} rpm: set machine.speed_rpm.",

@@ -139,8 +139,8 @@ def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
     arm, limit = bounds.arm, min(bounds.contact_stiffness_limit, bounds.contact_stiffness_limit_exact)
     stiff, stiffness, lifted = arm.contact_stiffness < limit, arm_stiffness(arm), _lifted(bounds.lifted_contact_angles)
     return (
-        coded("ABU501", verdict(stiff), "The arm is supercritical at the lowest speed and the worst contact angle, by "
-              "the safer of series and exact formula. That is necessary, not sufficient",
+        coded("ABU501", verdict(stiff), "The arm must be supercritical at the lowest speed and the worst contact "
+              "angle (safer of two formulas). That is necessary, not sufficient",
               arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
         _damped(arm, bounds.damping_limit, bounds.damping_limit_bunched),
         coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}",

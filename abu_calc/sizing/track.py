@@ -6,9 +6,10 @@ from abu_calc.formulas.slow_motion import ball_stiffness, decay_rate, optimum_dr
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import GRAVITY, from_si
 from abu_calc.sizing import trials
-from abu_calc.sizing.actions import Moved, followed, pins, set_action, speeds_from
+from abu_calc.sizing.actions import followed, pins, set_action, speeds_from
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import oval_rest, permitted_displacement
 from abu_calc.sizing.case import Case

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 from abu_calc.foundation.checks import Action
 from abu_calc.foundation.frozen import dataclass
-from abu_calc.sizing.actions import PINS, Followed, Moved, followed, pins, set_action, words
+from abu_calc.foundation.moved import Moved
+from abu_calc.sizing.actions import PINS, Followed, followed, pins, set_action, words
 from abu_calc.sizing.balls import Candidate, sound
 from abu_calc.sizing.case import Case
 

@@ -16,8 +16,9 @@ from abu_calc.formulas.suspension import dynamic_stiffness, resonance_factor
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
-from abu_calc.sizing.actions import Followed, Moved, followed, pins, set_action
+from abu_calc.sizing.actions import Followed, followed, pins, set_action
 from abu_calc.sizing.balls import Candidate
 from abu_calc.sizing.budget import accuracy_budget, displacement_level, judged_speeds, loudest_transmission
 from abu_calc.sizing.capacity import steady_contact

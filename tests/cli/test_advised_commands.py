@@ -11,8 +11,8 @@ from abu_calc.cli.app import COMMANDS
 from tests.cli.runner import again, once
 
 ADVISED = re.compile(r"`abu ([^`]+)`")
-NAMED = re.compile(rf"(?<![`\w/-])abu (?:{'|'.join(COMMANDS)})\b")
-"""A command outside of backquotes."""
+NAMED = re.compile(rf"(?<![`\w/-])abu (?:{'|'.join(COMMANDS)})\b(?!:)")
+"""A command outside of backquotes; an error begins with its own command and a colon."""
 REPORTS = ("size", "simulate", "levels", "stability", "effects", "grinding")
 MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
 PLACEHOLDERS = {"FILE", "MACHINE"}

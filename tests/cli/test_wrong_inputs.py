@@ -114,6 +114,6 @@ def test_an_error_of_a_later_step_names_the_override(tmp_path: Path, override: s
 @pytest.mark.parametrize("values", [{"max_width_mm": 4.0}, {"": {"max_outer_diameter_mm": 68.0, "max_width_mm": 4.0}}])
 def test_an_error_of_a_later_step_names_the_change(values: dict[str, object]) -> None:
     changed = abu_calc.read("msh-230").changed({f"autobalancer.{key}".strip("."): each for key, each in values.items()})
-    with pytest.raises(abu_calc.InputError, match=r"too narrow.* came from changed\(\)") as caught:
+    with pytest.raises(abu_calc.InputError, match=r"too narrow.* in a value that replaces the file's") as caught:
         abu_calc.size(changed)
     assert (caught.value.place.file, caught.value.place.key) == (None, "autobalancer.max_width_mm")

@@ -22,11 +22,12 @@ from abu_calc.foundation import patience
 from abu_calc.foundation.checks import Action, Check, Grade, coded
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.simulation.ensemble import TIGHTER, first_tolerance, hanging_bounds, run_of_start
 from abu_calc.simulation.scene_of_design import contact_half_angle, idle_scene
 from abu_calc.simulation.start_cases import Member, members
-from abu_calc.sizing.actions import Moved, set_action, speeds_from
+from abu_calc.sizing.actions import set_action, speeds_from
 from abu_calc.sizing.design import Design
 
 

@@ -221,7 +221,7 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
             f"By the slowest of all start cases, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s (limit "
             f"{limit:g} s). The slowest further start case settles in {worst.settling_time_or_inf:.3g} s"
         )
-    again = f"To repeat the worst of these: `abu simulate FILE {repeated(worst, design)}`."
+    again = f"To repeat the {NAMES[check.code]} of these: `abu simulate FILE {repeated(worst, design)}`."
     remedy = f"{check.remedy} {again}" if check.remedy else again
     return replace(check, status="warn", message=f"{check.message}. {share}", remedy=remedy)
 
@@ -241,6 +241,14 @@ def _time_in_words(outcome: StartOutcome) -> str:
         else f"settle too late, the slowest in {outcome.settling_time_or_inf:.3g} s"
     )
 
+
+NAMES: Final = {
+    "ABU401": "loudest",
+    "ABU701": "one with the largest imbalance left",
+    "ABU702": "slowest",
+    "ABU704": "one with the slowest ball",
+}
+"""The start case that is repeated for each check."""
 
 Broken = tuple[Callable[[StartOutcome, Design], bool], Callable[[StartOutcome], float], Callable[[StartOutcome], str]]
 

@@ -318,7 +318,7 @@ def _under_load(
         bouncing = " Wheel and workpiece go on bouncing." if work.stays_loud else ""
         yield (
             f"Under load, pressed before the balls have settled: {loud:.1f} dB with the autobalancer"
-            f"{_without(loud, bare)}{_share(count, loads, 'at once')}.{bouncing} `abu grinding FILE` tells what helps."
+            f"{_without(loud, bare)}.{_share(count, loads, 'at once')}{bouncing} `abu grinding FILE` tells what helps."
         )
 
 
@@ -336,7 +336,7 @@ def _share(count: int, loads: GrindingOutcomes | None, when: Pressed) -> str:
     if loads is None or not count:
         return ""
     total = loads.count(when)
-    return f", in {count} of {total} start case{'' if total == 1 else 's'}"
+    return f" That is so in {count} of {total} start case{'' if total == 1 else 's'}."
 
 
 def _starts(loads: GrindingOutcomes, bare: float | None, *, stays: bool) -> Iterator[str]:
@@ -349,7 +349,7 @@ def _starts(loads: GrindingOutcomes, bare: float | None, *, stays: bool) -> Iter
         if (louder := loads.louder(when)) and not (stays and when == "at once"):
             yield (
                 f"Under load, pressed {WHEN[when]}: up to {louder[-1].level:.1f} dB with the autobalancer"
-                f"{_without(louder[-1].level, bare)}{_share(len(louder), loads, when)}. `abu grinding FILE` simulates "
+                f"{_without(louder[-1].level, bare)}.{_share(len(louder), loads, when)} `abu grinding FILE` simulates "
                 "more of them."
             )
     if loads.lost:

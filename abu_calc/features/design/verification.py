@@ -243,7 +243,7 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         spent += ensemble.work
         if passes(other, ensemble):
             text = (
-                f"{_words(design.autobalancer)} balls, the lightest choice, do not pass from every start case; "
+                f"{_words(design.autobalancer)} balls, the lightest choice, do not pass from every start case. "
                 f"{_words(runner_up)} balls do."
             )
             return _with_search(Proven(other, ensemble, warnings=(text,)), accuracy, progress, workers)

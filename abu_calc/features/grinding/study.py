@@ -289,7 +289,7 @@ def _orbits(work: Work, still: SteadyWork) -> Iterator[Orbit]:
 def _refuse_idle(tables: MachineFile) -> None:
     if tables.grinding is None:
         raise InputError(
-            "`abu grinding` needs the machine at its work",
+            "this command needs the machine on its workpiece",
             place=Place(key="grinding"),
             found="no [grinding] in the file",
             remedy="Add a table [grinding] with press_force_N, cutting_coefficient and contact; "

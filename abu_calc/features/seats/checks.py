@@ -8,6 +8,7 @@ from abu_calc.features.seats.creep import CreepJudgement
 from abu_calc.features.seats.interference import of_all
 from abu_calc.features.seats.joint import Joint
 from abu_calc.foundation.checks import Check, coded, verdict
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
 from abu_calc.standards.balls import seat_material
 from abu_calc.standards.tolerance_classes import SOURCE
@@ -153,14 +154,20 @@ def _tighter(joint: Joint, recommended: str | None) -> str | None:
 def _remedy(joint: Joint, recommended: str | None) -> str:
     """Action: the advised tolerance class, as tried, and its result."""
     if recommended is None and joint.split:
-        return "A split housing cannot hold a ring whose load turns round it: a one-piece housing."
+        return "A split housing cannot hold a ring whose load turns round it. Specify a one-piece housing."
     if recommended is None:
-        return "No tabulated class both grips and is borne: a longer seat, a smaller load or a larger bearing."
+        return "No tabulated class both holds the ring and is permitted. Specify a longer seat or a larger bearing."
     best = joint.with_class(recommended)
+    moved = Moved("the least interference", _um(joint.interference.smallest), _um(best.interference.smallest), "µm")
+    if joint.stress == "fail":
+        moved = Moved("the largest interference", _um(joint.tightest), _um(best.tightest), "µm")
     if best.grip == "pass":
-        return f"{recommended} passes."
-    reaches = best.required is None or best.mean >= best.required.value
-    return f"{recommended} {'reaches it in the mean' if reaches else 'is the class of the catalogue for such a load'}."
+        verdict = f"{recommended} passes."
+    elif best.required is None or best.mean >= best.required.value:
+        verdict = f"{recommended} reaches the required interference in the mean."
+    else:
+        verdict = f"{recommended} is the catalogue's class for such a load."
+    return f"Specify {recommended}: {moved.text} (calculated). {verdict}"
 
 
 def _um(metres: float) -> float:

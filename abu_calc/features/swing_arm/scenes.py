@@ -15,10 +15,11 @@ from abu_calc.dynamics.stability.verdict import critical_damping, stability
 from abu_calc.features.swing_arm.verdict import CUTTING, IDLE, ArmJudgement, changed
 from abu_calc.foundation.checks import Action, Check, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, silent, within
 from abu_calc.simulation.design_scenes import SceneRun, simulated
 from abu_calc.simulation.durations import DECAY_TIMES
-from abu_calc.sizing.actions import SIMULATED, Moved, set_action
+from abu_calc.sizing.actions import SIMULATED, set_action
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import ArmRepair, up
 

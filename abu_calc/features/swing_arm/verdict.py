@@ -11,11 +11,12 @@ from abu_calc.dynamics.stability.verdict import stability
 from abu_calc.foundation.checks import Action, Check, Grade, coded, verdict
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.progress import Progress, silent
 from abu_calc.foundation.units import from_si
 from abu_calc.inputs.machine import SwingArm
 from abu_calc.simulation.scene_of_design import contact_half_angle, scene_of_design
-from abu_calc.sizing.actions import Moved, overrides, pins, words
+from abu_calc.sizing.actions import overrides, pins, words
 from abu_calc.sizing.design import Design
 from abu_calc.sizing.swing_arm import ArmRepair, SwingArmBounds, Way, changes, doubted, swing_arm_bounds
 

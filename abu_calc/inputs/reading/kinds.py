@@ -71,5 +71,5 @@ def refuse_others(document: "Document", *wanted: str) -> None:
     raise InputError(
         f"this file holds {kind.what}, not {BY_NAME[wanted[0]].what}",
         place=Place(document.file, key=mark),
-        remedy=f"`abu {kind.command}` takes it",
+        remedy=f"`abu {kind.command} FILE` takes it",
     )

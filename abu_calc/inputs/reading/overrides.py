@@ -44,7 +44,7 @@ class Override:
         """An error about an entry that stands in the file no more, or never did: this set it."""
         inner = (error.place.key or "").removeprefix(self.key)
         if self.given_as == CHANGED:
-            return error.at(Place(key=f"{self.key}{inner}"), ", in a value that Python gave for this key")
+            return error.at(Place(key=f"{self.key}{inner}"), ", in a value that replaces the file's")
         return error.at(Place(key=f"{self.option}: {error.place.key}" if inner else self.option))
 
 

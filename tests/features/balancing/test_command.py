@@ -87,8 +87,8 @@ def test_it_needs_no_scipy() -> None:
 def test_other_commands_send_readings_to_balance() -> None:
     for command in ("size", "simulate", "stability", "check-fit"):
         seen = abu(command, PRESET)
-        assert seen.status == 2 and "`abu balance` takes it" in seen.err
-    assert "`abu size` takes it" in abu("balance", "msh-230").err
+        assert seen.status == 2 and "`abu balance FILE` takes it" in seen.err
+    assert "`abu size FILE` takes it" in abu("balance", "msh-230").err
 
 
 def test_trial_runs_that_do_not_suffice_are_refused_with_what_is_missing(tmp_path: Path) -> None:

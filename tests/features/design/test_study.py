@@ -25,6 +25,6 @@ def test_a_scene_that_cannot_be_simulated_is_a_check_not_done() -> None:
 def test_wheel_and_work_that_part_are_a_warning() -> None:
     """c_n E (2MΩ² − …)/… of 90 µm at 0.49 MN/m is 49 N, more than the press of 45; a true wheel does not bounce."""
     warnings = once("size", "avtovaz-707-222", "--json").document["warnings"]
-    assert [warning for warning in warnings if warning.startswith("grinding: wheel and work part")]
+    assert [warning for warning in warnings if warning.startswith("grinding: wheel and workpiece lose contact")]
     warnings = abu("size", "avtovaz-707-222", "--set", "wheel.runout_mm=0.01", "--json").document["warnings"]
-    assert not [warning for warning in warnings if "wheel and work" in warning]
+    assert not [warning for warning in warnings if "lose contact" in warning]

@@ -6,6 +6,7 @@ import pytest
 
 from abu_calc.features.seats.study import check_fit
 from abu_calc.foundation.errors import InputError
+from abu_calc.foundation.quantity import as_plain
 from abu_calc.inputs.read_machine import read_machine
 from tests.cli.runner import abu
 
@@ -15,7 +16,7 @@ PRESET = "mmg-3200k-knife-shaft"
 def test_the_study_answers_what_the_command_prints():
     result, document = check_fit(read_machine(PRESET)), abu("check-fit", PRESET, "--json").document
     assert result.to_dict() == document["result"]
-    assert [dataclasses.asdict(check) for check in result.checks] == document["checks"]
+    assert [as_plain(dataclasses.asdict(check)) for check in result.checks] == document["checks"]
     assert result.status == document["status"] and list(result.warnings) == document["warnings"]
     assert result.provenance.input == document["input"]
     assert [seat.seat for seat in result.seats] == ["shaft", "housing"] * 3

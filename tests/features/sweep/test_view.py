@@ -77,3 +77,12 @@ def test_values_that_decide_little_are_only_counted(sweeps: Sweeps) -> None:
 def test_the_first_sentence_says_how_many_meet_the_limits(sweeps: Sweeps) -> None:
     text = " ".join(as_text(sweep_screen(sweeps.run(runs=12)), 80).split())
     assert "100 % of 12 machines built to one design meet the limits" in text
+
+
+def test_one_machine_is_counted_as_one(sweeps: Sweeps) -> None:
+    result = sweeps.run(runs=12)
+    one = replace(result, meets_limits=replace(result.meets_limits, of=1, share=1.0))
+    text = " ".join(as_text(sweep_screen(one), 80).split())
+    assert "1 machine built to one design meets the limits" in text and "1 machines" not in text
+    none = replace(one, meets_limits=replace(one.meets_limits, share=0.0))
+    assert "1 machine built to one design does not meet the limits" in as_text(sweep_screen(none), 200)

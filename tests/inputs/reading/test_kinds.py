@@ -36,4 +36,4 @@ def test_a_good_file_of_another_kind_is_refused_with_the_command_that_takes_it(t
     with pytest.raises(InputError, match="holds a scene, not a machine") as refused:
         refuse_others(document, "machine")
     assert (refused.value.place.file, refused.value.place.key) == (str(file), "scene")
-    assert refused.value.remedy == "`abu simulate` takes it"
+    assert refused.value.remedy == "`abu simulate FILE` takes it"
