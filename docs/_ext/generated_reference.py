@@ -118,7 +118,7 @@ def checks() -> str:
     lines = [
         "# Checks",
         "",
-        "A check ends with PASS, WARN, FAIL or NOT EVALUATED (in JSON `not-done`). `abu explain CODE` prints its entry.",
+        "A check ends with PASS, WARN, FAIL or NOT EVALUATED (in JSON `not-done`). `abu explain CODE` prints one.",
         "",
     ]
     for code in sorted(CHECK_CODES, key=lambda code: int(code[3:])):
@@ -178,7 +178,12 @@ def python() -> str:
     """Public names of the package, with signatures and docstrings."""
     import abu_calc
 
-    lines = ["# Python", "", "All public names of `abu_calc`. Results are frozen, typed, and in the units of their names.", ""]
+    lines = [
+        "# Python",
+        "",
+        "All public names of `abu_calc`. Results are frozen, typed, and in the units of their names.",
+        "",
+    ]
     for name in sorted(abu_calc.__all__, key=str.lower):
         value = getattr(abu_calc, name)
         if not callable(value):

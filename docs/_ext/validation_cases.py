@@ -1,7 +1,7 @@
 """Published cases recomputed when the documentation is built: published values and those of abu-calc side by side.
 
-    ```{abu-validation} transient         a table, or a table and a figure, of one case
-    ```
+```{abu-validation} transient         a table, or a table and a figure, of one case
+```
 """
 
 import csv
@@ -25,7 +25,7 @@ TRANSIENT = {
 """Largest spindle displacement in windows of time (Rodrigues et al. 2008, fig. 11 i), read off the figure, ± 2 %."""
 
 BOUNDARIES = {10.0: (1.4006,), 30.0: (1.6933,), 50.0: (1.0295, 1.0932, 1.8820)}
-"""Speeds over the natural frequency at which stability changes, by the mass of a ball in g (ibid., fig. 5a, ± 0.001)."""
+"""Speeds over the natural frequency at which stability changes, by a ball's mass in g (ibid., fig. 5a, ± 0.001)."""
 
 BALLS_G = {4.76: 0.440, 8.0: 2.091, 10.0: 4.084, 12.7: 8.366, 16.0: 16.728, 19.84: 31.895}
 """Masses of steel balls at 7.8e-3 g/mm³ by diameter in mm."""
@@ -69,9 +69,7 @@ def boundaries(folder: Path) -> tuple[Row, list[Row]]:
     rows: list[Row] = []
     for mass, published in BOUNDARIES.items():
         command = f"stability two-balls.toml --speeds 9.6:24 --set scene.race[0].ball_masses_g=[{mass},{mass}] --json"
-        ours = [
-            boundary["speed_rpm"] / RPM for boundary in json.loads(run(command).stdout)["result"]["boundaries_rpm"]
-        ]
+        ours = [boundary["speed_rpm"] / RPM for boundary in json.loads(run(command).stdout)["result"]["boundaries_rpm"]]
         ours = [speed for speed in ours if speed > 1.01]
         for k, value in enumerate(published):
             found = min(ours, key=lambda speed: abs(speed - value))

@@ -1,4 +1,4 @@
-"""A new effect goes the whole way, by as few files as the README says."""
+"""A new effect goes the whole way, by as few files as docs/contributing.md says."""
 
 import math
 import re

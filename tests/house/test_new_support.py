@@ -1,4 +1,4 @@
-"""A new support goes the whole way, by as few files as the README says."""
+"""A new support goes the whole way, by as few files as docs/contributing.md says."""
 
 import math
 from pathlib import Path

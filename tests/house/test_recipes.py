@@ -1,4 +1,4 @@
-"""What the README says of adding a thing is so: the files it names are there, and they are few."""
+"""The recipes of docs/contributing.md name files that are there, and few of them."""
 
 import re
 import sys
@@ -21,7 +21,7 @@ from abu_calc.sizing.case import Case, read_case
 from tests.cli.runner import abu
 from tests.house.structure import ROOT
 
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+CONTRIBUTING = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
 
 MOST = {"an effect": 4, "a support": 3, "a sizing step": 5, "an output format": 1, "a feature with a command": 3}
 """Existing files that a newcomer of each kind may touch, its example in the tests included."""
@@ -29,7 +29,7 @@ MOST = {"an effect": 4, "a support": 3, "a sizing step": 5, "an output format": 
 
 def named_by(what: str) -> set[str]:
     """The files that the recipe for it names, but for faces, which are to be read, not to be touched."""
-    found = re.search(rf"\*\*Adding {what}\.\*\*(.*?)(?=\n\*\*Adding|\n## )", README, re.DOTALL)
+    found = re.search(rf"\*\*Adding {what}\.\*\*(.*?)(?=\n\*\*Adding|\n## )", CONTRIBUTING, re.DOTALL)
     assert found is not None
     return set(re.findall(r"`([a-z_/]+\.py)`", found[1])) - {"dynamics/support.py", "dynamics/effect.py"}
 

@@ -1,1 +1,1 @@
-"""An effect and a support that the package does not have: what the recipes of the README are tried with."""
+"""An effect and a support that the package does not have: the recipes of docs/contributing.md are tried with them."""
