@@ -40,12 +40,12 @@ def file_of(result: Result) -> str:
 
 
 def facts(record: Record, *names: str) -> Facts:
-    """Rows for fields of a record, those without a value left out; without names all that say what they are."""
+    """Rows for fields of a record, those without a value or an uncertainty left out; without names all of them."""
     labels = quantities(type(record))
     rows = []
     for name in names or labels:
         value = getattr(record, name)
-        if value is not None and value != ():
+        if value is not None and value != () and not (labels[name].symbol == "±" and not value):
             rows.append((labels[name].label, labels[name].symbol, shown(type(record), name, value)))
     return Facts(tuple(rows))
 

@@ -249,7 +249,7 @@ def candidates(case: Case, imbalance: float) -> list[Candidate]:
 
 
 def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_radius: float) -> Candidate:
-    """One candidate in full: the need is that of the machine which carries it, so no iteration is left over."""
+    """One candidate in full; its required capacity is that of the machine which carries it, so nothing is iterated."""
     ball_mass, body = _ball_mass(case, diameter), _housing(case, diameter, race_radius)
     pitch = race_radius - diameter / 2
     beta = half_angle(diameter / 2, pitch)
@@ -351,14 +351,15 @@ def _front(sound: list[Candidate]) -> list[Candidate]:
 def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
     if not enough(case, candidate):
         return (
-            f"carries only {candidate.capacity_ratio:.2f} of the need, {case.autobalancer.capacity_margin:g} asked for"
+            f"carries {candidate.capacity_ratio:.2f} times the required capacity, "
+            f"{case.autobalancer.capacity_margin:g} times is asked for"
         )
     if not candidate.strength.enough:
-        return "stressed more than its material bears"
+        return "stress above the permitted one"
     if not candidate.stays_round:
-        return "its race would go oval"
+        return "its race would become oval"
     if not candidate.budget.within:
-        return f"rests at {from_si(candidate.budget.residual, 'um'):.1f} µm, more than the limit permits"
+        return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the permitted one"
     if not light(case, candidate):
         return f"weighs {100 * candidate.mass_fraction:.1f} % of the machine"
     heavier = from_si(candidate.mass - best.mass, "g")

@@ -27,9 +27,10 @@ def reports(file: str, commands: tuple[str, ...] = REPORTS) -> Iterator[str]:
 
 
 def failing(file: str, text: str) -> Iterator[str]:
-    """The commands of a text that do not run."""
+    """The commands of a text that do not run; FILE of `abu init` is a new one in the current folder."""
     for words in dict.fromkeys(ADVISED.findall(text)):
-        arguments = [file if word in PLACEHOLDERS else word for word in shlex.split(words)]
+        own = "new.toml" if words.startswith("init ") else file
+        arguments = [own if word in PLACEHOLDERS else word for word in shlex.split(words)]
         if (seen := again(*arguments)).status not in (0, 1):
             yield f"abu {words}: {seen.err}"
 

@@ -61,6 +61,12 @@ def test_values_below_the_noise_are_bounds() -> None:
             assert not re.search(r"\de-\d\d? *(mm|µm|°)|-\d+(\.\d+)? dB(?! (below|above))|± 0(\.0)? dB", told.out)
 
 
+@pytest.mark.slow
+def test_no_uncertainty_of_nothing_is_told() -> None:
+    for name in ("avtovaz-707-222", "avtovaz-707-305"):
+        assert not re.search(r"± *0(\.0)? dB", flat(once("grinding", name, "--full").out))
+
+
 def test_the_sheet_counts_one_entry_as_one(tmp_path: Path) -> None:
     drawing = tmp_path / "section.svg"
     assert abu("size", "avtovaz-707-370", "--set", "machine.mass_kg=5.4", "--output", str(drawing)).status == 0

@@ -189,7 +189,9 @@ def size(
             ),
             *lost,
         ),
-        warnings=(*machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work, loads, bound)),
+        warnings=merged(
+            *machine.warnings, *tried.warnings, *design.warnings, *remarks, *_under_load(work, loads, bound)
+        ),
         model=SizeModel.of(design, runs),
         provenance=Provenance.of(machine),
         system_mass_kg=design.system_mass,
@@ -235,6 +237,16 @@ def size(
         grinding_run=_view(design, runs, "grinding"),
         starts=Starts(None if tried.ensemble is None else (design, tried.ensemble, accuracy)),
     )
+
+
+def merged(*warnings: str) -> tuple[str, ...]:
+    """Warnings once each; one that begins another, longer one is left out."""
+    stems = [warning.rstrip(".") for warning in warnings]
+    once = dict.fromkeys(
+        warning for warning, stem in zip(warnings, stems, strict=True)
+        if not any(other != stem and other.startswith(f"{stem}.") for other in stems)
+    )  # fmt: skip
+    return tuple(once)
 
 
 def _seats(tables: MachineFile) -> "tuple[BearingSeats, ...]":

@@ -178,7 +178,7 @@ def _rounded(value: float) -> float:
 
 
 def other_drags(given: float, *, only_more: bool) -> list[float]:
-    """The nearest first; more drag alone where balls hang."""
+    """Other drag rates [1/s], the nearest first; greater ones alone if balls stall."""
     others = [drag for drag in OILS if drag > NEAR * given or (drag < given / NEAR and not only_more)]
     return sorted(others, key=lambda drag: max(drag / given, given / drag) if given else drag)[:MOST_DRAGS]
 
@@ -224,8 +224,9 @@ def proven(design: Design, accuracy: float = 0.01, progress: Progress = silent, 
         return Proven(design, None)
     first = simulate_members(design, accuracy, progress, workers)
     if passes(design, first):
-        change = change_for_oils(design, first, accuracy, progress, workers)
-        return _with_search(Proven(design, first, change), accuracy, progress, workers)
+        proof = _with_search(Proven(design, first), accuracy, progress, workers)
+        # After the search, whose time the patience that was asked for must not go to what only advises.
+        return replace(proof, change=change_for_oils(design, first, accuracy, progress, workers))
     if not design.frequency.balancing_possible or patience.over():
         return Proven(design, first)
     spent, placed = first.work, design.case.table.start

@@ -52,7 +52,7 @@ def starts_in_words(work: Work, loads: GrindingOutcomes | None) -> str:
 
 def _level(value: float, side: Side) -> str:
     """Level in words, with the scatter of chaotic runs."""
-    return f"{value:.1f} ± {side.scatter:.1f}" if side.scatter else f"{value:.1f}"
+    return f"{value:.1f} ± {max(side.scatter, 0.1):.1f}" if side.scatter else f"{value:.1f}"
 
 
 NOTHING = " Neither a truer wheel, a softer contact nor a harder press was found to change that."

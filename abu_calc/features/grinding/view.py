@@ -219,7 +219,7 @@ def _db(level: float | None, run: Simulated | None) -> str:
     """Level as text, with its scatter if the run is a mean of chaotic ones."""
     if level is None:
         return "not known"
-    return f"{level:.1f} ± {run.scatter_db:.1f} dB" if run and run.scatter_db else f"{level:.1f} dB"
+    return f"{level:.1f} ± {max(run.scatter_db, 0.1):.1f} dB" if run and run.scatter_db else f"{level:.1f} dB"
 
 
 def _um(length_mm: float | None) -> str:

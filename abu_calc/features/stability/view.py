@@ -26,8 +26,8 @@ ONE_STATE = (
     "elsewhere."
 )
 WHAT_TELLS = (
-    "Simulations show it: `abu size FILE`, or `abu simulate FILE --scene run-up --set run_up.time_s=1`. A scene file "
-    "needs [scene.effects.run_up]."
+    "A simulation shows it: `abu simulate FILE`, for a machine with --scene run-up and [run_up], for a scene with "
+    "[scene.effects.run_up]."
 )
 ON_A_GRID = (
     "They were looked for on a grid of speeds, refined where the growth rate bends or comes near zero, at up to some "

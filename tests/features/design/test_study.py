@@ -1,5 +1,6 @@
 """Scenes of a sized machine: which are simulated, and what is said of those that cannot be."""
 
+from abu_calc.features.design.study import merged
 from tests.cli.runner import abu, once
 
 
@@ -28,3 +29,7 @@ def test_wheel_and_work_that_part_are_a_warning() -> None:
     assert [warning for warning in warnings if warning.startswith("grinding: wheel and workpiece lose contact")]
     warnings = abu("size", "avtovaz-707-222", "--set", "wheel.runout_mm=0.01", "--json").document["warnings"]
     assert not [warning for warning in warnings if "lose contact" in warning]
+
+
+def test_a_warning_that_begins_a_longer_one_is_merged_with_it() -> None:
+    assert merged("a: b", "c.", "a: b. Known to 0.3 dB", "c.", "c") == ("c.", "a: b. Known to 0.3 dB", "c")

@@ -1,0 +1,48 @@
+"""Entries of actions: as options, as words, put into the tables of a file, and followed."""
+
+import pytest
+
+from abu_calc.foundation.moved import Moved
+from abu_calc.sizing import size
+from abu_calc.sizing.actions import followed, overrides, pins, set_action, speeds_from, with_entries, words
+from tests.sizing.machines import machine
+
+
+def test_entries_are_written_as_options_and_as_words() -> None:
+    entries = {"autobalancer.race_eccentricity_mm": 0.005, "machine.speed_range_rpm": [2600.0, 9000.0]}
+    assert overrides(entries) == ("autobalancer.race_eccentricity_mm=0.005", "machine.speed_range_rpm=[2600,9000]")
+    assert words(entries) == "race_eccentricity_mm = 0.005 and machine.speed_range_rpm = [2600, 9000]"
+
+
+def test_entries_are_checked_as_those_of_a_file() -> None:
+    table = with_entries(machine(), {"run_up.time_s": 0.5, "autobalancer.design": "light"})
+    assert table.run_up is not None and table.run_up.time_s == 0.5
+    assert table.autobalancer is not None and table.autobalancer.design == "light"
+    with pytest.raises(ValueError, match="less than or equal"):
+        with_entries(machine(), {"autobalancer.race_hardness_HRC": 1000.0})
+
+
+def test_a_pinned_candidate_is_the_only_choice() -> None:
+    design = size(machine())
+    again = followed(design.case, pins(design.autobalancer))
+    assert again is not None and again.candidate == design.autobalancer
+    assert followed(design.case, {"autobalancer.max_outer_diameter_mm": 20.0}) is None
+
+
+def test_the_lowest_speed_is_raised_with_the_rated_one_if_it_must() -> None:
+    case = size(machine(machine__speed_range_rpm=[3000, 6000])).case
+    assert list(speeds_from(case, 4000)) == [{"machine.speed_range_rpm": [4000, 6000]}]
+    (both,) = speeds_from(case, 7000)
+    assert both == {"machine.speed_rpm": 7000, "machine.speed_range_rpm": [7000, 7000]}
+
+
+def test_another_choice_of_balls_is_named() -> None:
+    """And pinned, so that whoever follows the action gets the number told."""
+    present, other = size(machine()).autobalancer, size(machine(autobalancer__capacity_margin=2.0)).autobalancer
+    moved = Moved("the mass", 5.0, 4.0, "%")
+    action = set_action({"autobalancer.design": "light"}, other, moved, present=present)
+    assert action.text.startswith(
+        'Set design = "light": the mass falls from 5.00 to 4.00 % (calculated). The choice is'
+    )
+    assert action.overrides[0] == "autobalancer.design=light" and len(action.overrides) == 4
+    assert "The choice" not in set_action({"run_up.time_s": 0.5}, present, moved, present=present).text
