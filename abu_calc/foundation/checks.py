@@ -1,7 +1,7 @@
 """Checks of a design and the status of several, with the meaning of each check code.
 
-A code has its question, its criterion and its action; `abu explain ABU203` shows it. The texts are in check_data/, one
-file for each hundred, read when one of its codes is first requested.
+A code has its question, a condition for each grade and its action; `abu explain ABU203` shows them. The texts are in
+check_data/, one file for each hundred, read when one of its codes is first requested.
 """
 
 import tomllib
@@ -32,29 +32,49 @@ HUNDREDS: Final = {
 
 @dataclass(frozen=True)
 class CheckCode:
-    """One kind of check: its code, its name, and what a reader of a report wants to know of it."""
+    """One kind of check: its code, its name, its question, the condition of each grade that it can get, its action.
+
+    A condition is a sentence that goes on after "PASS if"; it is empty if the check cannot get that grade.
+    """
 
     code: str
     name: str
-    asks: str
-    fails: str
-    remedy: str
+    question: str
+    action: str
+    pass_if: str = ""
+    warn_if: str = ""
+    fail_if: str = ""
+    not_evaluated_if: str = ""
     step: str = ""
     """The step of `abu explain` that it belongs to, if any."""
     formulas: tuple[str, ...] = ()
     """Keys of the formulas that decide it."""
 
 
+CONDITIONS: Final = {"pass": "PASS", "warn": "WARN", "fail": "FAIL", "not_evaluated": "NOT EVALUATED"}
+"""Keys of the conditions in check_data/, with the grades as people read them."""
+
+
 @cache
 def _hundred(file: str) -> dict[str, CheckCode]:
-    """The codes of one file; one that is asked `as` another has all but its name from that."""
+    """Codes of one file; a code `as` another takes all but its name from that."""
     codes: dict[str, CheckCode] = {}
     for code, table in tomllib.loads((_DATA / f"{file}.toml").read_text(encoding="utf-8")).items():
         if "as" in table:
             codes[code] = replace(codes[table["as"]], code=code, name=table["name"])
         else:
-            codes[code] = CheckCode(code, **table | {"formulas": tuple(table.get("formulas", ()))})
+            conditions = {f"{grade}_if": table.pop(grade, "") for grade in CONDITIONS}
+            codes[code] = CheckCode(code, **table | conditions | {"formulas": tuple(table.get("formulas", ()))})
     return codes
+
+
+def number_of(code: str) -> int:
+    """Number of a code, by which checks are ordered.
+
+    >>> sorted(["ABU1001", "ABU201"], key=number_of)
+    ['ABU201', 'ABU1001']
+    """
+    return int(code.removeprefix("ABU"))
 
 
 class _Codes(Mapping[str, CheckCode]):
@@ -64,7 +84,7 @@ class _Codes(Mapping[str, CheckCode]):
         return _hundred(HUNDREDS[code[:-2]])[code]
 
     def __iter__(self) -> Iterator[str]:
-        return (code for file in HUNDREDS.values() for code in _hundred(file))
+        return iter(sorted((code for file in HUNDREDS.values() for code in _hundred(file)), key=number_of))
 
     def __len__(self) -> int:
         return sum(1 for _ in self)

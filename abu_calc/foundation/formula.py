@@ -167,14 +167,21 @@ class Formula:
 
     @property
     def for_users(self) -> tuple[str, ...]:
-        """The same in the units of files and reports, and how to come from them to SI, which equations take."""
-        units = self.shown.split(", ") if self.shown else list(map(unit_in_files, filter(None, self.unit.split(", "))))
-        unit = ", ".join(unit_name(single_unit, si=False) for single_unit in units)
+        """The same in the units of files and reports; `file_units` lists them."""
+        unit = ", ".join(unit_name(single_unit, si=False) for single_unit in self._result_units)
         limits = [span if isinstance(span, str) else f"{span.name} {in_files(span)}" for span in self.checked]
         said = self._said(f" [{unit}]" if unit else "", self._ranges(limits), si=False)
-        differ = "" if self.own_units else conversions((*units, *(signs()[name].unit for name in self._names)))
         place = 1 + bool(self._names)
-        return (*said[:place], *([f"Equations take SI: {differ}."] if differ else ()), *said[place:])
+        return (*said[:place], *(["This equation takes these units, not SI."] if self.own_units else ()), *said[place:])
+
+    @property
+    def file_units(self) -> tuple[str, ...]:
+        """Units of files and reports in which people see its numbers, while the equation takes SI."""
+        return () if self.own_units else (*self._result_units, *(signs()[name].unit for name in self._names))
+
+    @property
+    def _result_units(self) -> list[str]:
+        return self.shown.split(", ") if self.shown else list(map(unit_in_files, filter(None, self.unit.split(", "))))
 
     def _said(self, unit: str, ranges: str, *, si: bool) -> tuple[str, ...]:
         equation = f": {self.equation}" if self.equation else ""

@@ -44,7 +44,7 @@ def one_screen(
     kept = min(2 + _height(warnings), LEAST) if warnings else 0
     taken = room - kept - min(1 + _height(body), LEAST)
     reasons = told(groups)
-    if _height(reasons) > taken:  # the entries of actions stand in the whole report, too
+    if _height(reasons) > min(taken, room - kept - 1 - _height(body)):  # entries of actions stand in the report, too
         codes = [[check.code for check in alike] for alike in groups]
         reasons = _fitted([reason(alike) for alike in groups], codes, taken)
     room -= height(reasons)

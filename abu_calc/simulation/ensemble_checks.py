@@ -91,7 +91,7 @@ def _balances(design: Design, ensemble: Ensemble, change: TriedChange | None, to
     worst = max(given, key=lambda outcome: outcome.imbalance, default=None)
     status = _grade(ensemble, lambda outcome: outcome.balanced)
     sentences = [f"{ensemble.balanced} of {_starts(ensemble.members)} balance"]
-    others = failing or [outcome for outcome in ensemble.outcomes if not outcome.balanced]
+    others = [*failing, *(start for start in ensemble.outcomes if not start.balanced and start not in failing)]
     if others:
         verb = "does" if len(others) == 1 else "do"
         sentences.append(f"{len(others)} {verb} not: {_first(others, ensemble)}")

@@ -4,7 +4,7 @@ import datetime
 import importlib
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from abu_calc.foundation.checks import Check, Status, overall
+from abu_calc.foundation.checks import Check, Status, number_of, overall
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Record, as_plain, record
 from abu_calc.version import __version__
@@ -80,6 +80,11 @@ class Result(Record):
     model: Record = NOTHING
     """The SI numbers behind the result, for those who check it by hand."""
     provenance: Provenance
+
+    def __init__(self, **values: object) -> None:
+        super().__init__(**values)
+        # Checks stand in the order of their codes; several of one code keep theirs.
+        self.__dict__["checks"] = tuple(sorted(self.checks, key=lambda check: number_of(check.code)))
 
     @property
     def status(self) -> Status:

@@ -141,10 +141,10 @@ def _checks(bounds: SwingArmBounds) -> tuple[Check, ...]:
     return (
         coded("ABU501", verdict(stiff), "The arm must be supercritical at the lowest speed and the worst contact "
               "angle (safer of two formulas). That is necessary, not sufficient",
-              arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].remedy),
+              arm.contact_stiffness, limit, "N/m", None if stiff else CHECK_CODES["ABU501"].action),
         _damped(arm, bounds.damping_limit, bounds.damping_limit_bunched),
         coded("ABU504", verdict(stiffness > 0), f"Static stiffness with the contact. {lifted}",
-              stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].remedy, "least"),
+              stiffness, 0.0, "N/m", None if stiffness > 0 else CHECK_CODES["ABU504"].action, "least"),
         _pressing(arm, bounds.pressed_angle),
     )  # fmt: skip
 
@@ -163,7 +163,7 @@ def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
         message += ". While the balls are together on the heavy side, as in a start, it does not"
     more = None if bunched is None else f"A joint damping above {bunched:.3g} N·s/m overcomes that, too (calculated)."
     return coded("ABU502", verdict(damped, safe), message, arm.joint_damping, limit, "N·s/m",
-                 CHECK_CODES["ABU502"].remedy if not damped else None if safe else more, "least")  # fmt: skip
+                 CHECK_CODES["ABU502"].action if not damped else None if safe else more, "least")  # fmt: skip
 
 
 def _lifted(angles: tuple[float, float] | None) -> str:
@@ -182,7 +182,7 @@ def _pressing(arm: Arm, angle: float | None) -> Check:
                      "presses", None, touch, "°", "Turn the contact angle nearer to 90°.", "least")  # fmt: skip
     pressed = angle > arm.touch_angle
     return coded("ABU503", verdict(pressed), "The resting angle must be beyond the touching angle",
-                 from_si(angle, "deg"), touch, "°", None if pressed else CHECK_CODES["ABU503"].remedy,
+                 from_si(angle, "deg"), touch, "°", None if pressed else CHECK_CODES["ABU503"].action,
                  "least")  # fmt: skip
 
 

@@ -8,7 +8,6 @@ import inspect
 import json
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -22,18 +21,12 @@ KINDS = {
 }
 
 CHECK_LABELS = {
-    "question": "Question",
-    "asks": "Question",
+    "question": "Question:",
     "pass_if": "PASS if",
-    "passes": "PASS if",
     "warn_if": "WARN if",
-    "warns": "WARN if",
     "fail_if": "FAIL if",
-    "fails": "FAIL if",
     "not_evaluated_if": "NOT EVALUATED if",
-    "not_evaluated": "NOT EVALUATED if",
-    "action": "Action",
-    "remedy": "Action",
+    "action": "Action:",
 }
 """Labels of the texts of a check, by the fields of `CheckCode`."""
 
@@ -124,10 +117,9 @@ def checks() -> str:
     for code in sorted(CHECK_CODES, key=lambda code: int(code[3:])):
         check = CHECK_CODES[code]
         lines += [f"({code.lower()})=", f"## {code}: {check.name}", ""]
-        for field in fields(check):  # type: ignore[arg-type]
-            text = getattr(check, field.name)
-            if field.name in CHECK_LABELS and text:
-                lines += [f"**{CHECK_LABELS[field.name]}:** {_escaped(text)}", ""]
+        for field, label in CHECK_LABELS.items():
+            if text := getattr(check, field):
+                lines += [f"**{label}** {_escaped(text)}", ""]
         if check.step:
             lines += [f"Formulas: {{ref}}`step-{check.step}`", ""]
     return "\n".join(lines)
@@ -147,8 +139,7 @@ def formulas() -> str:
     for name, step in STEPS.items():
         lines += [f"(step-{name})=", f"## {step.title}", ""]
         for formula in step.formulas:
-            texts = [text for text in formula.for_users if not text.startswith("Equations take SI")]
-            lines += [f"### {formula.name.capitalize()}", "", "```text", *texts, "```", ""]
+            lines += [f"### {formula.name.capitalize()}", "", "```text", *formula.for_users, "```", ""]
     return "\n".join(lines)
 
 

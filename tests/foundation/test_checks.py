@@ -1,10 +1,13 @@
 """Check codes by their hundreds, and the status of several checks."""
 
+import ast
+import re
 from itertools import combinations_with_replacement
 
 import pytest
 
 from abu_calc.foundation.checks import CHECK_CODES, HUNDREDS, Check, Grade, coded, overall, verdict, worst
+from tests.house.structure import ROOT
 
 GRADES: tuple[Grade, ...] = ("pass", "warn", "not-done", "fail")
 """From best to worst."""
@@ -38,7 +41,28 @@ def test_every_code_stands_in_the_file_of_its_hundred_under_its_own_name() -> No
     for code in codes:
         entry = CHECK_CODES[code]
         assert (entry.code, code[:-2] in HUNDREDS) == (code, True)
-        assert entry.name and entry.asks and entry.fails and entry.remedy, code
+        assert entry.name and entry.question.rstrip().endswith(("?", ".", "scene")) and "?" in entry.question, code
+        assert entry.action.endswith("."), code
+        conditions = [entry.pass_if, entry.warn_if, entry.fail_if, entry.not_evaluated_if]
+        assert sum(map(bool, conditions)) >= (1 if code.endswith(("604", "614")) else 2), code
+        assert all(condition[0].islower() or condition[0].isupper() for condition in conditions if condition), code
+        assert all(condition.endswith(".") for condition in conditions if condition), code
+
+
+def test_the_grades_that_the_code_gives_outright_have_a_condition() -> None:
+    """`coded("ABU…", "warn", …)` and likewise: the grade stands in the call."""
+    given: dict[str, set[str]] = {}
+    for file in (ROOT / "abu_calc").rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "coded"):
+                continue
+            values = [argument.value for argument in node.args[:2] if isinstance(argument, ast.Constant)]
+            if len(values) == 2:
+                given.setdefault(str(values[0]), set()).add(str(values[1]))
+    assert len(given) > 10
+    for code, grades in given.items():
+        for grade in grades:
+            assert getattr(CHECK_CODES[code], f"{grade.replace('not-done', 'not_evaluated')}_if"), (code, grade)
 
 
 def test_a_code_that_nobody_gave_has_no_entry() -> None:
@@ -50,3 +74,16 @@ def test_a_code_that_nobody_gave_has_no_entry() -> None:
 def test_a_check_of_several_things_names_its_own() -> None:
     assert coded("ABU621", "fail", "too tight", 1.0, 2.0, "µm", of="6203").name.endswith(", 6203")
     assert coded("ABU621", "fail", "too tight").name == CHECK_CODES["ABU621"].name
+
+
+def test_texts_are_short_sentences() -> None:
+    """A condition goes on after "PASS if"; no sentence has more than 35 words, most have less than 20."""
+    for code in CHECK_CODES:
+        entry = CHECK_CODES[code]
+        texts = (entry.question, entry.pass_if, entry.warn_if, entry.fail_if, entry.not_evaluated_if, entry.action)
+        for sentence in re.split(r"(?<=[.?;])\s+", " ".join(" ".join(texts).split())):
+            assert len(sentence.split()) <= 35, (code, sentence)
+            assert not re.search(r"\b(hang|tongue|remedy|rung|ledger|worst(?! friction case))\b", sentence), (
+                code,
+                sentence,
+            )

@@ -73,9 +73,9 @@ def test_symbols_of_results_are_signs_of_the_list() -> None:
 @pytest.mark.parametrize("step", STEPS)
 def test_explain_has_the_units_of_files_and_says_how_to_come_to_si(step: str) -> None:
     shown = " ".join(abu("explain", step).out.split())
-    for part in shown.split(" Equations take SI: "):
-        units = part.split(". ", 1)[1] if part is not shown else part
-        assert not re.search(r"\[(kg m|rad|rad/s|Pa|m/s)\]", units)
+    formulas, *conversion = shown.split(" Equations take SI: ")
+    assert not re.search(r"\[(kg m|rad|rad/s|Pa|m/s)\]", formulas)
+    assert len(conversion) == 1 and conversion[0].startswith("1 ")
 
 
 def test_units_are_those_of_files_or_of_si() -> None:
@@ -87,7 +87,8 @@ def test_units_are_those_of_files_or_of_si() -> None:
     helped = formula_of("formulas.balls:capacity").paragraphs
     shown = formula_of("formulas.balls:capacity").for_users
     assert helped[0].endswith("[kg m].") and shown[0].endswith("[g·mm].")
-    assert shown[2] == "Equations take SI: 1 g·mm = 1e-6 kg m, 1 g = 0.001 kg, 1 mm = 0.001 m, 1 ° = 0.01745 rad."
+    expected = "1 g·mm = 1e-6 kg m, 1 g = 0.001 kg, 1 mm = 0.001 m, 1 ° = 0.01745 rad"
+    assert conversions(formula_of("formulas.balls:capacity").file_units) == expected
 
 
 @pytest.mark.parametrize("one", FORMULAS, ids=lambda one: one.key)
@@ -104,14 +105,15 @@ def test_results_in_micrometres_hertz_and_kilonewtons_are_explained_in_them() ->
         assert shown[name].endswith("[µm].")
     assert shown["natural frequency"].endswith("[Hz].") and shown["natural frequencies"].endswith("[Hz].")
     assert shown["load intensity"].endswith("[kN/m].") and shown["printed answer"].endswith("[°, g].")
-    assert "1 µm = 1e-6 m" in formula_of("formulas.friction_band:friction_band").for_users[2]
+    assert "1 µm = 1e-6 m" in conversions(formula_of("formulas.friction_band:friction_band").file_units)
     assert formula_of("formulas.friction_band:friction_band").paragraphs[0].endswith("[m].")
 
 
 def test_no_equation_with_units_of_its_own_says_that_it_takes_si() -> None:
     """13·F_r·k_B/b_s gives µm by kN and mm; in SI it would be 1e12 times too much."""
     for name in ("creep_interference", "load_loss", "catalogue_smoothing_loss"):
-        assert "Equations take SI" not in " ".join(formula_of(f"features.seats.requirement:{name}").for_users)
+        formula = formula_of(f"features.seats.requirement:{name}")
+        assert not formula.file_units and "This equation takes these units, not SI." in formula.for_users
 
 
 def test_labels_of_the_design_are_equations_that_give_its_numbers() -> None:

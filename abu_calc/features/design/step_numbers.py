@@ -3,7 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.features.explain.steps import STEPS, step_blocks
+from abu_calc.features.explain.steps import STEPS, si_conversions, step_formulas
+from abu_calc.foundation.formula import Formula
 from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import Block, Heading, number
 
@@ -130,8 +131,10 @@ None: that machine has no such step.
 def explanation_blocks(result: "SizeResult") -> tuple[Block, ...]:
     """Every step that the result has, formulas and numbers."""
     blocks: list[Block] = [Heading("FORMULAS, WITH THE NUMBERS OF THIS MACHINE")]
+    formulas: list[Formula] = []
     for name, step in STEPS.items():
         numbers = NUMBERS[name](result) if name in NUMBERS else None
         if numbers is not None:
-            blocks += step_blocks(step, numbers)
-    return tuple(blocks)
+            blocks += step_formulas(step, numbers)
+            formulas += step.formulas
+    return (*blocks, *si_conversions(formulas))

@@ -80,16 +80,19 @@ def _effect(name: str, kind: str, about: str, detail: str) -> Outcome:
 
 def _code(code: str) -> Outcome:
     from abu_calc.features.explain.steps import code_blocks
-    from abu_calc.foundation.checks import CHECK_CODES
+    from abu_calc.foundation.checks import CHECK_CODES, CONDITIONS
     from abu_calc.foundation.formula import formula_of
 
     check = CHECK_CODES[code]
     result = {
         "check": check.code,
         "name": check.name,
-        "asks": check.asks,
-        "fails": check.fails,
-        "remedy": check.remedy,
+        "asks": check.question,
+        "fails": check.fail_if,
+        "remedy": check.action,
+        "question": check.question,
+        **{grade: getattr(check, f"{grade}_if") or None for grade in CONDITIONS},
+        "action": check.action,
         "step": check.step or None,
         "formulas": {each.name: "\n".join(each.for_users) for each in map(formula_of, check.formulas)},
     }

@@ -3,11 +3,11 @@
 Equation, units, range, source and misprints of a formula are registered beside its function.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Final
 
-from abu_calc.foundation.checks import CheckCode
-from abu_calc.foundation.formula import Formula, formula_of
+from abu_calc.foundation.checks import CONDITIONS, CheckCode
+from abu_calc.foundation.formula import Formula, conversions, formula_of
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
 
@@ -202,11 +202,16 @@ STEPS: Final[Mapping[str, Step]] = {
 
 
 def step_blocks(step: Step, numbers: tuple[str, ...] = ()) -> list[Block]:
-    """One step: numbers first, then each formula as it speaks of itself."""
+    """One step: its numbers, each of its formulas, and the conversion to SI."""
+    return [*step_formulas(step, numbers), *si_conversions(step.formulas)]
+
+
+def step_formulas(step: Step, numbers: tuple[str, ...] = ()) -> list[Block]:
+    """One step without the conversion to SI, for reports of several steps."""
     return [Heading(step.title), *(Paragraph(f"→ {line}") for line in numbers), *formula_blocks(step.formulas)]
 
 
-def formula_blocks(formulas: tuple[Formula, ...]) -> list[Block]:
+def formula_blocks(formulas: Iterable[Formula]) -> list[Block]:
     """Each formula under its name."""
     blocks: list[Block] = []
     for formula in formulas:
@@ -214,14 +219,23 @@ def formula_blocks(formulas: tuple[Formula, ...]) -> list[Block]:
     return blocks
 
 
+def si_conversions(formulas: Iterable[Formula]) -> list[Block]:
+    """Conversion to SI, which the equations take; it stands once after all formulas."""
+    units = conversions(tuple(unit for formula in formulas for unit in formula.file_units))
+    return [Paragraph(f"Equations take SI: {units}.")] if units else []
+
+
 def code_blocks(code: CheckCode) -> list[Block]:
-    """One check code: what is asked, what fails it, what to do, and the formulas that decide it."""
+    """One check code: question, condition of each grade, action, and the formulas that decide it."""
     see = [Paragraph(f"Step: abu explain {code.step}")] if code.step else []
+    formulas = tuple(map(formula_of, code.formulas))
+    conditions = ((label, getattr(code, f"{grade}_if")) for grade, label in CONDITIONS.items())
     return [
         Heading(f"{code.code} {code.name}"),
-        Paragraph(f"Asks: {code.asks}"),
-        Paragraph(f"Fails: {code.fails}"),
-        Paragraph(f"To do: {code.remedy}"),
+        Paragraph(f"Question: {code.question}"),
+        *(Paragraph(f"{label} if {condition}") for label, condition in conditions if condition),
+        Paragraph(f"Action: {code.action}"),
         *see,
-        *formula_blocks(tuple(map(formula_of, code.formulas))),
+        *formula_blocks(formulas),
+        *si_conversions(formulas),
     ]

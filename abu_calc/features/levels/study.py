@@ -110,7 +110,9 @@ class PlaceLevel(Record):
     level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octaves: tuple[OctaveLevel, ...]
-    corrected_level_db: Annotated[float | None, Quantity("corrected level", "L", 4, "of the octaves that are known")]
+    corrected_level_db: Annotated[
+        float | None, Quantity("weighted overall level", "L", 4, "of the octaves that are known")
+    ]
     displacement_rms_um: Annotated[float | None, Quantity("displacement rms", "s_v", 3, "of the louder axis")]
     acceleration_m_per_s2: Annotated[float | None, Quantity("acceleration", "a", 3, "rms, not weighted, louder axis")]
     weighted_axis_m_per_s2: Annotated[float | None, Quantity("weighted acceleration of one axis", "a_h", 3)]
@@ -181,7 +183,7 @@ class LevelsResult(Result):
     level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
     velocity_rms_mm_per_s: Annotated[float | None, Quantity("velocity rms", "v")]
     octaves: tuple[OctaveLevel, ...]
-    corrected_level_db: Annotated[float | None, Quantity("corrected level", "L")]
+    corrected_level_db: Annotated[float | None, Quantity("weighted overall level", "L")]
     weighted_acceleration_m_per_s2: Annotated[float | None, Quantity("weighted acceleration", "a_hv", 3)]
     daily_exposure_m_per_s2: Annotated[float | None, Quantity("daily exposure", "A(8)", 3)]
     places: tuple[PlaceLevel, ...]

@@ -187,7 +187,7 @@ def test_every_preset_is_of_a_kind_and_has_a_title(name: str) -> None:
 
 def test_a_file_of_another_kind_is_refused_with_the_command_that_takes_it(tmp_path: Path) -> None:
     readings = written(tmp_path, RIG, ROTOR, RUN)
-    with pytest.raises(InputError, match=r"readings of a rig, not a machine\n  `abu balance`"):
+    with pytest.raises(InputError, match=r"readings of a rig, not a machine\n  `abu balance FILE`"):
         abu_calc.read(readings)
     with pytest.raises(InputError, match=r"readings of a rig, not a scene"):
         abu_calc.read_scene(readings)

@@ -14,7 +14,13 @@ def test_a_code_is_explained(code: str) -> None:
     assert not one.step or one.step in STEPS
     shown = abu("explain", code.lower())
     assert shown.status == 0
-    for part in (one.name, one.asks, one.fails, one.remedy, *(formula_of(key).for_users[0] for key in one.formulas)):
+    for part in (
+        one.name,
+        one.question,
+        one.fail_if,
+        one.action,
+        *(formula_of(key).for_users[0] for key in one.formulas),
+    ):
         assert " ".join(part.split()) in " ".join(shown.out.split())
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from abu_calc.features.explain.steps import STEPS, Step, code_blocks, formula_blocks, step_blocks
+from abu_calc.features.explain.steps import STEPS, Step, code_blocks, formula_blocks, si_conversions, step_blocks
 from abu_calc.foundation.checks import CHECK_CODES
 from abu_calc.reporting.blocks import Heading, Paragraph
 
@@ -18,7 +18,8 @@ def test_numbers_stand_between_the_title_and_the_formulas() -> None:
     title, number, *others = step_blocks(STEPS["capacity"], ("m₀e = 250 g·mm",))
     assert title == Heading(STEPS["capacity"].title)
     assert number == Paragraph("→ m₀e = 250 g·mm")
-    assert others == formula_blocks(STEPS["capacity"].formulas)
+    formulas = STEPS["capacity"].formulas
+    assert others == [*formula_blocks(formulas), *si_conversions(formulas)]
 
 
 def test_a_formula_without_registration_is_an_error() -> None:
@@ -30,5 +31,5 @@ def test_a_code_names_its_step_where_it_has_one() -> None:
     for code in ("ABU201", "ABU703"):
         check = CHECK_CODES[code]
         texts = [block.text for block in code_blocks(check) if isinstance(block, Paragraph)]
-        assert texts[0] == f"Asks: {check.asks}"
+        assert texts[0] == f"Question: {check.question}"
         assert (f"Step: abu explain {check.step}" in texts) == bool(check.step)
