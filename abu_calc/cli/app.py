@@ -146,8 +146,8 @@ def _starved(error: BaseException) -> NotTrustworthyError:
     """The error of a process without memory, or with half a library."""
     if isinstance(error, ImportError):
         text = f"a library cannot be loaded: {shortened(escaped(str(error)))}"
-        return NotTrustworthyError(f"{text}; install abu-calc anew, or give the process more memory")
-    return NotTrustworthyError("the memory is exhausted; give the process more, or ask for less at once")
+        return NotTrustworthyError(f"{text}; install abu-calc again, or give the process more memory")
+    return NotTrustworthyError("the memory is exhausted; give the process more memory, or request less at once")
 
 
 def _memory() -> NotTrustworthyError | None:

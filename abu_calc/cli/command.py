@@ -106,7 +106,9 @@ def write_files(outcome: Outcome, how: Delivery) -> bool:
             targets = (Target(path, _told(text, f"writing {path}", tell)) for path, text in files)
             write(targets, force=how.force)
     except (InputError, OutputError) as error:
-        computed = f"What was computed: {outcome.status}, exit status {outcome.exit_status} without the file."
+        computed = (
+            f"The computed result is {outcome.status}; without the file, the exit status is {outcome.exit_status}."
+        )
         error.remedy = " ".join(part for part in (error.remedy, computed) if part)
         raise
     return True

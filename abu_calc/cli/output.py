@@ -43,7 +43,7 @@ def _pair(text: str) -> tuple[str, Path]:
     name, sign, file = text.partition("=")
     if not (name.strip() and sign and file.strip()):
         raise InputError(
-            "not a figure and its file", place=PLACE, found=text, allowed="NAME=FILE, as levels=levels.svg"
+            "not a figure and its file", place=PLACE, found=text, allowed="NAME=FILE, such as levels=levels.svg"
         )
     return name.strip(), Path(file.strip())
 

@@ -74,7 +74,10 @@ def _check_tolerances(tolerances: dict[str, object], expected: dict[str, object]
             )
         if path == TOLERANCE or path not in expected:
             raise problem(
-                "a tolerance of nothing expected", TOLERANCE, path, remedy=f'add "{path}" = … to [expected], or drop it'
+                "this tolerance has no expected value",
+                TOLERANCE,
+                path,
+                remedy=f'add "{path}" = … to [expected], or remove the tolerance',
             )
 
 

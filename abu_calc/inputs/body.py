@@ -149,7 +149,13 @@ class MachineTable(Table):
         names = [handle.name for handle in self.handle]
         for index, name in enumerate(names):
             if name in names[:index]:
-                raise problem(f'two handles have the name "{name}"', "handle", index, "name", remedy="name them apart")
+                raise problem(
+                    f'two handles have the name "{name}"',
+                    "handle",
+                    index,
+                    "name",
+                    remedy="give each handle its own name",
+                )
         return self
 
 

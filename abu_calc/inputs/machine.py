@@ -158,11 +158,12 @@ class MachineFile(Table):
             return self
         place = "run_up", "pause_speed_rpm"
         if self.motor is not None:
-            raise problem("a motor sets its own pace", *place, found=f"{pause:g} rpm beside [motor]",
+            raise problem("the motor decides the run-up", *place, found=f"{pause:g} rpm beside [motor]",
                           remedy="leave one of them out")  # fmt: skip
         lowest = min(self.machine.speed_range)
         if pause >= lowest:
-            raise problem("the rotor pauses below its working speeds", *place, found=f"{pause:g} rpm",
+            raise problem("the temporary speed reduction must be below the working speeds", *place,
+                          found=f"{pause:g} rpm",
                           allowed=f"below {lowest:g} rpm",
-                          remedy="a speed at which the balls rest in the race")  # fmt: skip
+                          remedy="set a speed at which the balls rest in the race")  # fmt: skip
         return self

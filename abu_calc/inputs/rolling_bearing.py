@@ -147,14 +147,14 @@ class RollingBearing(Table):
         given = [key for key in SIZES if getattr(self, key) is not None]
         if self.designation is not None and given:
             raise problem(
-                f"designation and {given[0]} both size the bearing",
+                f"designation and {given[0]} both give the size of the bearing",
                 given[0],
                 remedy="keep the designation, or the sizes (the designation may stand in name)",
             )
         absent = [key for key in SIZES if key not in given]
         if self.designation is None and absent:
             raise problem(
-                "the bearing has no size" if not given else "the bearing's size is not whole",
+                "the bearing has no size" if not given else "the size of the bearing is incomplete",
                 absent[0],
                 found=" and ".join(given) or "none",
                 allowed="designation, or all of " + ", ".join(SIZES),

@@ -325,7 +325,7 @@ class Wheel(Measured):
     def _one_runout(self) -> Self:
         if "runout_mm" in self.model_fields_set and self.runout_tir_mm is not None:
             raise problem(
-                "runout_mm and runout_tir_mm say the same thing twice",
+                "runout_mm and runout_tir_mm both give the runout",
                 "runout_tir_mm",
                 remedy="keep one: runout_tir_mm (dial gauge) is twice runout_mm (eccentricity)",
             )

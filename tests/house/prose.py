@@ -57,7 +57,7 @@ ONE_OF_MANY: Final = re.compile(
     r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |×)([a-z]+s)\b(?!\.\w|[_=])"
 )
 TINY: Final = re.compile(r"\b\d\.\d+e-1\d\b")
-EMPTY: Final = re.compile(r"(?<=[:=(,] )None\b|(?<![\w.\"'`-])(?<!found )(?:nan|NaN|null)(?![\w\"'`-])")
+EMPTY: Final = re.compile(r"(?<=[:=(,] )None\b|\"None\"|(?<![\w.\"'`-])(?<!found )(?:nan|NaN|null)(?![\w\"'`-])")
 LEGEND: Final = re.compile(r"\[[^\]]+\]\s*(?:[;.,]|$)|[√²·≤≥≈]|[^;]*;[^;]*;[^;]*;")
 """Marks of a formula or of the legend of its symbols, whose length does not count."""
 PRESETS: Final = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230", "swing-arm-grinder")

@@ -25,7 +25,7 @@ SIZED = {"bore_mm": 17.0, "outer_mm": 40.0, "width_mm": 12.0}
 
 
 @pytest.mark.parametrize(("given", "words"), [
-    ({}, "has no size"), ({"bore_mm": 17.0}, "not whole"), (SIZED | {"designation": "6203"}, "both size"),
+    ({}, "has no size"), ({"bore_mm": 17.0}, "is incomplete"), (SIZED | {"designation": "6203"}, "both give the size"),
     (SIZED | {"outer_mm": 17.0}, "outer_mm must be above bore_mm"),
     (SIZED | {"shaft_bore_mm": 17.0}, "above shaft_bore"),
     (SIZED | {"housing_outer_mm": 40.0}, "housing_outer_mm must be"), (SIZED | {"chamfer_mm": 6.0}, "no seat"),

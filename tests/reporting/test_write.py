@@ -34,7 +34,10 @@ def meanwhile(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
 def test_a_file_that_came_meanwhile_stays(meanwhile: Path) -> None:
     seen = abu(*COMMAND, "--output", str(meanwhile))
     assert seen.status == 2 and seen.out == "" and meanwhile.read_text(encoding="utf-8") == "somebody else's"
-    assert "exists already" in seen.err and "What was computed: fail, exit status 1" in seen.err
+    assert (
+        "exists already" in seen.err
+        and "The computed result is fail; without the file, the exit status is 1" in seen.err
+    )
     assert list(meanwhile.parent.iterdir()) == [meanwhile]
     assert abu(*COMMAND, "--output", str(meanwhile), "--force").status == 1
     assert meanwhile.read_text(encoding="utf-8").startswith("{")
@@ -101,7 +104,7 @@ def test_of_two_files_the_written_one_is_told(tmp_path: Path, monkeypatch: pytes
 
     monkeypatch.setattr(write, "_place", place)
     seen = abu("simulate", str(scene), "--duration", "10", "--trajectory", str(motion), "--output", str(output))
-    assert seen.status == 2 and f"Written is: {motion}" in seen.err and "What was computed: pass" in seen.err
+    assert seen.status == 2 and f"Written is: {motion}" in seen.err and "The computed result is pass" in seen.err
     assert sorted(path.name for path in tmp_path.iterdir()) == ["motion.csv", "out.json", "scene.toml"]
 
 

@@ -32,7 +32,9 @@ def init(
     asked = [name for name, wanted in (("scene", scene), ("readings", readings)) if wanted]
     if len(asked) + (preset is not None) > 1:
         options = [f"--{name}" for name in asked] + (["--preset"] if preset is not None else [])
-        raise InputError(f"{' and '.join(options)} exclude each other", remedy="A preset is of the kind it is.")
+        raise InputError(
+            f"{' and '.join(options)} exclude each other", remedy="Specify one of them: a preset has its own kind."
+        )
     if preset is not None:
         text, kind = text_of(preset), kind_of(read_file(preset).document.content)
     else:

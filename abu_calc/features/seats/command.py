@@ -223,7 +223,11 @@ def _of_file(machine: str, overrides: Sequence[str], given: Mapping[str, object]
     from abu_calc.inputs.read_machine import read_machine
 
     if given:
-        raise InputError("a file and options of one bearing exclude each other", found=NAMES[next(iter(given))])
+        raise InputError(
+            "a file and options of one bearing exclude each other",
+            found=NAMES[next(iter(given))],
+            remedy="Remove the file or the options.",
+        )
     return read_machine(machine, overrides)
 
 

@@ -223,10 +223,11 @@ def _no_literal(finding: _Finding) -> _Words:
 
 def _no_pattern(finding: _Finding) -> _Words:
     field = finding.table.model_fields[finding.key]
+    example = next(iter(field.examples or ()), field.default)
     swapped = str(finding.value).strip().swapcase()
     right = re.fullmatch(finding.facts["pattern"], swapped)
     remedy = f'shafts take small letters, housings capitals: write "{swapped}"' if right else None
-    return "not a tolerance class", f'letters and a number, as "{field.default}"', remedy
+    return "not a tolerance class", f'letters and a number, such as "{example}"', remedy
 
 
 def _empty_text(finding: _Finding) -> _Words:

@@ -99,7 +99,7 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (IMBALANCE, 'balance_grade = "G6,3"', 17, "wheel.balance_grade", ('nearest is "G6.3"',)),
     (IMBALANCE, "balance_grade = 6.3", 17, "wheel.balance_grade", ('nearest is "G6.3"',)),
     (LIMITS, "[grinding]\nrotation_sense = 2\n[limits]", 28, "grinding.rotation_sense", ("-1 or 1",)),
-    (FIT, 'shaft_fit = "K6"', 25, "bearing[0].shaft_fit", ("small letters", 'write "k6"')),
+    (FIT, 'shaft_fit = "K6"', 25, "bearing[0].shaft_fit", ("small letters", 'such as "k6"', 'write "k6"')),
     (FIT, 'housing_fit = "h7"', 25, "bearing[0].housing_fit", ("capitals", 'write "H7"')),
     (FIT, 'shaft_fit = "k"', 25, "bearing[0].shaft_fit", ("letters and a number",)),
     (FREQUENCIES, "[2,5, 2,5]", 11, "suspension.natural_frequencies_hz", ("too many", "decimal sign is a point")),
@@ -134,8 +134,8 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (LIMITS, "[motor]\nno_load_speed_rpm = 3000\n[limits]", 28, "motor.no_load_speed_rpm", ("at least 5800 rpm",)),
     (WIDTH, WIDTH + "\nbore_diameter_mm = 68", 22, "autobalancer.bore_diameter_mm", ("no room",)),
     (SIZE + "\n", "", 23, "bearing[0].bore_mm", ("no size", "designation")),
-    (SIZE, "bore_mm = 17\nwidth_mm = 12", 23, "bearing[0].outer_mm", ("not whole", "add outer_mm")),
-    (SIZE, SIZE + "\nbore_mm = 17", 25, "bearing[0].bore_mm", ("both size", "keep")),
+    (SIZE, "bore_mm = 17\nwidth_mm = 12", 23, "bearing[0].outer_mm", ("is incomplete", "add outer_mm")),
+    (SIZE, SIZE + "\nbore_mm = 17", 25, "bearing[0].bore_mm", ("both give the size", "keep")),
     (SIZE, "bore_mm = 40\nouter_mm = 30\nwidth_mm = 9", 25, "bearing[0].outer_mm", ("outer_mm must be above bore_mm",)),
     (SIZE, "bore_mm = 17\nouter_mm = 40\nwidth_mm = 12\nchamfer_mm = 6", 27, "bearing[0].chamfer_mm", ("no seat",)),
     (SIZE, "bore_mm = 17\nouter_mm = 40\nwidth_mm = 12\nshaft_bore_mm = 17", 24, "bearing[0].bore_mm", ("above",)),
@@ -144,7 +144,7 @@ CASES: list[tuple[str, str, int | None, str | None, tuple[str, ...]]] = [
     (LIMITS, '[expected]\n"a.b" = 3\n[expected.tolerance]\n"a.b" = -1\n[limits]', 30, 'expected.tolerance."a.b"',
      ("at least 0",)),
     (LIMITS, '[expected]\n"a.b" = 3\n[expected.tolerance]\n"a.c" = 1\n[limits]', 30, 'expected.tolerance."a.c"',
-     ("nothing expected",)),
+     ("no expected value",)),
 ]  # fmt: skip
 
 

@@ -223,7 +223,7 @@ def test_all_files_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     asked = ("check-fit", "mmg-3200k-knife-shaft", "--quiet", *files)
     seen = abu(*asked, "--figure", "seats-9=seats.svg")
     assert seen.status == 2
-    assert "such a bearing" in seen.err and "zones-1" in seen.err and "What was computed" in seen.err
+    assert "such a bearing" in seen.err and "zones-1" in seen.err and "The computed result is" in seen.err
     assert list(tmp_path.iterdir()) == []
     assert abu(*asked).status == 0
     written = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
