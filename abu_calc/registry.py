@@ -35,7 +35,7 @@ class Feature(NamedTuple):
 
     `name`: of the command; `command`: module whose `register` adds it; `results`: types of its results as
     "module:class"; `makes_figures`: function from a result to its `Extras` as "module:function"; `figures`: their
-    names; `computes`: whether it loads libraries of numbers.
+    names; `computes`: whether it loads libraries of numbers; `group`: its section of `abu --help`.
     """
 
     name: str
@@ -44,6 +44,12 @@ class Feature(NamedTuple):
     makes_figures: str = ""
     figures: tuple[Known, ...] = ()
     computes: bool = True
+    group: str = "Design"
+
+
+def group_of(command: str) -> str | None:
+    """Section of `abu --help` that lists a command; None for a command without an entry."""
+    return BY_NAME[command].group if command in BY_NAME else None
 
 
 def imported(path: str) -> Any:
@@ -103,6 +109,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("level", SETTLES),
             Known("run-up", RUNS_UP),
         ),
+        group="Simulate",
     ),
     Feature(
         "stability",
@@ -114,6 +121,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("eigenvalues", "there are such"),
             Known("multipliers", "the support is not isotropic"),
         ),
+        group="Simulate",
     ),
     Feature(
         "grinding",
@@ -131,6 +139,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("wear", "wear is known"),
             Known("wear-imbalance", "wear is known"),
         ),
+        group="Simulate",
     ),
     Feature(
         "balance",
@@ -143,11 +152,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
             Known("verification-N", "the readings have so many speeds and quantities"),
             Known("uncertainty", "the readings say how far off they may be"),
         ),
+        group="Measure",
     ),
     Feature(
         "effects",
         "effects.command",
         ("effects.study:EffectsResult", "effects.study:KnownEffectsResult"),
+        group="Simulate",
     ),
     Feature(
         "accuracy",
@@ -155,6 +166,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         ("accuracy.study:AccuracyResult",),
         "accuracy.view:accuracy_extras",
         figures=(Known("precision", "a way to compute gave an error"),),
+        group="Simulate",
     ),
     Feature(
         "sweep",
@@ -177,11 +189,13 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "levels",
         "levels.command",
         ("levels.study:LevelsResult",),
+        group="Measure",
     ),
     Feature(
         "factory",
         "factory.command",
         ("factory.study:FactoryResult",),
+        group="Measure",
     ),
     Feature(
         "compare",
@@ -194,30 +208,35 @@ FEATURES: Final[tuple[Feature, ...]] = (
         "verify",
         "verify.command",
         ("verify.study:VerifyResult",),
+        group="Files",
     ),
     Feature(
         "validate",
         "files.validate",
         (),
         computes=False,
+        group="Files",
     ),
     Feature(
         "init",
         "files.init",
         (),
         computes=False,
+        group="Files",
     ),
     Feature(
         "presets",
         "files.presets",
         (),
         computes=False,
+        group="Files",
     ),
     Feature(
         "schema",
         "files.schema",
         (),
         computes=False,
+        group="Files",
     ),
     Feature(
         "explain",

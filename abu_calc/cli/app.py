@@ -7,6 +7,7 @@ from typing import Final
 
 import typer
 
+from abu_calc.cli.help import SectionedGroup
 from abu_calc.cli.output import fail
 from abu_calc.cli.streams import make_safe
 from abu_calc.foundation.errors import AbuError, InputError, NotTrustworthyError, OutputError, Place, escaped, shortened
@@ -19,7 +20,7 @@ abu-calc sizes ball autobalancers of hand grinders. Three commands to try:
 
   abu size avtovaz-707-222            sizes the autobalancer of a preset
   abu init my-grinder.toml            writes a file for a machine of your own
-  abu check-fit --designation 6203    says which fits its seats need
+  abu check-fit --designation 6203    recommends tolerance classes for its seats
 
 All commands: abu --help. Completion by the Tab key: abu --install-completion."""
 """Text that `abu` prints without arguments."""
@@ -51,9 +52,10 @@ def build(names: tuple[str, ...] = COMMANDS) -> typer.Typer:
     """The application with these commands: who calls one need not load the others."""
     app = typer.Typer(
         name="abu",
+        cls=SectionedGroup,
         help="Design calculator for passive ball autobalancers of hand grinders and machines like them.",
-        epilog="Start with `abu presets`, then `abu size avtovaz-707-222`, then `abu init FILE` for a machine of your "
-        "own.",
+        epilog="List the presets: `abu presets`. Size one: `abu size avtovaz-707-222`. Describe a machine of your own: "
+        "`abu init my-grinder.toml`.",
         no_args_is_help=True,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,

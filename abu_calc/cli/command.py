@@ -23,12 +23,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, get_args
 
 import typer
 
+from abu_calc.cli.help import OUTPUT, SectionedCommand
 from abu_calc.cli.output import Delivery, asked_figures, deliver, figure_option
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError, OutputError, Place
 from abu_calc.foundation.patience import limited
 from abu_calc.foundation.progress import Progress, Stage
-from abu_calc.registry import extras_of
+from abu_calc.registry import extras_of, group_of
 from abu_calc.reporting.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -37,17 +38,22 @@ if TYPE_CHECKING:
 SCENES: Final = ("idle", "grinding", "run-up", "swing-arm-idle", "swing-arm-cutting")
 """Scenes of a machine; written out here so that `--help` loads no numerics."""
 
-File = Annotated[
-    str, typer.Argument(metavar="MACHINE|SCENE", help="A machine file, the name of a preset, or a scene file.")
+File = Annotated[str, typer.Argument(metavar="MACHINE|SCENE", help="Machine file, scene file or name of a preset.")]
+WhichScene = Annotated[
+    str | None, typer.Option("--scene", metavar="NAME", help=f"Scene of a machine: {', '.join(SCENES)}.")
 ]
-WhichScene = Annotated[str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}.")]
 WhichStart = Annotated[
-    str | None, typer.Option("--start", help="Balls: bunched (default), behind, spread, standstill, settled.")
+    str | None,
+    typer.Option(
+        "--start",
+        metavar="NAME",
+        help="Balls at the start: bunched (together, the default), behind, spread (evenly), standstill or settled.",
+    ),
 ]
-Accuracy = Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the results.")]
-Duration = Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")]
-With = Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help="Take an effect in; repeatable.")]
-Without = Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Leave one out; repeatable.")]
+Accuracy = Annotated[float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in the results.")]
+Duration = Annotated[float | None, typer.Option("--duration", metavar="S", help="Simulate this many seconds.")]
+With = Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help="Add an effect; repeatable.")]
+Without = Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Remove an effect; repeatable.")]
 
 
 def asked(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, Any]) -> str:
@@ -131,31 +137,39 @@ def _told(text: str | bytes | Iterable[str | bytes], what: str, tell: Progress) 
         yield piece
 
 
-Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="A machine file, or the name of a preset.")]
+Machine = Annotated[str, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")]
 Overrides = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Override one entry of the file, typed as TOML; repeatable."),
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Replace one entry of the file by a TOML value; repeatable."),
 ]
+
+
+def _output_option(formats: Iterable[str]) -> Any:
+    """The option --output with the formats that one command writes."""
+    text = f"Also write the result. The suffix sets the format: {', '.join(formats)}."
+    return Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help=text, rich_help_panel=OUTPUT)]
+
+
+def _formats(drawn: tuple[str, ...], figures: bool) -> Iterator[str]:
+    yield from (".json", ".toml", ".csv", ".txt (whole report)", ".html (page with figures)" if figures else ".html")
+    yield from (f"{suffix} (drawing)" for suffix in drawn)
 
 
 def _shared(
     *,
-    json: Annotated[bool, typer.Option("--json", help="One JSON document on standard output.")] = False,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="FILE",
-            help="Also write a file; its suffix says as what (.json, .toml, .csv; .txt: the whole report; "
-            ".html: a page with figures; drawings: size .dxf and .svg, check-fit .svg).",
-        ),
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite files that exist.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report; the exit status tells.")] = False,
-    no_color: Annotated[bool, typer.Option("--no-color", help="No colors (also: NO_COLOR).")] = False,
-    full: Annotated[bool, typer.Option("--full", help="Print the whole report, not one screen of it.")] = False,
+    json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON document on standard output.", rich_help_panel=OUTPUT)
+    ] = False,
+    output: Path | None = None,
     figure: list[str] | None = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=OUTPUT)] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", "-q", help="Print no report; use the exit status.", rich_help_panel=OUTPUT)
+    ] = False,
+    no_color: Annotated[
+        bool, typer.Option("--no-color", help="Print without colours, as NO_COLOR does.", rich_help_panel=OUTPUT)
+    ] = False,
+    full: Annotated[bool, typer.Option("--full", help="Print the whole report.", rich_help_panel=OUTPUT)] = False,
 ) -> Delivery:
     return Delivery(json, output, force, quiet, not no_color, full, asked_figures(figure or ()))
 
@@ -166,8 +180,8 @@ def _walled(
         float | None,
         typer.Option(
             "--patience",
-            metavar="SECONDS",
-            help="Simulate for at most so many seconds, however many evaluations; what has no answer then is not done.",
+            metavar="S",
+            help="Simulate for at most this many seconds. Checks that need more time are NOT EVALUATED.",
         ),
     ] = None,
 ) -> None:
@@ -181,18 +195,20 @@ def add_command(
     more: Iterable[inspect.Parameter] = (),
     drawn: tuple[str, ...] = (),
     *,
+    formats: tuple[str, ...] = (),
     simulates: bool = False,
 ) -> None:
     """Register a command whose function returns an Outcome, with the shared options behind its own.
 
     `more`: options from a table, which the function takes as `**` keywords; `drawn`: suffixes of its drawing's files;
-    `simulates`: whether its patience can be told.
+    `formats`: those of --output, for commands whose result is a text of its own; `simulates`: whether the command has
+    the option --patience.
     """
     named = inspect.signature(function, eval_str=True).parameters.values()
     own = {each.name: each for each in (*named, *more) if each.kind is not each.VAR_KEYWORD}
     walled = dict(inspect.signature(_walled, eval_str=True).parameters) if simulates else {}
-    shared = _shared_by(name)
-    options = dict(_options(own | walled))
+    shared = _shared_by(name, drawn, formats)
+    options = {key: option for key, each in (own | walled).items() if (option := _option(each))}
 
     def run(**given: Any) -> None:
         how = _shared(**{key: given[key] for key in shared})
@@ -213,8 +229,12 @@ def add_command(
     run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     run.__doc__ = function.__doc__
-    # Given by itself it is wrapped, not cut.
-    app.command(name, short_help=inspect.cleandoc(run.__doc__ or "").partition("\n\n")[0])(run)
+    app.command(
+        name,
+        cls=SectionedCommand,
+        short_help=inspect.cleandoc(run.__doc__ or "").partition("\n")[0],
+        rich_help_panel=group_of(name),
+    )(run)
 
 
 def _extras(outcome: Outcome) -> "MakesExtras | None":
@@ -223,24 +243,17 @@ def _extras(outcome: Outcome) -> "MakesExtras | None":
     return None if isinstance(result, dict) else lambda: extras_of(result)
 
 
-def _shared_by(command: str) -> dict[str, inspect.Parameter]:
-    """The shared options; that of figures tells a command's own, and stands behind --output."""
+def _shared_by(command: str, drawn: tuple[str, ...], formats: tuple[str, ...]) -> dict[str, inspect.Parameter]:
+    """The shared options; --output lists the command's own formats, --figure its own figures."""
     shared = dict(inspect.signature(_shared, eval_str=True).parameters)
-    del shared["figure"]
-    option = figure_option(command)
-    if option is None:
+    figure = figure_option(command)
+    shared["output"] = shared["output"].replace(
+        annotation=_output_option(formats or _formats(drawn, figure is not None))
+    )
+    if figure is None:
+        del shared["figure"]
         return shared
-    rest = {name: shared.pop(name) for name in list(shared) if name not in ("json", "output")}
-    return {**shared, "figure": option, **rest}
-
-
-def _options(parameters: Mapping[str, inspect.Parameter]) -> Iterator[tuple[str, str]]:
-    """Parameters, and the options that set them."""
-    for name, parameter in parameters.items():
-        for extra in get_args(parameter.annotation)[1:]:
-            # What is declared first stands where typer puts a default, as long as it has not looked at it.
-            declared = (getattr(extra, "default", None), *(getattr(extra, "param_decls", None) or ()))
-            yield from ((name, each) for each in declared if isinstance(each, str) and each.startswith("--"))
+    return {**shared, "figure": figure}
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from typing import Annotated, Final, NamedTuple
 
 import typer
 
+from abu_calc.cli.help import OUTPUT as PANEL
 from abu_calc.foundation.errors import AbuError, InputError, OutputError, Place, escaped, escaped_lines, shortened
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.registry import BY_NAME, known, names_of
@@ -26,8 +27,8 @@ def figure_option(command: str) -> inspect.Parameter | None:
     """The option, with the names that a command knows; None for commands without figures."""
     if command not in BY_NAME or not BY_NAME[command].figures:
         return None
-    help_ = f"Also write one figure as FILE.svg, .png or .pdf; repeatable. NAME: {names_of(command)}."
-    option = typer.Option(OPTION, metavar="NAME=FILE", help=help_)
+    help_ = f"Also write one figure (.svg, .png or .pdf); repeatable. NAME: {names_of(command)}."
+    option = typer.Option(OPTION, metavar="NAME=FILE", help=help_, rich_help_panel=PANEL)
     return inspect.Parameter(
         "figure", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[list[str] | None, option]
     )

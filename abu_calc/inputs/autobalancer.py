@@ -42,8 +42,8 @@ class Autobalancer(Table):
     )
     design: Literal["one-piece", "bearing-ring", "light"] = Field(
         default="one-piece",
-        description="How it is made: one-piece (steel body with the race ground in), bearing-ring (the outer ring of "
-        "a spherical bearing is the race) or light (hard ring in an aluminium body). Default: {default}.",
+        description="Construction: one-piece (race ground into steel), bearing-ring (race of a spherical bearing) "
+        "or light (hard ring in aluminium). Default: {default}.",
     )
     ball_sizes: Literal["metric", "all"] = Field(
         default="all",
@@ -55,7 +55,7 @@ class Autobalancer(Table):
     )
     corrector: Literal["ball", "roller"] = Field(
         default="ball",
-        description="What rolls in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: "
+        description="Rolling body in the race: ball (solid, rolling inertia factor 7/5) or roller (3/2). Default: "
         "{default}.",
     )
     capacity_margin: float = Field(

@@ -109,7 +109,7 @@ class MachineName(Table):
 
 
 class Limits(Table):
-    """What the finished machine is held to."""
+    """Limits of the finished machine."""
 
     vibration_level_db: float = Field(
         default=109.0,

@@ -18,7 +18,7 @@ class Handle(Table):
 
     name: Name = Field(description="Name of the place, unique in the file.", examples=["front"], min_length=1)
     from_center_of_mass_mm: float = Field(
-        description="Where it stands along the spindle axis, from the centre of mass, positive toward the wheel "
+        description="Place along the spindle axis, from the centre of mass, positive toward the wheel "
         "[mm]; {range}, at a grinder -300 … 200.",
         examples=[100.0],
         ge=-2000,
@@ -58,14 +58,14 @@ class MachineTable(Table):
         json_schema_extra=usual(200, 60_000),
     )
     spindle_axis: Literal["horizontal", "vertical"] = Field(
-        description="How the spindle lies: horizontal (gravity acts in the plane of the balls) or vertical.",
+        description="Direction of the spindle: horizontal (gravity acts in the plane of the balls) or vertical.",
         examples=["horizontal"],
     )
     transverse_inertia_kg_m2: float | None = Field(
         default=None,
         description="Moment of inertia about the axis across the spindle through the centre of mass [kg·m²]; {range}, "
-        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm it makes the machine a rigid body; without both it is "
-        "a point mass, and an imbalance found from a level is uncertain by a factor of two to three.",
+        "grinders 0.02 … 0.3. With center_of_mass_to_wheel_mm the machine is a rigid body. "
+        "Without both keys it is a point mass: an imbalance found from a level is uncertain by a factor of 2 to 3.",
         examples=[0.10],
         gt=0,
         le=1e6,
@@ -154,7 +154,7 @@ class MachineTable(Table):
 
 
 class Suspension(Table):
-    """What the machine hangs on: springs, or two hands."""
+    """Support of the machine: springs, or two hands."""
 
     shown_in_template: ClassVar[frozenset[str]] = frozenset({"natural_frequencies_hz", "damping_ratios"})
 

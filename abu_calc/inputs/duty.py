@@ -65,7 +65,7 @@ class Grinding(Table):
 
 
 class Start(Table):
-    """Where the balls rest in their race when the machine is switched on."""
+    """Start of the balls: their places in the race when the machine is switched on."""
 
     angles_deg: Annotated[tuple[Annotated[float, Field(ge=-360, le=360)], ...], Field(strict=False)] = Field(
         description="Angle of each ball from the wheel's imbalance [degrees]; as many as the design has balls, each "
@@ -105,7 +105,7 @@ class RunUp(Table):
     )
     pause_s: float = Field(
         default=2.0,
-        description="How long it pauses [s]; {range}. Default: {default}, assumed.",
+        description="Length of the temporary speed reduction [s]; {range}. Default: {default}, assumed.",
         gt=0,
         le=3600,
         json_schema_extra=usual(0.1, 60),

@@ -46,7 +46,7 @@ class Recording:
 
 @dataclass(frozen=True)
 class RecordingOptions:
-    """How a file is to be taken: quantity, SI per unit, which columns or channels; None: as the file says."""
+    """Reading of a file: quantity, SI per unit, which columns or channels; None: as the file says."""
 
     quantity: MotionQuantity | None = None
     scale: float | None = None

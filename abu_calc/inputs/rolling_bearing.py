@@ -104,12 +104,12 @@ class RollingBearing(Table):
     )
     inner_ring_load: RingLoad = Field(
         default="rotating",
-        description="How the load meets the inner ring: rotating, stationary or indeterminate. Default: {default}, "
+        description="Load on the inner ring: rotating, stationary or indeterminate. Default: {default}, "
         "as of a turning shaft.",
     )
     outer_ring_load: RingLoad = Field(
         default="stationary",
-        description="How the load meets the outer ring: rotating, stationary or indeterminate. Default: {default}.",
+        description="Load on the outer ring: rotating, stationary or indeterminate. Default: {default}.",
     )
     bearing_class: Annotated[Literal["0", "6", "5", "4", "2"], BeforeValidator(_class_as_iso_has_it)] | None = Field(
         default=None,
@@ -273,13 +273,13 @@ class Bearing(RollingBearing):
     )
     shaft_material: SeatMaterial = Field(
         default="steel",
-        description="Material of the shaft, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
-        "magnesium. Default: {default}.",
+        description="Material of the shaft, for stresses and thermal effects: steel, stainless-steel, cast-iron, "
+        "aluminium or magnesium. Default: {default}.",
     )
     housing_material: SeatMaterial = Field(
         default="steel",
-        description="Material of the housing, for stresses and warmth: steel, stainless-steel, cast-iron, aluminium or "
-        "magnesium. Default: {default}.",
+        description="Material of the housing, for stresses and thermal effects: steel, stainless-steel, cast-iron, "
+        "aluminium or magnesium. Default: {default}.",
     )
     shaft_strength_MPa: float | None = Field(
         default=None,

@@ -54,8 +54,8 @@ EXAMPLES: Final = {
 
 
 class Initial(Table):
-    """Where the axis is at t = 0, and how fast; on a tilting support that at the centre of mass. A swing arm starts at
-    rest where it stands.
+    """Position and velocity of the axis at t = 0; on a tilting support at its centre of mass. A swing arm starts
+    at rest.
     """
 
     x_mm: Place = Field(default=0.0, description="Place along x [mm]; {range}. Default: {default}.")
@@ -71,7 +71,7 @@ class SceneTable(Table):
 
     support: Literal["planar", "tilting", "swing-arm"] = Field(
         default="planar",
-        description="What the rotor hangs on: planar (springs along x and y), tilting (a rigid rotor on bearings, "
+        description="Support of the rotor: planar (springs along x and y), tilting (a rigid rotor on bearings, "
         "[scene.tilting]) or swing-arm ([scene.swing_arm]). Default: {default}.",
     )
     mass_kg: float | None = Field(
@@ -100,7 +100,7 @@ class SceneTable(Table):
     )
     imbalance_angle_deg: float = Field(
         default=0.0,
-        description="Where the imbalance stands, from the zero mark [degrees]; {range}. Default: {default}.",
+        description="Angle of the imbalance from the zero mark [degrees]; {range}. Default: {default}.",
         ge=-1e6,
         le=1e6,
     )

@@ -49,7 +49,7 @@ class RaceEccentricity(Table):
     )
     angle_deg: float = Field(
         default=0.0,
-        description="Where the centre of the race stands, from the zero mark [degrees]; {range}. Default: {default}.",
+        description="Angle of the centre of the race from the zero mark [degrees]; {range}. Default: {default}.",
         ge=-360,
         le=360,
     )
@@ -67,7 +67,7 @@ class GrindingContact(Grinding):
     )
     runout_angle_deg: float = Field(
         default=0.0,
-        description="Where the high spot stands, from the zero mark [degrees]; {range}. Default: {default}.",
+        description="Angle of the high spot from the zero mark [degrees]; {range}. Default: {default}.",
         ge=-360,
         le=360,
     )

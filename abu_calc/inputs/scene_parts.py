@@ -40,15 +40,15 @@ class SceneRace(Table):
     ball_radius_mm: float | None = Field(
         default=None,
         description="Radius of a ball [mm]; {range}, smaller than pitch_radius_mm, the same as in the effects. "
-        "Rolling balls of a rotor that changes its speed need it; without it that of the effects, and if they have "
-        "none, balls are taken as small, with a warning.",
+        "Required for rolling balls of a rotor that changes its speed. Default: the radius of the effects. Without "
+        "any radius, balls count as small, with a warning.",
         examples=[8.0],
         gt=0,
         le=1000,
     )
     corrector: Literal["ball", "roller"] = Field(
         default="ball",
-        description="What rolls in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or "
+        description="Rolling body in the race, with scene.rolling_inertia = true: ball (solid, inertia factor 7/5) or "
         "roller (3/2). Default: {default}.",
     )
     rolling_drag_per_s: float = Field(
@@ -137,8 +137,8 @@ PER_BEARING: Final = ("bearing_stiffness_N_per_m", "bearing_damping_N_s_per_m")
 
 
 class Body(Table):
-    """Planar support: a further body that hangs on the rotor by a spring and a damper, such as a casing or a handle. It
-    starts at rest at its place.
+    """Planar support: a further body on the rotor by a spring and a damper, such as a casing or a handle. It starts
+    at rest at its place.
     """
 
     mass_kg: float = Field(description="Mass of the body [kg]; {range}.", examples=[0.5], gt=0, le=1e9)
@@ -162,7 +162,7 @@ class CoupleImbalance(Table):
     )
     angle_deg: float = Field(
         default=0.0,
-        description="Where the +z end of the principal axis leans to, from the zero mark [degrees]; {range}. "
+        description="Angle to which the +z end of the principal axis leans, from the zero mark [degrees]; {range}. "
         "Default: {default}.",
         ge=-360,
         le=360,

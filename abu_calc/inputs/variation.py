@@ -36,7 +36,7 @@ _CALL: Final = re.compile(r"([A-Za-z_]+)\s*\((.*)\)", re.DOTALL)
 
 @dataclass(frozen=True)
 class Variation:
-    """How one value varies. `kind`: values (each in its turn), choice (one at random), or a distribution's name.
+    """Variation of one value. `kind`: values (each in its turn), choice (one at random), or a distribution's name.
 
     `numbers` of a distribution; `values` of the other two; `text` as it was written.
     """
@@ -227,14 +227,14 @@ class Sweep(Table):
 
     vary: Vary | None = Field(
         default=None,
-        description="What varies, as on the command line: KEY=LOW:HIGH:N, A,B,…, uniform(LOW, HIGH), normal(MEAN, SD), "
+        description="Distributions. Each is KEY=HOW. HOW: LOW:HIGH:N, A,B,…, uniform(LOW, HIGH), normal(MEAN, SD), "
         "lognormal(MEDIAN, SIGMA), triangular(LOW, MODE, HIGH) or choice(A, B, …). KEY is one of this file, or "
         "start.kind, start.angle_deg, start.eccentricity_deg, start.temperature_C. Or a table by key.",
         examples=[["autobalancer.race_eccentricity_mm=triangular(0, 0.005, 0.015)"]],
     )
     runs: int | None = Field(
         default=None,
-        description="How many members; {range}. Without it as many as there are combinations of listed values, or "
+        description="Number of samples; {range}. Without it as many as there are combinations of listed values, or "
         f"{RUNS}.",
         examples=[1000],
         ge=1,
@@ -259,9 +259,11 @@ class Sweep(Table):
         description="true: spend the runs that a Saltelli design needs on sensitivities. Default: {default}.",
     )
     sampling: Literal["latin-hypercube", "sobol"] = Field(
-        default="latin-hypercube", description="How values are drawn: latin-hypercube or sobol. Default: {default}."
+        default="latin-hypercube", description="Sampling method: latin-hypercube or sobol. Default: {default}."
     )
-    seed: int = Field(default=0, description="Of all that is drawn; {range}. Default: {default}.", ge=0, le=2**31 - 1)
+    seed: int = Field(
+        default=0, description="Seed of the random numbers; {range}. Default: {default}.", ge=0, le=2**31 - 1
+    )
     time_limit_s: float = Field(
         default=60.0,
         description="Longest time for one member [s]; {range}. Default: {default}; the next one follows.",
@@ -270,7 +272,7 @@ class Sweep(Table):
     )
     least_share: float | None = Field(
         default=None,
-        description="Share of members that must meet the limits; {range}. Without it nothing is asked.",
+        description="Share of samples that must meet the limits; {range}. Without it nothing is asked.",
         examples=[0.95],
         ge=0,
         le=1,

@@ -40,7 +40,7 @@ def _one_or_many(kind: Any) -> BeforeValidator:
 
 @dataclass(frozen=True)
 class Shown:
-    """What the instrument showed: `key` holds the values, in the unit of the key."""
+    """Reading of an instrument: `key` holds the values, in the unit of the key."""
 
     key: str
     values: tuple[float, ...]
@@ -135,7 +135,7 @@ Accelerations = (
 
 
 class MeasuredAfter(Measured):
-    """What was measured with the autobalancer, idle: printed beside what is predicted, with the difference."""
+    """Levels measured with the autobalancer, idle. The report compares them with the prediction."""
 
     measured_level_db: Levels = measured_field("measured_level_db", "with the autobalancer")
     measured_velocity_mm_per_s: Velocities = measured_field("measured_velocity_mm_per_s", "with the autobalancer")
@@ -226,7 +226,7 @@ class Wheel(Measured):
     )
     runout_angle_deg: float = Field(
         default=0.0,
-        description="Where the high spot stands, from the imbalance in the sense of rotation [degrees]; {range}. "
+        description="Angle of the high spot from the imbalance in the sense of rotation [degrees]; {range}. "
         "Sizing takes the worst angle whatever stands here. Default: {default}, at the imbalance.",
         ge=-360,
         le=360,
@@ -242,7 +242,7 @@ class Wheel(Measured):
     )
     usable_wear_mm: float | None = Field(
         default=None,
-        description="How much of the wheel's radius may be worn off [mm]; {range}. No default: wear is then told in "
+        description="Wear of the wheel's radius that is allowed [mm]; {range}. No default: wear is then told in "
         "depths, not in minutes.",
         examples=[10.0],
         gt=0,

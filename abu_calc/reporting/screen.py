@@ -44,7 +44,7 @@ def one_screen(
     kept = min(2 + taken_by(warnings), LEAST) if warnings else 0
     taken = room - kept - min(1 + taken_by(body), LEAST)
     reasons = told(groups)
-    if taken_by(reasons) > taken:  # the entries of actions stand in the whole report, too
+    if taken_by(reasons) > min(taken, room - kept - 1 - taken_by(body)):  # entries of actions stand in the report, too
         codes = [[check.code for check in alike] for alike in groups]
         reasons = fitted([reason(alike) for alike in groups], codes, taken)
     room -= height(reasons)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from abu_calc.cli.app import COMPLETION, FIRST_STEPS, run
+from abu_calc.cli.app import COMMANDS, COMPLETION, FIRST_STEPS, run
 from tests.cli.runner import abu, once
 
 
@@ -32,7 +32,10 @@ def test_alone_it_shows_three_commands_that_work(tmp_path: Path, monkeypatch: py
 def test_help_is_not_cut_at_80_columns() -> None:
     seen = abu("--help")
     assert seen.width <= 80 and "..." not in seen.out.partition("\n")[2] and "--install-completion" in seen.out
-    listed = re.findall(r"^  (\S+) ", seen.out.split("Commands:")[1].split("\n\n")[0], re.MULTILINE)
+    sections = re.findall(r"(?m)^(Design|Simulate|Measure|Files):\n((?:  .*\n)+)", seen.out)
+    assert [title for title, _ in sections] == ["Design", "Simulate", "Measure", "Files"]
+    listed = [name for _, rows in sections for name in re.findall(r"(?m)^  (\S+) ", rows)]
+    assert sorted(listed) == sorted(COMMANDS)
     for command in listed:
         told = abu(command, "--help").out
         assert max(map(len, told.splitlines())) <= 80, command

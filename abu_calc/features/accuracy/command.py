@@ -20,15 +20,16 @@ def accuracy(
     scene: WhichScene = None,
     start: WhichStart = None,
     quantity: Annotated[
-        str, typer.Option("--quantity", help="amplitude (default), level, settling or angles.")
+        str,
+        typer.Option("--quantity", metavar="NAME", help="Quantity to compare: amplitude, level, settling or angles."),
     ] = "amplitude",
     accuracy: Accuracy = 0.01,
     budget_s: Annotated[
-        float, typer.Option("--budget", metavar="SECONDS", help="Time to spend, once libraries are loaded.")
+        float, typer.Option("--time-budget", "--budget", metavar="S", help="Computing time to spend.")
     ] = 20.0,
     duration_s: Duration = None,
 ) -> Outcome:
-    """Compare every way to compute a scene: its error and its time."""
+    """Compare methods of simulation by error and computing time."""
     from abu_calc.features.accuracy.study import accuracy as study
     from abu_calc.features.accuracy.view import accuracy_blocks, accuracy_screen
     from abu_calc.inputs.scene import read_any

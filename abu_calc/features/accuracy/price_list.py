@@ -293,7 +293,7 @@ def _load(full: Scene, accuracy: float) -> None:
 def _unaffordable(full: Scene, takes: str, enough: float) -> NotTrustworthyError:
     return NotTrustworthyError(
         f"{full.name}: the reference alone takes {takes}\n"
-        f"  give more time (--budget {enough:.1f}, Python: budget_s=), "
+        f"  give more time (--time-budget {enough:.1f}, Python: budget_s=), "
         "or shorten the run (--duration, Python: duration_s=)"
     )
 

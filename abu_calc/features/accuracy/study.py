@@ -99,4 +99,4 @@ def _affordable(study: PriceList) -> Check:
     message = "a way to compute was measured whose error is below the accuracy"
     return Check("ABU811", "accuracy affordable", verdict(best is not None), message,
                  None if best is None else best.error, study.accuracy, None,
-                 None if best else "More time (--budget, Python: budget_s=), or less accuracy.")  # fmt: skip
+                 None if best else "More time (--time-budget, Python: budget_s=), or less accuracy.")  # fmt: skip

@@ -38,7 +38,7 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
         f"Reference: {reference.integrators[0]} at {reference.tolerances[0]:g} and {reference.integrators[1]} at "
         f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}; {reference.wall_s:.1f} s."
     )
-    skipped = [Paragraph(f"Not measured in the time allowed (--budget): {', '.join(_grouped(result.skipped))}.")]
+    skipped = [Paragraph(f"Not measured in the time allowed (--time-budget): {', '.join(_grouped(result.skipped))}.")]
     return (
         Heading(f"{result.title}: what accuracy costs, the {result.quantity}{of_scene(result.scene)}"),
         Paragraph(_chosen(result), "fail" if result.chosen is None else "pass"),
@@ -58,7 +58,7 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
 
 def accuracy_screen(result: AccuracyResult) -> tuple[Block, ...]:
     """The answer and the picture."""
-    return shortened(result, accuracy_blocks(result), "points", more=("--budget SECONDS, more points",))
+    return shortened(result, accuracy_blocks(result), "points", more=("--time-budget S, more points",))
 
 
 def _grouped(names: tuple[str, ...]) -> list[str]:

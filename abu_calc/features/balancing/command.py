@@ -12,10 +12,13 @@ if TYPE_CHECKING:
 
 
 def balance(
-    readings: Annotated[str, typer.Argument(metavar="READINGS", help="A file of readings, or the name of a preset.")],
+    readings: Annotated[str, typer.Argument(metavar="READINGS", help="File of readings or name of a preset.")],
     set_: Overrides = None,
 ) -> Outcome:
-    """Balance a roll or screw in two planes by runs on a rig: mass, place, uncertainty, verification run."""
+    """Balance a roll in two planes from runs on a rig.
+
+    The report gives correction masses, their angles, their uncertainty and the verification run.
+    """
     from abu_calc.features.balancing.read import read_readings
     from abu_calc.features.balancing.study import balance as study
     from abu_calc.features.balancing.view import balance_blocks, balance_screen

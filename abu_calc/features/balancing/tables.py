@@ -19,77 +19,78 @@ class Errors(Table):
 
     amplitude_percent: float = Field(
         default=1.0,
-        description="Of each amplitude [%]; {range}. Default: {default}, assumed.",
+        description="Error of each amplitude [%]; {range}. Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 20),
     )
     phase_deg: float = Field(
         default=1.0,
-        description="Of each phase [degrees]; {range}. Default: {default}, assumed.",
+        description="Error of each phase [degrees]; {range}. Default: {default}, assumed.",
         ge=0,
         le=90,
         json_schema_extra=usual(0.01, 20),
     )
     speed_percent: float = Field(
         default=0.1,
-        description="Of the speed [%]; {range}. Default: {default}, assumed.",
+        description="Error of the speed [%]; {range}. Default: {default}, assumed.",
         ge=0,
         le=50,
         json_schema_extra=usual(0.001, 10),
     )
     support_mass_percent: float = Field(
         default=2.0,
-        description="Of what moves of each support [%]; {range}. Default: {default}, assumed.",
+        description="Error of the moving mass of each support [%]; {range}. Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 50),
     )
     stiffness_percent: float = Field(
         default=2.0,
-        description="Of each stiffness [%]; {range}. Default: {default}, assumed.",
+        description="Error of each stiffness [%]; {range}. Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 50),
     )
     damping_ratio: float = Field(
         default=0.01,
-        description="Of rig.damping_ratio; {range}. Default: {default}, assumed.",
+        description="Error of rig.damping_ratio; {range}. Default: {default}, assumed.",
         ge=0,
         le=0.5,
         json_schema_extra=usual(0.0001, 0.2),
     )
     rotor_mass_percent: float = Field(
         default=0.5,
-        description="Of the roll's mass [%]; {range}. Default: {default}, assumed.",
+        description="Error of the roll's mass [%]; {range}. Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 50),
     )
     inertia_percent: float = Field(
         default=2.0,
-        description="Of the roll's inertia [%]; {range}. Default: {default}, assumed.",
+        description="Error of the roll's inertia [%]; {range}. Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 50),
     )
     length_mm: float = Field(
         default=1.0,
-        description="Of each of the four lengths [mm]; {range}. Default: {default}, assumed.",
+        description="Error of each of the four lengths [mm]; {range}. Default: {default}, assumed.",
         ge=0,
         le=1000,
         json_schema_extra=usual(0.01, 100),
     )
     placed_mass_percent: float = Field(
         default=1.0,
-        description="Of each mass put on or taken off, trial or correction [%]; {range}. Default: {default}, assumed.",
+        description="Error of each mass added or removed, trial or correction [%]; {range}. "
+        "Default: {default}, assumed.",
         ge=0,
         le=100,
         json_schema_extra=usual(0.01, 50),
     )
     placed_angle_deg: float = Field(
         default=1.0,
-        description="Of the angle at which it is [degrees]; {range}. Default: {default}, assumed.",
+        description="Error of the angle of each mass [degrees]; {range}. Default: {default}, assumed.",
         ge=0,
         le=90,
         json_schema_extra=usual(0.01, 20),
@@ -102,7 +103,7 @@ MarkEdge = Literal["leading", "middle", "trailing"]
 
 
 class Reading(Table):
-    """What one sensor shows."""
+    """Reading of one sensor."""
 
     inline: ClassVar[bool] = True
 
@@ -134,7 +135,7 @@ class Trial(Table):
         json_schema_extra=usual(0.01, 5000),
     )
     angle_deg: float = Field(
-        description="Where it was, from the zero mark AGAINST rotation [degrees]; {range}.",
+        description="Angle from the zero mark AGAINST rotation [degrees]; {range}.",
         examples=[0.0],
         ge=-360,
         le=360,
@@ -174,8 +175,8 @@ class Run(Table):
         json_schema_extra=usual(60, 60000),
     )
     quantity: Quantity = Field(
-        description="What the sensors read: displacement (mm), velocity (mm/s) or acceleration (m/s²), all 0–peak. It "
-        "decides the side: an acceleration points opposite to the displacement.",
+        description="Quantity that the sensors read: displacement (mm), velocity (mm/s) or acceleration (m/s²), all "
+        "0–peak. The quantity decides the side: an acceleration points opposite to the displacement.",
         examples=["displacement"],
     )
     left: Reading | None = Field(
@@ -187,8 +188,8 @@ class Run(Table):
     )
     file: str | None = Field(
         default=None,
-        description="Instead of left and right: a recorded run, CSV with the columns time (s), left, right (in the "
-        "unit of quantity) and mark (pulses, either polarity), beside this file.",
+        description="A recorded run in place of left and right: a CSV file beside this one. Its columns are "
+        "time (s), left, right (in the unit of quantity) and mark (pulses, either polarity).",
         examples=["run1.csv"],
         min_length=1,
     )
@@ -332,14 +333,14 @@ class Rotor(Table):
         json_schema_extra=usual(0.01, 20),
     )
     left_correction_radius_mm: Radius = Field(
-        description="R1, where mass is taken off or put on in the left plane [mm]; {range}.", examples=[120.0]
+        description="R1, radius at which mass is removed or added in the left plane [mm]; {range}.", examples=[120.0]
     )
     right_correction_radius_mm: Radius = Field(
         description="R2, likewise in the right plane [mm]; {range}.", examples=[150.0]
     )
     max_removable_g: float | None = Field(
         default=None,
-        description="Most that may be taken off in a plane [g]; {range}. Beyond it mass is put on, opposite.",
+        description="Largest mass that may be removed in a plane [g]; {range}. Beyond that, mass is added opposite.",
         examples=[50.0],
         ge=0,
         le=1e6,
@@ -415,7 +416,7 @@ class Rotor(Table):
 
 
 class Tolerance(Table):
-    """What the balanced roll is held to."""
+    """Limits of the balanced roll."""
 
     balance_grade: BalanceGrade | None = Field(
         default=None,

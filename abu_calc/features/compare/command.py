@@ -18,18 +18,23 @@ if TYPE_CHECKING:
 def compare(
     how: Delivery,
     machines: Annotated[
-        list[str], typer.Argument(metavar="MACHINE", help="Machine files, or names of presets; the first leads.")
+        list[str],
+        typer.Argument(metavar="MACHINE", help="Machine files or names of presets. The first one is the reference."),
     ],
     variants: Annotated[
         list[str] | None,
         typer.Option(
-            "--variant", metavar="KEY=VALUE,KEY=VALUE", help="The machine with these entries replaced; repeatable."
+            "--variant",
+            metavar="KEY=VALUE,KEY=VALUE",
+            help="Add a variant of the machine with these entries replaced; repeatable.",
         ),
     ] = None,
     set_: Overrides = None,
-    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the simulations.")] = 0.01,
+    accuracy: Annotated[
+        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in simulations.")
+    ] = 0.01,
 ) -> Outcome:
-    """Set machines, or variants of one, side by side: what differs in their files, designs and checks."""
+    """Compare machines or variants of one machine side by side."""
     from abu_calc.features.compare.study import compare as study
     from abu_calc.features.compare.view import compare_blocks, compare_screen
     from abu_calc.inputs.read_machine import read_machine, variant_of

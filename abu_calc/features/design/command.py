@@ -21,11 +21,13 @@ def size(
     machine: Machine,
     set_: Overrides = None,
     explain: Annotated[
-        bool, typer.Option("--explain", help="The whole report and every formula with numbers.")
+        bool, typer.Option("--explain", help="Print the whole report and every formula with its numbers.")
     ] = False,
-    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of the simulation.")] = 0.01,
+    accuracy: Annotated[
+        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in simulations.")
+    ] = 0.01,
 ) -> Outcome:
-    """Size the autobalancer of a machine: region, capacity, balls, track, seats, simulation."""
+    """Size the autobalancer of a machine and simulate it."""
     from abu_calc.features.design.study import size as study
     from abu_calc.inputs.read_machine import read_machine
 

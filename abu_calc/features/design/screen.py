@@ -83,12 +83,15 @@ def make(result: SizeResult) -> list[Block]:
     title = "Make" if result.status == "pass" else "Best found"
     share = f"{number(100 * abu.mass_fraction, 2)} % of the machine"
     capacity = f"required, with margin: {number(_needed(result), 5)}"
+    groove = abu.groove_radius_mm
+    shape = "" if groove is None else (
+        f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
+    )  # fmt: skip
     rows = (
         Case("Balls", f"{balls(abu)}, {abu.ball_material}{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"),
         Case(
             "Race",
-            f"R {abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm, groove R "
-            f"{number(abu.groove_radius_mm, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, {section.hardness}",
+            f"R {abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm, {shape}{section.hardness}",
         ),
         Case(
             "Housing",

@@ -165,7 +165,7 @@ class Spread(Record):
 
 @record
 class WorstMember(Record):
-    """The start that ended worst: with balls that hang, not balanced, or the loudest; no speed: the rated one."""
+    """Worst start case: stalled before not balanced, not balanced before loud; no speed: the rated one."""
 
     start: Annotated[str, Quantity("start")]
     drag_per_s: Annotated[float, Quantity("drag", "h₀", 3)]
@@ -211,16 +211,16 @@ class SettlingOfStart(Record):
 class EnsembleResult(Record):
     """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
 
-    members: Annotated[int, Quantity("starts")]
+    members: Annotated[int, Quantity("start cases")]
     balanced: Annotated[int, Quantity("that balance")]
-    hanging: Annotated[int, Quantity("that leave balls hanging")]
+    hanging: Annotated[int, Quantity("with stalled balls")]
     settling_time_s: Annotated[Spread, Quantity("settling time", "t_s")]
     level_db: Annotated[Spread, Quantity("level", "L")]
     residual_um: Annotated[Spread, Quantity("residual", "w")]
     predicted_level_db: Annotated[
         float | None, Quantity("predicted level, median of the start cases at the given drag rate", "L")
     ]
-    worst_member: Annotated[WorstMember | None, Quantity("worst start")]
+    worst_member: Annotated[WorstMember | None, Quantity("worst start case")]
     settling_by_start: tuple[SettlingOfStart, ...]
 
     @classmethod

@@ -9,7 +9,7 @@ from abu_calc.foundation.errors import InputError
 from abu_calc.reporting.outcome import Outcome
 
 Optional = Annotated[
-    str | None, typer.Argument(metavar="[MACHINE|SCENE]", help="A machine file, a preset's name, or a scene file.")
+    str | None, typer.Argument(metavar="MACHINE|SCENE", help="Machine file, scene file or name of a preset.")
 ]
 
 
@@ -21,7 +21,10 @@ def effects(
     with_effects: With = None,
     without_effects: Without = None,
 ) -> Outcome:
-    """The effects there are; with a file: which are simulated, which are not, their weights and why."""
+    """List the effects; for a file, show which are simulated and why.
+
+    Each effect has an estimated influence on the result.
+    """
     from abu_calc.features.effects.study import effects as study
     from abu_calc.features.effects.study import known_effects
     from abu_calc.features.effects.view import effects_blocks, effects_screen, known_blocks

@@ -11,12 +11,15 @@ from abu_calc.reporting.outcome import Outcome
 
 What = Annotated[
     str | None,
-    typer.Argument(metavar="[STEP|CODE|EFFECT]", help="A step of sizing, the code of a check, or an effect."),
+    typer.Argument(metavar="STEP|CODE|EFFECT", help="Sizing step, code of a check, or effect."),
 ]
 
 
 def explain(step: What = None) -> Outcome:
-    """Show the formulas of a step, what a check asks, or what an effect is; without one, list."""
+    """Explain a sizing step, a check or an effect.
+
+    Without an argument, the command lists them.
+    """
     from abu_calc.features.explain.steps import STEPS
     from abu_calc.foundation.checks import CHECK_CODES
     from abu_calc.inputs.reading.suggestions import nearest

@@ -9,7 +9,7 @@ from abu_calc.reporting.outcome import Outcome
 
 
 def factory(how: Delivery) -> Outcome:
-    """The machines that a factory measured: levels with the autobalancer and without, measured against predicted."""
+    """Compare predicted levels with those that a factory measured."""
     from abu_calc.features.factory.study import factory as study
     from abu_calc.features.factory.view import factory_blocks, factory_screen
 

@@ -14,14 +14,15 @@ from abu_calc.reporting.outcome import Outcome
 
 def init(
     how: Delivery,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The file to write, ending in .toml.")],
-    preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset instead.")] = None,
-    scene: Annotated[bool, typer.Option("--scene", help="Write a scene file, for `abu simulate`.")] = False,
-    readings: Annotated[
-        bool, typer.Option("--readings", help="Write a file of readings on a balancing rig, for `abu balance`.")
-    ] = False,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="New file, ending in .toml.")],
+    preset: Annotated[str | None, typer.Option("--preset", metavar="NAME", help="Copy this preset.")] = None,
+    scene: Annotated[bool, typer.Option("--scene", help="Write a scene file for `abu simulate`.")] = False,
+    readings: Annotated[bool, typer.Option("--readings", help="Write a file of readings for `abu balance`.")] = False,
 ) -> Outcome:
-    """Write a complete machine file with a comment at every key; edit it, then run `abu size FILE`."""
+    """Write a complete file with a comment at every key, to edit.
+
+    Without options, the command writes a machine file for `abu size FILE`.
+    """
     from abu_calc.inputs.read_machine import read_file
     from abu_calc.inputs.reading.kinds import BY_NAME, kind_of
     from abu_calc.inputs.reading.sources import text_of

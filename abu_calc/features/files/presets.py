@@ -9,8 +9,8 @@ from abu_calc.reporting.blocks import Grid, Heading, Paragraph
 from abu_calc.reporting.outcome import Outcome
 
 
-def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Print this preset.")] = None) -> Outcome:
-    """List the files that come with abu-calc, or print one."""
+def presets(name: Annotated[str | None, typer.Argument(metavar="NAME", help="Print this preset.")] = None) -> Outcome:
+    """List the preset files, or print one."""
     from abu_calc.inputs.read_machine import read_file
     from abu_calc.inputs.reading.sources import names, text_of
 
@@ -28,4 +28,4 @@ def presets(name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="P
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "presets", presets)
+    add_command(app, "presets", presets, formats=(".toml", ".json", ".txt", ".csv and .html (list only)"))

@@ -14,10 +14,15 @@ KINDS = ("machine", "scene", "readings", "result")
 def schema(
     kind: Annotated[
         str,
-        typer.Argument(metavar="[machine|scene|readings|result]", help="Which kind of file, or what --json prints."),
+        typer.Argument(
+            metavar="machine|scene|readings|result", help="Kind of file, or result for the output of --json."
+        ),
     ] = "machine",
 ) -> Outcome:
-    """Print the JSON Schema of a kind of files (draft 4, as editors take it), or of results (2020-12)."""
+    """Print the JSON Schema of a kind of files or of results.
+
+    Schemas of files are of draft 4, which editors read; that of results is of 2020-12.
+    """
     if kind not in KINDS:
         raise InputError("no schema of this kind", found=kind, allowed=", ".join(KINDS))
     json_schema = _schema(kind)
@@ -37,4 +42,4 @@ def _schema(kind: str) -> dict[str, Any]:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    add_command(app, "schema", schema)
+    add_command(app, "schema", schema, formats=(".json", ".txt"))

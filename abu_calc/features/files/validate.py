@@ -56,11 +56,11 @@ def _design(machine: Machine) -> None:
 
 def validate(
     files: Annotated[
-        list[str], typer.Argument(metavar="FILE...", help="Files of machines, scenes or readings, or names of presets.")
+        list[str], typer.Argument(metavar="FILE", help="Files of machines, scenes or readings, or names of presets.")
     ],
     set_: Overrides = None,
 ) -> Outcome:
-    """Check files: keys, types, ranges, rules between keys, and whether their commands would take them."""
+    """Check files without simulating: keys, types, ranges, rules."""
     from abu_calc.inputs.read_machine import read_file
 
     results, blocks, faults, warnings = [], list[Block](), list[InputError](), list[str]()

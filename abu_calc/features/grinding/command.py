@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def grinding(how: Delivery, machine: Machine, set_: Overrides = None, accuracy: Accuracy = 0.01) -> Outcome:
-    """The machine at its work: where balls rest, how it moves, how wheel and work press, how the wheel wears."""
+    """Calculate vibration, contact force and wheel wear while grinding."""
     from abu_calc.features.grinding.study import grinding as study
     from abu_calc.features.grinding.view import grinding_blocks, grinding_screen
     from abu_calc.inputs.read_machine import read_machine

@@ -1,6 +1,6 @@
 """`abu levels FILE.csv|.wav`, or MACHINE|SCENE: octave levels, weighted acceleration, daily exposure."""
 
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
@@ -9,37 +9,63 @@ from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.reporting.outcome import Outcome
 
+RECORDING: Final = "Recording"
+"""Panel of the options about a recorded signal."""
+
 
 def levels(
     how: Delivery,
     source: Annotated[
         str,
         typer.Argument(
-            metavar="FILE.csv|FILE.wav|MACHINE|SCENE", help="A recorded signal, or what is to be simulated."
+            metavar="FILE.csv|FILE.wav|MACHINE|SCENE", help="Recorded signal, or machine or scene to simulate."
         ),
     ],
     set_: Overrides = None,
     quantity: Annotated[
         str | None,
-        typer.Option("--quantity", help="Of a file that does not say: acceleration, velocity or displacement."),
+        typer.Option(
+            "--quantity",
+            metavar="NAME",
+            help="Recorded quantity, if the file gives none: acceleration, velocity or displacement.",
+            rich_help_panel=RECORDING,
+        ),
     ] = None,
     scale: Annotated[
         float | None,
-        typer.Option("--scale", metavar="S", help="SI per unit of the file (m/s², m/s, m); of WAV at full scale."),
+        typer.Option(
+            "--scale",
+            metavar="FACTOR",
+            help="SI value (m/s², m/s, m) of one unit of the file; for WAV, of full scale.",
+            rich_help_panel=RECORDING,
+        ),
     ] = None,
     channels: Annotated[
-        str | None, typer.Option("--channels", metavar="1,2|NAMES", help="Which columns or channels of the file.")
+        str | None,
+        typer.Option("--channels", metavar="1,2|NAMES", help="Columns or channels to use.", rich_help_panel=RECORDING),
     ] = None,
     from_s: Annotated[
-        float | None, typer.Option("--from", metavar="S", help="Seconds of the file to leave out of the means.")
+        float | None,
+        typer.Option(
+            "--from", metavar="S", help="Leave this many first seconds out of the means.", rich_help_panel=RECORDING
+        ),
     ] = None,
-    minutes: Annotated[float | None, typer.Option("--minutes", metavar="M", help="Of work a day, for A(8).")] = None,
-    scene: Annotated[str | None, typer.Option("--scene", help="Of a machine: idle (default) or grinding.")] = None,
+    minutes: Annotated[
+        float | None, typer.Option("--minutes", metavar="MIN", help="Minutes of work a day, for A(8).")
+    ] = None,
+    scene: Annotated[
+        str | None, typer.Option("--scene", metavar="NAME", help="Scene of a machine: idle (default) or grinding.")
+    ] = None,
     start: WhichStart = None,
     accuracy: Accuracy = 0.01,
-    duration_s: Annotated[float | None, typer.Option("--duration", metavar="S", help="Seconds to simulate.")] = None,
+    duration_s: Annotated[
+        float | None, typer.Option("--duration", metavar="S", help="Simulate this many seconds.")
+    ] = None,
 ) -> Outcome:
-    """Velocity levels by octaves against their limits, weighted acceleration, daily exposure."""
+    """Calculate octave-band levels, weighted acceleration, daily exposure.
+
+    Levels are compared with their limits.
+    """
     from abu_calc.features.levels.study import levels as study
     from abu_calc.features.levels.view import levels_blocks, levels_screen
     from abu_calc.foundation.errors import InputError, Place

@@ -23,79 +23,108 @@ if TYPE_CHECKING:
 
 
 class BearingOption(NamedTuple):
-    """One option: the key it gives, its name, the type of its value, and what helps say of it."""
+    """One option: the key it gives, its name, panel, type and metavar, and its help text."""
 
     key: str
     name: str
+    panel: str
     type: type[float] | type[str] | type[bool]
+    metavar: str | None
     help: str
-    metavar: str | None = None
 
     @property
     def parameter(self) -> inspect.Parameter:
         """The option as a parameter of a command, None when it is not given."""
-        option = typer.Option(self.name, help=self.help, metavar=self.metavar)
+        option = typer.Option(self.name, help=self.help, metavar=self.metavar, rich_help_panel=self.panel)
         return inspect.Parameter(
             self.key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[self.type | None, option]
         )
 
 
-LOADS: Final = "rotating, stationary or indeterminate."
+BEARING: Final = "Bearing"
+LOADS: Final = "Loads and speed"
+SEATS: Final = "Fits"
+PARTS: Final = "Shaft and housing"
+THERMAL: Final = "Temperatures and clearance"
+KINDS: Final = "rotating, stationary or indeterminate."
 MATERIALS: Final = "steel, stainless-steel, cast-iron, aluminium or magnesium."
 OPTIONS: Final = (
-    BearingOption("designation", "--designation", str, "Such as 6203 or 7516."),
-    BearingOption("bore_mm", "--bore", float, "Bore of the inner ring, mm."),
-    BearingOption("outer_mm", "--outer", float, "Outer diameter, mm."),
-    BearingOption("width_mm", "--width", float, "Width of the ring, mm."),
-    BearingOption("chamfer_mm", "--chamfer", float, "Chamfer of one edge, mm."),
-    BearingOption("bearing_type", "--bearing-type", str, "Of a bearing given by sizes: ball, cylindrical, tapered …"),
-    BearingOption("dynamic_load_rating_kN", "--dynamic-load-rating", float, "C, kN."),
-    BearingOption("static_load_rating_kN", "--static-load-rating", float, "C0, kN."),
-    BearingOption("radial_load_kN", "--radial-load-kN", float, "Radial load, kN."),
-    BearingOption("series", "--series", str, "light, medium or heavy."),
-    BearingOption("inner_ring_load", "--inner-ring-load", str, LOADS),
-    BearingOption("outer_ring_load", "--outer-ring-load", str, LOADS),
-    BearingOption("bearing_class", "--bearing-class", str, "Normal, P6, P5, P4 or P2."),
-    BearingOption("shaft_fit", "--shaft", str, "Tolerance class of the shaft, such as k6, or several: j5,k5,m5."),
-    BearingOption("housing_fit", "--housing", str, "Tolerance class of the housing, such as H7, or several."),
-    BearingOption("shaft_limits_um", "--shaft-limits", str, "Limits of the shaft as measured, µm.", "LEAST:MOST"),
-    BearingOption("housing_limits_um", "--housing-limits", str, "Limits of the housing as measured, µm.", "LEAST:MOST"),
-    BearingOption("shaft_rz_um", "--shaft-rz", float, "Roughness Rz of the shaft, µm."),
-    BearingOption("housing_rz_um", "--housing-rz", float, "Roughness Rz of the housing, µm."),
+    BearingOption("designation", "--designation", BEARING, str, "NAME", "Designation, such as 6203 or 7516."),
+    BearingOption("bore_mm", "--bore", BEARING, float, "MM", "Bore of the inner ring."),
+    BearingOption("outer_mm", "--outer", BEARING, float, "MM", "Outer diameter."),
+    BearingOption("width_mm", "--width", BEARING, float, "MM", "Width of the ring."),
+    BearingOption("chamfer_mm", "--chamfer", BEARING, float, "MM", "Chamfer of one edge."),
+    BearingOption(
+        "bearing_type", "--bearing-type", BEARING, str, "NAME", "Type if sizes are given: ball, cylindrical, tapered …"
+    ),
+    BearingOption("bearing_class", "--bearing-class", BEARING, str, "NAME", "Normal, P6, P5, P4 or P2."),
+    BearingOption("series", "--series", BEARING, str, "NAME", "light, medium or heavy."),
+    BearingOption(
+        "dynamic_load_rating_kN", "--dynamic-load-rating", BEARING, float, "KN", "Basic dynamic load rating C."
+    ),
+    BearingOption(
+        "static_load_rating_kN", "--static-load-rating", BEARING, float, "KN", "Basic static load rating C0."
+    ),
+    BearingOption("name", "--name", BEARING, str, "NAME", "Name of the bearing in the report."),
+    BearingOption("radial_load_kN", "--radial-load-kN", LOADS, float, "KN", "Radial load."),
+    BearingOption("inner_ring_load", "--inner-ring-load", LOADS, str, "NAME", f"Load on the inner ring: {KINDS}"),
+    BearingOption("outer_ring_load", "--outer-ring-load", LOADS, str, "NAME", f"Load on the outer ring: {KINDS}"),
+    BearingOption("speed_rpm", "--speed", LOADS, float, "RPM", "Speed of the shaft."),
+    BearingOption(
+        "starting_torque_N_m", "--starting-torque", LOADS, float, "NM", "Torque that the seat must transmit."
+    ),
+    BearingOption("shaft_fit", "--shaft", SEATS, str, "CLASS", "Tolerance class of the shaft: k6, or several: j5,k5."),
+    BearingOption("housing_fit", "--housing", SEATS, str, "CLASS", "Tolerance class of the housing: H7, or several."),
+    BearingOption("shaft_limits_um", "--shaft-limits", SEATS, str, "LOW:HIGH", "Measured limits of the shaft, µm."),
+    BearingOption(
+        "housing_limits_um", "--housing-limits", SEATS, str, "LOW:HIGH", "Measured limits of the housing, µm."
+    ),
+    BearingOption(
+        "asked_interference_um",
+        "--asked-interference",
+        SEATS,
+        str,
+        "LOW:HIGH",
+        "Interference required of every pair, µm.",
+    ),
+    BearingOption("seat_friction", "--seat-friction", SEATS, float, "RATIO", "Friction coefficient of the seat."),
+    BearingOption("shaft_rz_um", "--shaft-rz", PARTS, float, "UM", "Roughness Rz of the shaft."),
+    BearingOption("shaft_bore_mm", "--shaft-bore", PARTS, float, "MM", "Bore of a hollow shaft."),
+    BearingOption("shaft_material", "--shaft-material", PARTS, str, "NAME", MATERIALS),
+    BearingOption("shaft_strength_MPa", "--shaft-strength", PARTS, float, "MPA", "Allowable hoop stress of the shaft."),
+    BearingOption("housing_rz_um", "--housing-rz", PARTS, float, "UM", "Roughness Rz of the housing."),
+    BearingOption("housing_outer_mm", "--housing-outer", PARTS, float, "MM", "Outer diameter of the housing."),
+    BearingOption("housing_material", "--housing-material", PARTS, str, "NAME", MATERIALS),
+    BearingOption(
+        "housing_strength_MPa", "--housing-strength", PARTS, float, "MPA", "Allowable hoop stress of the housing."
+    ),
+    BearingOption("housing_split", "--housing-split", PARTS, bool, None, "The housing is split in two halves."),
+    BearingOption("internal_clearance", "--internal-clearance", THERMAL, str, "GROUP", "C2, CN, C3 or C4."),
+    BearingOption("temperature_rise_K", "--temperature-rise", THERMAL, float, "K", "Bearing warmer than at mounting."),
     BearingOption(
         "ring_temperature_difference_K",
         "--ring-temperature-difference",
+        THERMAL,
         float,
-        "Inner ring warmer than its shaft, K.",
+        "K",
+        "Inner ring warmer than its shaft.",
     ),
     BearingOption(
         "housing_temperature_difference_K",
         "--housing-temperature-difference",
+        THERMAL,
         float,
-        "Housing warmer than the outer ring, K.",
+        "K",
+        "Housing warmer than the outer ring.",
     ),
-    BearingOption("temperature_rise_K", "--temperature-rise", float, "Bearing warmer than at mounting, K."),
-    BearingOption("speed_rpm", "--speed", float, "Speed of the shaft, rpm."),
-    BearingOption("shaft_bore_mm", "--shaft-bore", float, "Bore of a hollow shaft, mm."),
-    BearingOption("housing_outer_mm", "--housing-outer", float, "Outer diameter of the housing, mm."),
-    BearingOption("shaft_material", "--shaft-material", str, MATERIALS),
-    BearingOption("housing_material", "--housing-material", str, MATERIALS),
-    BearingOption("shaft_strength_MPa", "--shaft-strength", float, "Hoop stress that the shaft bears, MPa."),
-    BearingOption("housing_strength_MPa", "--housing-strength", float, "Hoop stress that the housing bears, MPa."),
-    BearingOption("housing_split", "--housing-split", bool, "The housing is in halves."),
-    BearingOption("internal_clearance", "--internal-clearance", str, "Group C2, CN, C3 or C4."),
     BearingOption(
         "raceway_temperature_difference_K",
         "--raceway-temperature-difference",
+        THERMAL,
         float,
-        "Inner ring warmer than the outer one, K.",
+        "K",
+        "Inner ring warmer than the outer ring.",
     ),
-    BearingOption("starting_torque_N_m", "--starting-torque", float, "Torque the seat must pass on, N·m."),
-    BearingOption("seat_friction", "--seat-friction", float, "Friction coefficient of the seat."),
-    BearingOption(
-        "asked_interference_um", "--asked-interference", str, "Interference asked of every pair, µm.", "LEAST:MOST"
-    ),
-    BearingOption("name", "--name", str, "What to call the bearing."),
 )
 NAMES: Final = {option.key: option.name for option in OPTIONS}
 """The option of each key."""
@@ -103,7 +132,7 @@ NAMES: Final = {option.key: option.name for option in OPTIONS}
 SIZES: Final = ("bore_mm", "outer_mm", "width_mm")
 FITS: Final = ("shaft_fit", "housing_fit")
 BANDS: Final = ("asked_interference_um", "shaft_limits_um", "housing_limits_um")
-"""Keys that an option gives as LEAST:MOST."""
+"""Keys that an option gives as LOW:HIGH."""
 
 
 def missing(given: Iterable[str]) -> list[str]:
@@ -134,24 +163,29 @@ def several(given: Mapping[str, object]) -> list[dict[str, object]]:
 
 
 def band(key: str, text: str) -> list[float]:
-    """The two numbers of LEAST:MOST."""
+    """The two numbers of LOW:HIGH."""
     try:
         least, most = (float(part) for part in text.split(":"))
     except ValueError:
         option = Place(key=NAMES[key])
-        raise InputError("two numbers are expected", place=option, found=text, allowed="LEAST:MOST, 10:28") from None
+        raise InputError(
+            "two numbers are expected", place=option, found=text, allowed="LOW:HIGH, such as 10:28"
+        ) from None
     return [least, most]
 
 
 def check_fit(
-    machine: Annotated[
-        str | None, typer.Argument(metavar="[MACHINE]", help="A machine file, or a preset's name.")
-    ] = None,
+    machine: Annotated[str | None, typer.Argument(metavar="MACHINE", help="Machine file or name of a preset.")] = None,
     set_: Overrides = None,
-    explain: Annotated[bool, typer.Option("--explain", help="The whole report, every formula with numbers.")] = False,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Print the whole report and every formula with its numbers.")
+    ] = False,
     **bearing: object,
 ) -> Outcome:
-    """Judge bearing seats, or say which fits to write: interference, creep, stress, clearance left."""
+    """Check bearing seats, or recommend their tolerance classes.
+
+    Specify a machine file, or one bearing by options. The checks cover interference, creep, stress and clearance.
+    """
     from abu_calc.features.seats.study import check_fit as study
 
     given = {key: value for key, value in bearing.items() if value is not None}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 from abu_calc.cli.command import Accuracy, Duration, File, Overrides, WhichScene, WhichStart, With, Without, add_command
+from abu_calc.cli.help import OUTPUT
 from abu_calc.cli.output import Delivery
 from abu_calc.cli.progress import progress
 from abu_calc.foundation.errors import InputError
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     pass
 
 SAMPLES: Final = 1001
+METHOD: Final = "Method"
+"""Panel of the options about the integration."""
 
 
 def simulate(
@@ -27,31 +30,44 @@ def simulate(
     race_centre_deg: Annotated[
         float | None,
         typer.Option(
-            "--race-centre", metavar="DEG", help="Of a machine: centre of the race from the imbalance; default 180."
+            "--race-centre", metavar="DEG", help="Angle from the imbalance to the centre of the race; default 180."
         ),
     ] = None,
     accuracy: Accuracy = 0.01,
-    integrator: Annotated[str, typer.Option("--integrator", help="auto, scipy, plain or compiled.")] = "auto",
+    integrator: Annotated[
+        str,
+        typer.Option("--integrator", metavar="NAME", help="auto, scipy, plain or compiled.", rich_help_panel=METHOD),
+    ] = "auto",
     duration_s: Duration = None,
     trajectory: Annotated[
-        Path | None, typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.")
+        Path | None,
+        typer.Option("--trajectory", metavar="FILE.csv", help="Also write the motion.", rich_help_panel=OUTPUT),
     ] = None,
     samples: Annotated[
-        int | None, typer.Option("--samples", metavar="N", help=f"Times in the trajectory; default {SAMPLES}.")
+        int | None,
+        typer.Option(
+            "--samples", metavar="N", help=f"Times in the trajectory; default {SAMPLES}.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     with_effects: With = None,
     without_effects: Without = None,
     most_evaluations: Annotated[
         int | None,
         typer.Option(
-            "--most-evaluations", metavar="N", help="Work that is allowed; default ten million, a minute or two."
+            "--most-evaluations",
+            metavar="N",
+            help="Most evaluations of the equations; default ten million, a minute or two.",
+            rich_help_panel=METHOD,
         ),
     ] = None,
     audit: Annotated[
-        bool, typer.Option("--audit", help="Run again with every effect in; tell the true difference.")
+        bool,
+        typer.Option(
+            "--audit", help="Repeat the run with every effect and report the difference.", rich_help_panel=METHOD
+        ),
     ] = False,
 ) -> Outcome:
-    """Integrate one scene: amplitude, level, settling time, where the balls end."""
+    """Simulate one scene: amplitude, level, settling time, ball angles."""
     from abu_calc.features.simulate.study import simulate as study
     from abu_calc.features.simulate.view import TrajectoryCsv, simulate_blocks, simulate_screen
     from abu_calc.inputs.scene import read_any

@@ -21,21 +21,32 @@ def stability(
     file: File,
     set_: Overrides = None,
     scene: Annotated[
-        str | None, typer.Option("--scene", help=f"Of a machine: {', '.join(SCENES)}; default {SCENES[0]}.")
+        str | None,
+        typer.Option("--scene", metavar="NAME", help=f"Scene of a machine: {', '.join(SCENES)}; default {SCENES[0]}."),
     ] = None,
     speeds_rpm: Annotated[
         str | None,
-        typer.Option("--speeds", metavar="LOW:HIGH", help="rpm; also find every speed where stability changes."),
+        typer.Option(
+            "--speeds", metavar="LOW:HIGH", help="Range of speeds, rpm. Find every speed at which stability changes."
+        ),
     ] = None,
     arrangement: Annotated[
-        str, typer.Option("--arrangement", help="Of more than two balls: worst that balances, fan (even), or start.")
+        str,
+        typer.Option(
+            "--arrangement",
+            metavar="NAME",
+            help="Arrangement of more than two balls: worst (of those that balance), fan (evenly spread) or start.",
+        ),
     ] = "worst",
     crossings: Annotated[
         bool,
-        typer.Option("--crossings", help="Also every crossing of an eigenvalue."),
+        typer.Option("--crossings", help="Also list every crossing of an eigenvalue."),
     ] = False,
 ) -> Outcome:
-    """Stability of the balanced state: eigenvalues or Floquet multipliers, growth rate, boundaries."""
+    """Find whether the balanced state is stable, and at which speeds.
+
+    The report gives eigenvalues or Floquet multipliers, the growth rate and the stability boundaries.
+    """
     from abu_calc.features.stability.study import stability as study
     from abu_calc.features.stability.view import stability_blocks, stability_screen
     from abu_calc.inputs.scene import read_any

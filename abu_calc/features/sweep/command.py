@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
@@ -18,14 +18,19 @@ from abu_calc.foundation.errors import InputError, NotTrustworthyError, Place, S
 from abu_calc.foundation.interruption import EndedBySignal, status_of
 from abu_calc.reporting.outcome import Outcome
 
+SAMPLING: Final = "Sampling"
+COMPUTING: Final = "Computing"
+"""Panels of the options about the samples, and about the processes that compute them."""
+
 Vary = Annotated[
     list[str] | None,
     typer.Option(
         "--vary",
         metavar="KEY=HOW",
         help="LOW:HIGH:N, A,B,…, uniform(LOW,HIGH), normal(MEAN,SD), lognormal(MEDIAN,SIGMA), "
-        "triangular(LOW,MODE,HIGH) or choice(A,B,…); repeatable. KEY: of the file, or start.kind, start.angle_deg, "
-        "start.eccentricity_deg, start.temperature_C.",
+        "triangular(LOW,MODE,HIGH) or choice(A,B,…); repeatable. KEY is a key of the file, start.kind, "
+        "start.angle_deg, start.eccentricity_deg or start.temperature_C.",
+        rich_help_panel=SAMPLING,
     ),
 ]
 
@@ -35,43 +40,98 @@ def sweep(
     machine: File,
     set_: Overrides = None,
     vary: Vary = None,
-    runs: Annotated[int | None, typer.Option("--runs", metavar="N", help="How many members; default 100.")] = None,
+    runs: Annotated[
+        int | None,
+        typer.Option("--runs", metavar="N", help="Number of samples; default 100.", rich_help_panel=SAMPLING),
+    ] = None,
     what: Annotated[
         str | None,
-        typer.Option("--what", help="build: one design, each member built and switched on once; design: sized anew."),
+        typer.Option(
+            "--what",
+            metavar="NAME",
+            help="build: size once, then build and start each sample; design: size each sample.",
+        ),
     ] = None,
     tolerances: Annotated[
-        bool, typer.Option("--tolerances", help="The drawing's own tolerances and the usual scatter of use.")
+        bool,
+        typer.Option(
+            "--tolerances", help="Vary the drawing's tolerances and the usual scatter of use.", rich_help_panel=SAMPLING
+        ),
     ] = False,
     grid: Annotated[
         tuple[str, str] | None,
-        typer.Option("--grid", metavar="KEY KEY", help="Chart over two keys with listed values."),
+        typer.Option(
+            "--grid", metavar="KEY KEY", help="Chart two keys that have listed values.", rich_help_panel=SAMPLING
+        ),
     ] = None,
     sensitivity: Annotated[
-        bool, typer.Option("--sensitivity", help="Spend the runs of a Saltelli design: N times (values + 2).")
+        bool,
+        typer.Option(
+            "--sensitivity",
+            help="Use a Saltelli design of N × (varied values + 2) samples.",
+            rich_help_panel=SAMPLING,
+        ),
     ] = False,
-    sampling: Annotated[str | None, typer.Option("--sampling", help="latin-hypercube (default) or sobol.")] = None,
-    seed: Annotated[int | None, typer.Option("--seed", help="Of all that is drawn; default 0.")] = None,
-    accuracy: Annotated[float, typer.Option("--accuracy", help="Accuracy asked of each run.")] = 0.01,
+    sampling: Annotated[
+        str | None,
+        typer.Option(
+            "--sampling", metavar="NAME", help="latin-hypercube (default) or sobol.", rich_help_panel=SAMPLING
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option("--seed", metavar="N", help="Seed of the random numbers; default 0.", rich_help_panel=SAMPLING),
+    ] = None,
+    accuracy: Annotated[
+        float, typer.Option("--accuracy", metavar="RATIO", help="Relative error allowed in each simulation.")
+    ] = 0.01,
     time_limit_s: Annotated[
-        float | None, typer.Option("--time-limit", metavar="S", help="Longest time for one member; default 60.")
+        float | None,
+        typer.Option(
+            "--time-limit",
+            metavar="S",
+            help="Longest computing time of one sample; default 60.",
+            rich_help_panel=COMPUTING,
+        ),
     ] = None,
     store: Annotated[
-        Path | None, typer.Option("--store", metavar="FILE.sqlite", help="Keep every member, as they come.")
+        Path | None,
+        typer.Option(
+            "--store", metavar="FILE.sqlite", help="Store every sample when it is computed.", rich_help_panel=COMPUTING
+        ),
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with the store.")] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue with the store.", rich_help_panel=COMPUTING)
+    ] = False,
     workers: Annotated[
-        int | None, typer.Option("--workers", metavar="N", help="Processes; default one for each processor.")
+        int | None,
+        typer.Option(
+            "--workers",
+            metavar="N",
+            help="Number of processes; default one for each processor.",
+            rich_help_panel=COMPUTING,
+        ),
     ] = None,
     cluster: Annotated[
-        str | None, typer.Option("--cluster", metavar="ADDRESS", help="Of a Dask scheduler that computes instead.")
+        str | None,
+        typer.Option(
+            "--cluster",
+            metavar="ADDRESS",
+            help="Compute on the Dask scheduler at this address.",
+            rich_help_panel=COMPUTING,
+        ),
     ] = None,
     cluster_wait_s: Annotated[
         float,
-        typer.Option("--cluster-wait", metavar="S", help="Longest wait for a cluster without scheduler or workers."),
+        typer.Option(
+            "--cluster-wait",
+            metavar="S",
+            help="Longest wait for the scheduler and its workers.",
+            rich_help_panel=COMPUTING,
+        ),
     ] = 60.0,
 ) -> Outcome:
-    """Many machines like this one: share that meets the limits, percentiles, which value decides."""
+    """Vary values over many samples: share that passes, deciding values."""
     from abu_calc.features.sweep.store_faults import checked_path
     from abu_calc.features.sweep.study import WAIT
     from abu_calc.features.sweep.study import sweep as study

@@ -21,13 +21,14 @@ def verify(
     how: Delivery,
     files: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[FILE|FOLDER]...", help="Files of machines or readings, folders, or presets."),
+        typer.Argument(metavar="FILE|FOLDER", help="Files of machines or readings, folders, or presets."),
     ] = None,
-    update: Annotated[
-        bool, typer.Option("--update", help="Write the results into the files instead; comments are kept.")
-    ] = False,
+    update: Annotated[bool, typer.Option("--update", help="Write the results into [expected]; comments stay.")] = False,
 ) -> Outcome:
-    """Recompute files that have [expected] and compare; without files, the presets."""
+    """Recompute files and compare with their [expected] values.
+
+    Without files, the command verifies the presets.
+    """
     from abu_calc.features.verify.study import expectations
     from abu_calc.features.verify.study import verify as study
     from abu_calc.features.verify.view import verify_blocks, verify_screen

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Source:
-    """Where the entries of a file come from: its text, or an override."""
+    """Origin of the entries of a file: its text, or an override."""
 
     text: str
     overrides: "Sequence[Override]" = ()

@@ -42,7 +42,7 @@ class SpecErrors(InputError):  # noqa: N818 - it is several
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a document came from: what finds the place of its keys."""
+    """Origin of a document, which finds the place of its keys."""
 
     file: str
     document: Mapping[str, object]

@@ -7,7 +7,7 @@ from tests.cli.runner import abu
 
 @pytest.mark.parametrize(
     ("option", "value", "said"),
-    [("--quantity", "beauty", "settling"), ("--budget", "0", "3600"), ("--duration", "-1", "duration"),
+    [("--quantity", "beauty", "settling"), ("--time-budget", "0", "3600"), ("--duration", "-1", "duration"),
      ("--scene", "flying", "idle")],
 )  # fmt: skip
 def test_a_wrong_option_is_refused_with_what_is_allowed(option: str, value: str, said: str) -> None:

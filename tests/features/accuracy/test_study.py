@@ -21,7 +21,7 @@ def test_the_check_passes_with_the_error_of_the_chosen_way() -> None:
     check = _affordable(listed(GOOD))
     assert (check.status, check.value, check.limit, check.remedy) == ("pass", 2e-3, 0.01, None)
     none = _affordable(listed(None))
-    assert (none.status, none.value) == ("fail", None) and "--budget" in str(none.remedy)
+    assert (none.status, none.value) == ("fail", None) and "--time-budget" in str(none.remedy)
 
 
 def test_what_is_infinite_is_no_number_of_a_record() -> None:

@@ -53,7 +53,7 @@ def test_the_report_says_what_was_chosen_and_what_was_not_measured() -> None:
     text = " ".join(as_text(accuracy_blocks(result(*points, skipped=skipped)), 80).split())
     assert "For an error of 0.01: equations, scipy-dop853 at tolerance 0.001; error 0.005" in text and "12.5 ms" in text
     assert "Not computed by bdf: stiff." in text
-    assert "Not measured in the time allowed (--budget): radau 1e-3/1e-4, envelope." in text
+    assert "Not measured in the time allowed (--time-budget): radau 1e-3/1e-4, envelope." in text
 
 
 def test_a_figure_has_a_line_for_each_way() -> None:

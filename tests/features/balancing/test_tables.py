@@ -191,7 +191,7 @@ def test_a_file_of_another_kind_is_refused_with_the_command_that_takes_it(tmp_pa
         abu_calc.read(readings)
     with pytest.raises(InputError, match=r"readings of a rig, not a scene"):
         abu_calc.read_scene(readings)
-    with pytest.raises(InputError, match=r"a machine, not readings of a rig\n  `abu size`"):
+    with pytest.raises(InputError, match=r"a machine, not readings of a rig\n  `abu size FILE`"):
         abu_calc.balance("msh-230")
     with pytest.raises(InputError, match="not the name of a file"):
         abu_calc.balance(abu_calc.read("msh-230"))  # type: ignore[arg-type]

@@ -55,7 +55,7 @@ def test_every_key_has_an_option_that_is_taken():
 
 def test_options_take_what_their_keys_take():
     for option in OPTIONS:
-        if option.key not in BANDS:  # two numbers, LEAST:MOST
+        if option.key not in BANDS:  # two numbers, LOW:HIGH
             annotation = Bearing.model_fields[option.key].annotation
             assert (float in {annotation, *get_args(annotation)} - {NoneType}) == (option.type is float), option.key
 
@@ -80,7 +80,7 @@ def test_what_plays_no_part_is_told():
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [(("--asked-interference", "10-28"), ("--asked-interference", "LEAST:MOST")),
+    [(("--asked-interference", "10-28"), ("--asked-interference", "LOW:HIGH")),
      (("--asked-interference", "28:10"), ("ascend",)), (("--internal-clearance", "C7"), ("C7", "CN")),
      (("--set", "bearing[0].shaft_fit=m6"), ("--set",)), (("--seat-friction", "2"), ("--seat-friction",)),
      (("--speed", "nan"), ("--speed",))],

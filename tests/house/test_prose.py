@@ -1,0 +1,86 @@
+"""Texts that commands print keep the rules of prose; known violations are listed, and the lists only shrink."""
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+
+from tests.cli.runner import abu
+from tests.house.prose import Violation, error_texts, found_in, known, screens, static_texts, violations
+from tests.sizing.test_case import machines
+
+MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
+
+
+def _unknown(found: list[Violation]) -> list[Violation]:
+    listed = known()
+    return [each for each in found if each.entry not in listed]
+
+
+@pytest.mark.parametrize(
+    ("text", "rules"),
+    [
+        ("Deciding runs are repeated at a tighter tolerance.", []),
+        ("What decides is run again.", ["headless"]),
+        ("What does PASS prove?", []),
+        ("Of the 20 start cases all balance.", ["headless"]),
+        ("The ledger lists 1 effects.", ["ledger → list of effects", "1 of many"]),
+        ("It is off by 2.14e-11 mm.", ["tiny number"]),
+        ("level: None", ["no value"]),
+        ("word " * 25 + "end.", ["26 words"]),
+        ("This sentence stands twice on one screen. This sentence stands twice on one screen.", ["twice"]),
+        ("mass      5.6 kg      None of these is a sentence that counts", []),
+    ],
+    ids=lambda value: str(value)[:30],
+)
+def test_rules(text: str, rules: list[str]) -> None:
+    assert [each.rule for each in violations(text, "here")] == rules
+
+
+def test_help_explanations_schemas_templates_and_presets() -> None:
+    assert _unknown(found_in(static_texts())) == []
+
+
+def test_errors_of_wrong_files(tmp_path: Path) -> None:
+    assert _unknown(found_in(error_texts(tmp_path))) == []
+
+
+def test_reports_of_presets() -> None:
+    assert _unknown(found_in(screens())) == []
+
+
+@pytest.mark.slow
+def test_lists_hold_nothing_that_was_mended(tmp_path: Path) -> None:
+    found = {each.entry for each in found_in((*static_texts(), *error_texts(tmp_path), *screens()))}
+    assert sorted(set(known()) - found) == []
+
+
+def _effects_of(changes: dict) -> tuple[str, str]:
+    """Report of the effects of a random machine: it sizes and simulates nothing for long."""
+    options = [f"{path.replace('__', '.', 1)}={json.dumps(value)}" for path, value in changes.items() if "__" in path]
+    seen = abu("effects", "msh-230", "--full", *(word for option in options for word in ("--set", option)))
+    return f"abu effects {options}", f"{seen.out}\n\n{seen.err}"
+
+
+@given(machines())
+@settings(max_examples=30, deadline=None, derandomize=True)
+def test_reports_of_random_machines(changes: dict) -> None:
+    assert _unknown(found_in([_effects_of(changes)])) == []
+
+
+@pytest.mark.slow
+@given(machines())
+@settings(max_examples=300, deadline=None, derandomize=True)
+def test_reports_of_many_random_machines(changes: dict) -> None:
+    assert _unknown(found_in([_effects_of(changes)])) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("file", MACHINES, ids=lambda file: file.stem)
+def test_reports_of_hard_machines(file: Path) -> None:
+    texts = []
+    for words in (("size", str(file)), ("size", str(file), "--full")):
+        seen = abu(*words)
+        texts.append((f"abu {words[0]} {file.name}", f"{seen.out}\n\n{seen.err}"))
+    assert _unknown(found_in(texts)) == []
