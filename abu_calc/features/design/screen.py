@@ -143,7 +143,7 @@ def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int]
     """Limit and grade of one case; `decides`: whether it fails the check or only warns."""
     if check is None or check.limit is None:
         return "", ""
-    limit = f"{check.limit:g}"
+    limit = number(check.limit, 3)
     if value is not None and value <= check.limit:
         return limit, "pass"
     word = "FAIL" if decides and check.status == "fail" else "WARN"
