@@ -16,7 +16,7 @@ from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
 
 BOUND: Final = {"most": "at most", "least": "at least"}
-WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT DONE"}
+WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 """Word before a check of each grade: no grade is shown by its colour alone."""
 
 
@@ -78,7 +78,7 @@ def told(groups: Sequence[Sequence[Check]]) -> list[Paragraph]:
     return lines
 
 
-PASTED: Final = 72
+PASTED: Final = 74
 """Most letters of a line of options."""
 
 
@@ -105,13 +105,13 @@ def unlike(checks: Iterable[Check]) -> list[list[Check]]:
 def reason(alike: Sequence[Check]) -> Paragraph:
     """Checks of one grade, one reason and one remedy."""
     first, more = alike[0], len(alike) - MOST_ALIKE
-    names = ", ".join(f"{check.code} {check.name}{_found(check)}" for check in alike[:MOST_ALIKE])
+    names = ", ".join(f"{check.code} {check.name}{value_and_limit(check)}" for check in alike[:MOST_ALIKE])
     others = f" and {more} more" if more > 0 else ""
     remedy = f" Action: {first.remedy}" if first.remedy else ""
     return Paragraph(f"{WORD[first.status]} {names}{others}: {first.message}.{remedy}", first.status, hang=MARGIN)
 
 
-def _found(check: Check) -> str:
+def value_and_limit(check: Check) -> str:
     """The value beside its limit."""
     parts = [part for part in (_value(check), limit_of(check)) if part and check.value is not None]
     return f" ({', '.join(parts)})" if parts else ""

@@ -22,7 +22,7 @@ LEAST: Final = 8
 BLANK: Final[Block] = Paragraph("")
 ELSEWHERE: Final = frozenset({"checks", "warnings", "defaults", "conventions", "provenance"})
 """Ids of the sections of a whole report that a screen words in its own way, or leaves to it."""
-WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
+WORDS: Final[dict[Status, str]] = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 
 def one_screen(
@@ -41,27 +41,27 @@ def one_screen(
     last: list[Block] = [BLANK, *passed, Paragraph(_next(result, more))]
     warnings, groups = warning_lines(result.warnings), unlike(result.checks)
     room = LINES - height([*about, *last])
-    kept = min(2 + _height(warnings), LEAST) if warnings else 0
-    taken = room - kept - min(1 + _height(body), LEAST)
+    kept = min(2 + taken_by(warnings), LEAST) if warnings else 0
+    taken = room - kept - min(1 + taken_by(body), LEAST)
     reasons = told(groups)
-    if _height(reasons) > min(taken, room - kept - 1 - _height(body)):  # entries of actions stand in the report, too
+    if taken_by(reasons) > min(taken, room - kept - 1 - taken_by(body)):  # entries of actions stand in the report, too
         codes = [[check.code for check in alike] for alike in groups]
-        reasons = _fitted([reason(alike) for alike in groups], codes, taken)
+        reasons = fitted([reason(alike) for alike in groups], codes, taken)
     room -= height(reasons)
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
-    rest = _fitted(warnings, [], room - height([BLANK, *shown]) - 2)
+    rest = fitted(warnings, [], room - height([BLANK, *shown]) - 2)
     below: list[Block] = [Heading("Warnings", "warnings"), *rest] if rest else []
     drawn = picture(LINES - height([*about, *reasons, *parted, BLANK, *below, *last])) if picture else ()
     return (*about, *reasons, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
 
 
-def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:
+def fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int) -> list[Paragraph]:
     """Lines that there is room for, and the rest as a count.
 
     `codes`: codes of the checks that each line reports; empty if the lines are warnings.
     """
-    if _height(lines) <= room:
+    if taken_by(lines) <= room:
         return list(lines)
     fit = max(bisect_right(range(min(len(lines), LINES)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
     left = [code for each in codes[fit:] for code in each]
@@ -70,7 +70,7 @@ def _fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: in
     return [*lines[:fit], Paragraph(f"And {more}{named}: --full.")] if lines else []
 
 
-def _height(blocks: Sequence[Block]) -> int:
+def taken_by(blocks: Sequence[Block]) -> int:
     """Number of lines that blocks take.
 
     Blocks taller than a screen are laid out only as far as is needed to show that they are taller.
@@ -85,7 +85,7 @@ def cut(blocks: Sequence[Block], room: int) -> list[Block]:
 
     What stands below a heading that does not fit is left out with it.
     """
-    if _height(blocks) <= room:
+    if taken_by(blocks) <= room:
         return list(blocks)
     kept: list[Block] = []
     headless = False
@@ -101,7 +101,7 @@ def cut(blocks: Sequence[Block], room: int) -> list[Block]:
 def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
     """A block, the first rows of a table, or nothing; a heading where some lines fit below it."""
     lines = [BLANK] * 3 if isinstance(block, Heading) else []
-    if _height([*above, block, *lines]) <= room:
+    if taken_by([*above, block, *lines]) <= room:
         return [block]
     if not isinstance(block, Grid):
         return []
@@ -112,19 +112,26 @@ def _what_fits(block: Block, above: Sequence[Block], room: int) -> list[Block]:
 
 
 def verdict_line(result: Result, unjudged: str | None = None) -> Paragraph:
-    """PASS, FAIL or NOT DONE, and how many checks and warnings stand behind the word.
+    """Verdict with the counts of checks by grade.
 
-    `unjudged`: what to say in place of PASS where nothing was judged that the word could stand for.
+    `unjudged`: text in place of PASS if no check judged what the word could stand for.
     """
-    count, total = Counter(check.status for check in result.checks), many(len(result.checks), "check")
-    warned = [many(number, "warning")] if (number := count["warn"] + len(result.warnings)) else []
-    if result.status == "pass":
-        text = "; ".join([unjudged, *warned]) if unjudged else " with ".join(["PASS", *warned])
-        return Paragraph(text, "warn" if count["warn"] else None if unjudged else "pass")
-    failed = [f"{count['fail']} of {total} failed"] if count["fail"] else []
-    missing = f"{count['not-done']} not done" if failed else f"{count['not-done']} of {total} not done"
-    clauses = [*failed, *([missing] if count["not-done"] else []), *warned]
-    return Paragraph(f"{WORDS[result.status]}: {', '.join(clauses or ['there are no checks'])}", result.status)
+    count, total = Counter(check.status for check in result.checks), len(result.checks)
+    if unjudged and result.status == "pass":
+        return Paragraph(unjudged, "warn" if count["warn"] else None)
+    if not total:
+        return Paragraph(f"{WORDS[result.status]}: there are no checks", result.status)
+    word, verb = WORDS[result.status], "passes" if count["pass"] == 1 else "pass"
+    text = f"{count['pass']} of {many(total, 'check')} {verb}"
+    others = (("warn", "warn" if count["warn"] != 1 else "warns"), ("fail", "fail" if count["fail"] != 1 else "fails"))
+    clauses = [f"{count[grade]} {name}" for grade, name in others if count["pass"] < total]  # type: ignore[index]
+    if count["not-done"]:
+        clauses.append(f"{count['not-done']} not evaluated")
+    if result.status == "pass" and count["warn"]:
+        word += " WITH WARNINGS"
+    return Paragraph(
+        f"{word}: {', '.join([text, *clauses])}", "warn" if count["warn"] and word[0] == "P" else result.status
+    )
 
 
 def many(count: int, name: str, plural: str | None = None) -> str:

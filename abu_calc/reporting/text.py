@@ -23,7 +23,7 @@ STYLES = {
     "not-done": "bold magenta",
     "warning": "yellow",
 }
-WORDS = {"WARN": "warn", "FAIL": "fail", "NOT DONE": "not-done"}
+WORDS = {"WARN": "warn", "FAIL": "fail", "NOT EVALUATED": "not-done"}
 """Cells of tables that are styled as these marks are."""
 WIDEST = 100
 MARGIN = 2
@@ -117,10 +117,20 @@ def _facts(rows: tuple[tuple[str, str, str], ...], width: int) -> Table:
     return table
 
 
+def grade_of(cell: str) -> str:
+    """Grade that a cell of a table shows, with or without the number of its action.
+
+    >>> grade_of("WARN 2"), grade_of("pass")
+    ('warn', 'pass')
+    """
+    word = cell.rstrip("0123456789 ")
+    return WORDS.get(word, word)
+
+
 def _grid(grid: Grid) -> Table:
     table = Table(box=None, padding=(0, 0, 0, MARGIN), header_style="dim", show_header=any(grid.header))
     for index, title in enumerate(grid.header):
         table.add_column(escaped(title), justify="right" if index in grid.right else "left", overflow="fold")
     for row in grid.rows:
-        table.add_row(*(Text(escaped(cell), style=STYLES.get(WORDS.get(cell, cell), "")) for cell in row))
+        table.add_row(*(Text(escaped(cell), style=STYLES.get(grade_of(cell), "")) for cell in row))
     return table

@@ -46,10 +46,12 @@ def sample(*grades: Grade, warnings: tuple[str, ...] = ()) -> Sample:
 
 
 def test_the_verdict_counts_checks_and_warnings() -> None:
-    assert verdict_line(sample("pass", "pass")).text == "PASS"
-    assert verdict_line(sample("pass", "warn", warnings=("a",))).text == "PASS with 2 warnings"
-    assert verdict_line(sample("fail", "not-done", "pass")).text == "FAIL: 1 of 3 checks failed, 1 not done"
-    assert verdict_line(sample()).text == "NOT DONE: there are no checks"
+    assert verdict_line(sample("pass", "pass")).text == "PASS: 2 of 2 checks pass"
+    warned = verdict_line(sample("pass", "warn", warnings=("a",)))
+    assert warned.text == "PASS WITH WARNINGS: 1 of 2 checks passes, 1 warns, 0 fail" and warned.mark == "warn"
+    several = verdict_line(sample("fail", "not-done", "pass"))
+    assert several.text == "FAIL: 1 of 3 checks passes, 0 warn, 1 fails, 1 not evaluated"
+    assert verdict_line(sample()).text == "NOT EVALUATED: there are no checks"
     assert verdict_line(sample("pass"), "Nothing was judged").text == "Nothing was judged"
 
 

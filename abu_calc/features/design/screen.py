@@ -1,43 +1,317 @@
-"""The report of `abu size` on one screen, and the lines with which the whole report begins."""
+"""First screen of `abu size`: verdict, what to make, levels, settling times, actions, data gap, next commands."""
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
 from abu_calc.features.design.records import AutobalancerRecord, Vibration
 from abu_calc.features.design.section_drawing import legend, section_lines
-from abu_calc.features.design.starts import EnsembleResult
+from abu_calc.features.design.starts import SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds, arm_line
-from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
-from abu_calc.reporting.parts import file_of, limit_in_file, measured_after_blocks
-from abu_calc.reporting.screen import BLANK, one_screen, verdict_line
+from abu_calc.foundation.checks import Check
+from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, level_text, number
+from abu_calc.reporting.parts import RANK, WORD, file_of, paste_lines, unlike, value_and_limit
+from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by, verdict_line
+from abu_calc.reporting.text import height
 
-ON_ARM = "`abu stability {} --scene swing-arm-cutting`, the arm's motion and instability region"
-MORE = ("--explain, every formula with its numbers",)
+INERTIA: Final = "machine.transverse_inertia_kg_m2"
+"""Key without which the machine is a point mass; the warning that names it is the first data gap."""
 
-MOST_ROWS = 9
-"""Most rows of the section on one screen."""
+MOST_KEPT: Final = 14
+"""Most lines that the tables leave to the actions."""
 
-
-class ShownSpread(NamedTuple):
-    """A number as one run or the typical one has it, and the worst of many, if there were many."""
-
-    typical: float | None
-    worst: float | None = None
-
+LEAST_NOTES: Final = 3
+"""Room in lines that is not worth a heading and a note."""
 
 TENTH: Final = 0.05
-"""Two levels [dB] no further apart are printed alike, or nearly."""
+"""Difference of two levels [dB] that are printed alike, or nearly."""
+
+
+class Case(NamedTuple):
+    """One case of a table: its label, its number as text, its limit and its grade."""
+
+    label: str
+    value: str
+    limit: str = ""
+    grade: str = ""
 
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
-    """The one screen; the section stands in the room that is left."""
-    arm = [BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else []
-    more = (*MORE, ON_ARM.format(file_of(result))) if arm else MORE
-    return one_screen(
-        result, about(result), [*numbers_that_matter(result)[1:], *arm], more,
-        lambda room: section_picture(result, min(room - 1, MOST_ROWS)),
+    """The report on one screen: tables first, then actions, then notes as far as there is room."""
+    about = [Heading(f"{result.title}{_speed(result)}"), verdict_line(result), *_arm_change(result)]
+    tables = numbers_that_matter(result)
+    body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
+    groups = action_groups(result.checks, marked(tables))
+    heads = [group[0] for group in groups]
+    notes = data_gaps(result) + _notes(result)
+    last = _closing(result, len(notes))
+    room = LINES - height([*about, *last])
+    body = cut(body, room - min(MOST_KEPT, 3 + taken_by(heads)) if heads else room)
+    room -= height(body)
+    below: list[Block] = []
+    if heads:
+        codes = [[check.code for check in alike] for alike in unlike(result.checks)]
+        actions = [block for group in groups for block in group]
+        shown = actions if 2 + taken_by(actions) <= room else fitted(heads, codes, room - 2)
+        below += [Heading("Actions", "actions"), *shown]
+    room = LINES - height([*about, *body, *below, *last])
+    fitting = fitted(notes, [], room - 2) if notes and room > LEAST_NOTES else []
+    if fitting:
+        title = "Notes" if not data_gaps(result) else "Data gap" if len(notes) == 1 else "Data gap and notes"
+        below += [Heading(title, "warnings"), *fitting]
+        last = _closing(result, 0)
+    return (*about, *body, *below, *last)
+
+
+def _speed(result: SizeResult) -> str:
+    return f", {result.model.speed_rad_per_s * 30 / math.pi:.6g} rpm"
+
+
+def _arm_change(result: SizeResult) -> list[Block]:
+    return arm_line(result.swing_arm.advice) if result.swing_arm else []
+
+
+def about(result: SizeResult) -> list[Block]:
+    """First lines of the whole report: title, verdict, what to make."""
+    return [Heading(result.title), verdict_line(result), *_arm_change(result), BLANK, *make(result)]
+
+
+def make(result: SizeResult) -> list[Block]:
+    """What to make or buy, in a few rows."""
+    abu, section = result.autobalancer, result.section
+    title = "Make" if result.status == "pass" else "Best found"
+    share = f"{number(100 * abu.mass_fraction, 2)} % of the machine"
+    capacity = f"required, with margin: {number(_needed(result), 5)}"
+    groove = abu.groove_radius_mm
+    shape = "" if groove is None else (
+        f"groove R {number(groove, 4)} ± {number(section.groove_tolerance_mm, 1)} mm, "
     )  # fmt: skip
+    rows = (
+        Case("Balls", f"{balls(abu)}, {abu.ball_material}{'' if abu.corrector == 'ball' else f' {abu.corrector}s'}"),
+        Case(
+            "Race",
+            f"R {abu.race_radius_mm:.2f} ± {number(section.race_tolerance_mm, 1)} mm, {shape}{section.hardness}",
+        ),
+        Case(
+            "Housing",
+            f"{abu.housing.split(':')[0]}, Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm, bore "
+            f"{section.bore_diameter_mm:g} mm {section.bore_class}",
+        ),
+        Case("Eccentricity", f"{number(section.runout_um / 2, 3)} µm at most, race to spindle (TIR "
+             f"{number(section.runout_um, 3)} µm)"),
+        Case("Capacity", f"{number(abu.capacity_g_mm, 5)} g·mm ({capacity})"),
+        Case("Mass", f"{number(abu.mass_g, 3)} g with balls = {share}{_most(result, 'ABU203')}"),
+    )  # fmt: skip
+    return [Grid((title, ""), tuple((row.label, row.value) for row in rows))]
+
+
+def _needed(result: SizeResult) -> float:
+    """Required capacity times its margin [g·mm], as ABU201 judges it."""
+    check = next((check for check in result.checks if check.code == "ABU201"), None)
+    return result.required_capacity_g_mm if check is None or check.limit is None else check.limit
+
+
+def _most(result: SizeResult, code: str) -> str:
+    check = next((check for check in result.checks if check.code == code), None)
+    return "" if check is None or check.limit is None else f" (limit {check.limit:g} {check.unit or ''})"
+
+
+def numbers_that_matter(result: SizeResult) -> list[Block]:
+    """Levels and settling times, case by case, with limit and grade."""
+    numbers = {check.code: k for k, alike in enumerate(unlike(result.checks), 1) for check in alike}
+    checks = {check.code: check for check in result.checks}
+    levels, settling = _levels(result, checks, numbers), _settling(result, checks, numbers)
+    place = _place(result.vibration)
+    tables = [_table(f"Vibration, {place}, dB re 5e-8 m/s", "level", levels)]
+    if settling:
+        tables.append(_table("Settling time, s", "time", settling))
+    return [block for table in tables for block in (BLANK, table)]
+
+
+def _table(title: str, column: str, cases: Sequence[Case]) -> Grid:
+    return Grid((title, column, "limit", ""), tuple(tuple(case) for case in cases), frozenset({1, 2}))
+
+
+def marked(blocks: Sequence[Block]) -> frozenset[int]:
+    """Numbers of the actions to which the tables point: their cases stand there with number and limit."""
+    cells = [row[-1] for block in blocks if isinstance(block, Grid) for row in block.rows]
+    return frozenset(int(cell.split()[-1]) for cell in cells if cell[-1:].isdigit())
+
+
+def _graded(value: float | None, check: Check | None, numbers: Mapping[str, int], *, decides: bool) -> tuple[str, str]:
+    """Limit and grade of one case; `decides`: whether it fails the check or only warns."""
+    if check is None or check.limit is None:
+        return "", ""
+    limit = number(check.limit, 3)
+    if value is not None and value <= check.limit:
+        return limit, "pass"
+    word = "FAIL" if decides and check.status == "fail" else "WARN"
+    return limit, f"{word} {numbers[check.code]}" if check.code in numbers else ""
+
+
+def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[Case]:
+    vibration, many_starts, check = result.vibration, result.ensemble, checks.get("ABU401")
+    cases = [Case("Idle, without autobalancer", _db(vibration.level_before_db))]
+
+    def judged(label: str, level: float | None, *, decides: bool) -> Case:
+        return Case(label, _db(level), *_graded(level, check, numbers, decides=decides))
+
+    if many_starts is not None:
+        cases.append(judged("Idle, with: median of the start cases", many_starts.predicted_level_db, decides=True))
+    over_range = [entry.level_after_db for entry in vibration.by_speed or ()]
+    expected = max((level for level in (vibration.level_after_db, *over_range) if level is not None), default=None)
+    cases.append(judged("  expected, manufacture and friction", expected, decides=True))
+    if many_starts is not None and many_starts.level_db.worst is not None:
+        loudest = many_starts.level_db.worst
+        if expected is None or loudest > expected + TENTH:
+            label = f"  loudest of {many(many_starts.members, 'start case')}, any oil"
+            cases.append(judged(label, loudest, decides=check is not None and check.status == "fail"))
+    if vibration.worst_arrangement is not None:
+        label = "  worst friction case"
+        cases.append(judged(label, vibration.worst_arrangement.level_after_db, decides=False))
+    return [*cases, *_at_idle_speed(result), *_measured(result), *_under_load(result.vibration_loaded)]
+
+
+def _at_idle_speed(result: SizeResult) -> list[Case]:
+    """Levels at the motor's idle speed, if that is not the rated speed."""
+    idle = result.vibration.at_idle_speed
+    if idle is None:
+        return []
+    label = f"At the motor's idle speed, {idle.speed_rpm:.0f} rpm"
+    return [
+        Case(f"{label}, without", _db(idle.level_before_db)),
+        Case(f"{label}, expected", _db(idle.level_after_db) or "none"),
+    ]
+
+
+def _measured(result: SizeResult) -> list[Case]:
+    after = result.measured_after
+    if after is None:
+        return []
+    level = after.measured.removesuffix(" dB") if after.unit == "dB" else f"{after.measured_level_db:.1f}"
+    place = "" if after.place == _place(result.vibration) else f", {after.place}"
+    if after.difference_db is None:
+        return [Case(f"  measured{place}", level)]
+    distance = f"{abs(after.difference_db):.1f} dB {'above' if after.difference_db >= 0 else 'below'} median"
+    return [Case(f"  measured{place}: {distance}", level)]
+
+
+def _under_load(loaded: Vibration | None) -> list[Case]:
+    """Levels at the workpiece; a face works as it idles, so that it has none."""
+    if loaded is None or loaded.at_once_stays is None:
+        return []
+    before, after, early = loaded.level_before_db, loaded.level_after_db, loaded.level_at_once_db
+    cases = [
+        Case("Grinding, without autobalancer", _db(before) or "not known"),
+        Case("Grinding, with: pressed after settling", _db(after) or "not known", "", _louder(after, before)),
+    ]
+    if after is not None and early is not None and early > after + TENTH:
+        cases.append(Case("  pressed earlier", _db(early), "", _louder(early, before)))
+    starts = loaded.starts
+    known = max((level for level in (after, early) if level is not None), default=None)
+    if starts is not None and starts.worst_db is not None and known is not None and starts.worst_db > known + TENTH:
+        label = f"  loudest of {many(starts.count, 'start case')}"
+        cases.append(Case(label, _db(starts.worst_db), "", _louder(starts.worst_db, before)))
+    return cases
+
+
+def _louder(level: float | None, before: float | None) -> str:
+    louder = level is not None and before is not None and level > before
+    return "LOUDER THAN WITHOUT" if louder else ""
+
+
+def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[str, int]) -> list[Case]:
+    many_starts, check = result.ensemble, checks.get("ABU702")
+    if many_starts is None:
+        return []
+    given = result.model.drag_per_s
+
+    def judged(label: str, time: float | None, *, decides: bool) -> Case:
+        return Case(label, _seconds(time), *_graded(time, check, numbers, decides=decides))
+
+    cases = [judged("Median of the start cases", many_starts.settling_time_s.typical, decides=True)]
+    by_drag: dict[float, list[SettlingOfStart]] = {}
+    for entry in many_starts.settling_by_start:
+        by_drag.setdefault(entry.drag_per_s, []).append(entry)
+    slowest_by_drag = {drag: max(entries, key=_time_of) for drag, entries in by_drag.items()}
+    others = [drag for drag in slowest_by_drag if drag != given]
+    shown = [given] * (given in slowest_by_drag)
+    shown += [max(others, key=lambda drag: _time_of(slowest_by_drag[drag]))] if others else []
+    for drag in shown:
+        slowest = slowest_by_drag[drag]
+        oil = "as given" if drag == given else "hot oil" if drag < given else "cold oil"
+        label = f"Slowest at drag rate {number(drag, 3)} 1/s ({oil}): {slowest.start}"
+        cases.append(judged(label, slowest.settling_time_s, decides=drag == given))
+    return cases
+
+
+def _time_of(entry: SettlingOfStart) -> float:
+    return math.inf if entry.settling_time_s is None else entry.settling_time_s
+
+
+def action_groups(checks: Sequence[Check], in_tables: frozenset[int]) -> list[list[Paragraph]]:
+    """Checks that did not simply pass, numbered, each with its action and the entries to paste.
+
+    `in_tables`: numbers whose case stands in a table above; if these have an action, it alone is printed.
+    """
+    groups, printed = list[list[Paragraph]](), set[tuple[str, ...]]()
+    for k, alike in enumerate(unlike(checks), 1):
+        first = alike[0]
+        codes = ", ".join(check.code for check in alike[:3]) + (f" and {len(alike) - 3} more" * (len(alike) > 3))
+        start = f"{k} {WORD[first.status]} {codes}"
+        if k in in_tables and first.remedy:
+            text = f"{start}: {first.remedy}"
+        else:
+            action = f" Action: {first.remedy}" if first.remedy else ""
+            text = f"{start} {first.name}{value_and_limit(first)}: {first.message}.{action}"
+        lines = [Paragraph(text, first.status, hang=2)]
+        if first.overrides not in printed:
+            lines += paste_lines(first.overrides)
+            printed.add(first.overrides)
+        groups.append(lines)
+    return groups
+
+
+def data_gaps(result: SizeResult) -> list[Paragraph]:
+    """Missing data that most move the numbers."""
+    return [Paragraph(text) for text in result.warnings if INERTIA in text]
+
+
+def _notes(result: SizeResult) -> list[Paragraph]:
+    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text]
+
+
+def _closing(result: SizeResult, notes: int) -> list[Block]:
+    """Start cases, defaults and next commands; `notes`: number of those that are not shown."""
+    starts, used = result.ensemble, len(result.provenance.defaults)
+    sentences = list[str]()
+    if starts is not None:
+        count = many(starts.members, "start case")
+        balance = (
+            f"All {count} balance" if starts.balanced == starts.members else f"{starts.balanced} of {count} balance"
+        )
+        stall = "no ball stalls" if not starts.hanging else f"balls stall in {starts.hanging}"
+        sentences.append(f"{balance}; {stall}.")
+    if result.idle_speed_rpm is not None:
+        sentences.append(f"The motor idles at {result.idle_speed_rpm:.0f} rpm.")
+    if used:
+        sentences.append(f"{many(used, 'default')} used.")
+    if notes:
+        sentences.append(f"{many(notes, 'note')}: --full.")
+    code = next((check.code for check in sorted(result.checks, key=_rank) if check.status != "pass"), "ABU401")
+    commands = ["--full", "--explain", "--output report.html", f"abu explain {code}"]
+    if result.swing_arm:
+        commands[2:2] = [f"abu stability {file_of(result)} --scene swing-arm-cutting"]
+    return [BLANK, Paragraph(" ".join(sentences)), Paragraph("More: " + "   ".join(commands))]
+
+
+def _rank(check: Check) -> int:
+    return RANK.index(check.status) if check.status in RANK else len(RANK)
+
+
+MOST_ROWS: Final = 9
+"""Most rows of the section in characters."""
 
 
 def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
@@ -50,92 +324,9 @@ def section_picture(result: SizeResult, rows: int) -> tuple[Block, ...]:
     return (Picture(tuple(lines), caption),)
 
 
-def about(result: SizeResult) -> list[Block]:
-    """Title, verdict, the design in a line."""
-    abu = result.autobalancer
-    housing = f"{abu.housing.split(':')[0]} housing Ø{number(abu.outer_diameter_mm, 3)} × {number(abu.width_mm, 3)} mm"
-    best = "" if result.status == "pass" else "Best that was found: "
-    line = f"{best}{balls(abu)} {abu.ball_material} {abu.corrector}s, race R {abu.race_radius_mm:g} mm, {housing}."
-    arm = arm_line(result.swing_arm.advice) if result.swing_arm else []
-    return [Heading(result.title), verdict_line(result), *arm, Paragraph(line)]
-
-
 def balls(autobalancer: AutobalancerRecord) -> str:
     """Count and size, inch sizes to the micrometre."""
     return f"{autobalancer.ball_count} × Ø{round(autobalancer.ball_diameter_mm, 3):g} mm"
-
-
-def numbers_that_matter(result: SizeResult) -> list[Block]:
-    """Level without and with the autobalancer, settling, mass; each with its limit, and what many starts came to."""
-    many, measured = result.ensemble, measured_after_blocks(result.measured_after)
-    if many is None:
-        return [BLANK, _table(result, ShownSpread(result.vibration.level_after_db), ShownSpread(None)), *measured]
-    over_range = (speed_level.level_after_db for speed_level in result.vibration.by_speed or ())
-    levels = many.level_db.worst, result.vibration.level_after_db, *over_range
-    level = ShownSpread(many.level_db.typical, max((value for value in levels if value is not None), default=None))
-    settling_time = many.settling_time_s
-    settling = ShownSpread(settling_time.typical, math.inf if settling_time.worst is None else settling_time.worst)
-    return [BLANK, _table(result, level, settling), Paragraph(_starts(result, many)), *measured]
-
-
-def _idle(result: SizeResult) -> str:
-    """The idle speed, if the file gives a motor."""
-    return "" if result.idle_speed_rpm is None else f" The motor idles at {result.idle_speed_rpm:.0f} rpm."
-
-
-def _starts(result: SizeResult, many: EnsembleResult) -> str:
-    """Number of start cases, and the worst of them."""
-    text = f"Of {many.members} starts, with the drag given, a third and three times of it, {many.balanced} balance"
-    worst = many.worst_member
-    if worst is None:
-        return f"{text}.{_idle(result)}"
-    speed = "" if worst.speed_rpm is None else f" ({worst.speed_rpm:.6g} rpm)"
-    return f"{text}; the worst of all: {worst.start}{speed}, drag {number(worst.drag_per_s, 3)} 1/s.{_idle(result)}"
-
-
-def _table(result: SizeResult, level: ShownSpread, settling: ShownSpread) -> Grid:
-    """The worst stand beside the typical ones where many runs were made."""
-    autobalancer, limits = result.autobalancer, {check.code: check for check in result.checks}
-    rows = (
-        (f"idle level, {_place(result.vibration)}", _db(result.vibration.level_before_db),
-         _db(level.typical) or "not known", _db(level.worst), limit_in_file(limits.get("ABU401"))),
-        *_at_idle_speed(result),
-        *_under_load(result.vibration_loaded),
-        ("settling time", "", _seconds(settling.typical) or "none", _seconds(settling.worst),
-         limit_in_file(limits.get("ABU702"))),
-        ("mass with balls", "", f"{number(autobalancer.mass_g, 3)} g", "",
-         f"{number(100 * autobalancer.mass_fraction, 2)} %, {limit_in_file(limits.get('ABU203'))}".removesuffix(", ")),
-    )  # fmt: skip
-    header = ("", "without", "with", "worst", "limit")
-    if level.worst is None and settling.worst is None:
-        return Grid((*header[:3], header[4]), tuple((*row[:3], row[4]) for row in rows), frozenset({1, 2}))
-    return Grid(header, rows, frozenset({1, 2, 3}))
-
-
-def _at_idle_speed(result: SizeResult) -> tuple[tuple[str, ...], ...]:
-    """Levels at the idle speed of a motor, if that is not the rated speed; the limit and the worst stand a line
-    above.
-    """
-    idle = result.vibration.at_idle_speed
-    if idle is None:
-        return ()
-    without, fitted = _db(idle.level_before_db), _db(idle.level_after_db)
-    return ((f"at the motor's {idle.speed_rpm:.0f} rpm", without, fitted or "not known", "", ""),)
-
-
-def _under_load(loaded: Vibration | None) -> tuple[tuple[str, ...], ...]:
-    """Pressed when the balls have settled; the worst: of all start cases. A face works as it idles."""
-    if loaded is None or loaded.at_once_stays is None:
-        return ()
-    after, worst = loaded.level_after_db, loaded.level_after_db
-    of = ""
-    hasty, starts = loaded.level_at_once_db, loaded.starts
-    if after is not None and worst is not None and hasty is not None and hasty > worst:
-        worst, of = hasty, "worst: at once"
-    if worst is not None and starts is not None and starts.worst_db is not None and starts.worst_db > worst + TENTH:
-        worst, of = starts.worst_db, f"worst of {starts.count} starts"
-    levels = (_db(loaded.level_before_db) or "not known", _db(after) or "not known", _db(worst))
-    return (("level under load", *levels, of),)
 
 
 def _place(vibration: Vibration) -> str:
@@ -147,10 +338,8 @@ def _place(vibration: Vibration) -> str:
 
 
 def _db(level: float | None) -> str:
-    return "" if level is None else f"{level:.1f} dB"
+    return "" if level is None else level_text(level, 4 if level >= 100 else 3).removesuffix(" dB")
 
 
 def _seconds(time: float | None) -> str:
-    if time is None:
-        return ""
-    return f"{number(time, 2)} s" if math.isfinite(time) else "never"
+    return "never" if time is None or math.isinf(time) else number(time, 3 if time >= 1 else 2)

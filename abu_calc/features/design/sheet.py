@@ -140,7 +140,7 @@ def verdict(result: "Result") -> str:
     if result.status == "pass":
         return "PASS"
     codes = dict.fromkeys(check.code for check in result.checks if check.status == result.status)
-    return f"{'FAIL' if result.status == 'fail' else 'NOT DONE'}: {' '.join(codes)}"
+    return f"{'FAIL' if result.status == 'fail' else 'NOT EVALUATED'}: {' '.join(codes)}"
 
 
 def _parts_list(result: "SizeResult") -> Iterator[Line | Text]:

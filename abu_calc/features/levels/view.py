@@ -77,7 +77,7 @@ def _octaves(places: Sequence[PlaceLevel]) -> list[Block]:
     for index, octave in enumerate(places[0].octaves):
         levels = [place.octaves[index].level_db for place in places]
         word = "FAIL" if any(level is not None and level > octave.limit_db for level in levels) else ""
-        word = word or ("NOT DONE" if octave.why_not else "")
+        word = word or ("NOT EVALUATED" if octave.why_not else "")
         rows.append((f"{octave.nominal_hz:g}", *map(_tenths, levels), f"{octave.limit_db:g}", word))
     corrected = [place.corrected_level_db for place in places]
     rows.append(("corrected", *map(_tenths, corrected), "112", ""))

@@ -103,7 +103,7 @@ def _cell(value: tuple[float, float] | float | str | None, name: str) -> str:
 
 NAME = 22
 """Signs of a bearing's name in a table: more would be wrapped, and a wrapped name may look like a verdict."""
-VERDICTS = {"pass": "PASS", "warn": "PASS, warning", "fail": "FAIL", "not-done": "NOT DONE"}
+VERDICTS = {"pass": "PASS", "warn": "PASS, warning", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 
 def advice_lines(pair: Seats) -> list[Paragraph]:

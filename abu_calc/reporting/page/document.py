@@ -20,7 +20,7 @@ SOURCE: Final = "provenance"
 """Id of the section whose blocks stand below "To repeat it"."""
 SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 """Security policy of the page: it never asks a network, not even by mistake."""
-WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT DONE"}
+WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 
 def page(outcome: "Outcome") -> str:

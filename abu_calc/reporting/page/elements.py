@@ -14,7 +14,7 @@ from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.drawings.svg import svg_figure
 from abu_calc.reporting.page.assets import script, text
 from abu_calc.reporting.page.chart_svg import bars, cells, plot
-from abu_calc.reporting.text import BEFORE_UNIT, STYLES, TIE, WORDS
+from abu_calc.reporting.text import BEFORE_UNIT, STYLES, TIE, grade_of
 
 if TYPE_CHECKING:
     from abu_calc.simulation.rotor_view import Array, RotorView
@@ -86,7 +86,7 @@ def _cell(words: str) -> str:
 
 
 def _graded(cell: str) -> str:
-    grade = WORDS.get(cell, cell)
+    grade = grade_of(cell)
     return f' class="{grade}"' if grade in STYLES else ""
 
 

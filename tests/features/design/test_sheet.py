@@ -38,7 +38,7 @@ def test_the_verdict_names_each_code_once() -> None:
     checks = tuple(Check(code, code, grade, "", None, None, None, None) for code, grade in grades)
     assert verdict(replace(result("one-piece"), checks=checks)) == "FAIL: ABU401"
     assert verdict(replace(result("one-piece"), checks=checks[1:2])) == "PASS"
-    assert verdict(replace(result("one-piece"), checks=checks[3:])) == "NOT DONE: ABU501"
+    assert verdict(replace(result("one-piece"), checks=checks[3:])) == "NOT EVALUATED: ABU501"
 
 
 @pytest.mark.parametrize("name", ["one-piece", "bearing-ring"])
