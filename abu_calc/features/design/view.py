@@ -260,7 +260,7 @@ def _scene(scene: SimulatedScene, case: str) -> list[Block]:
             *others,
             *facts(scene, "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db", "error_estimate").rows,
         )),
-        Paragraph(f"The balls end at {angles} from the imbalance."),
+        Paragraph(f"Scene {scene.scene}: the balls end at {angles} from the imbalance."),
         Paragraph(f"Effects in: {_in(scene)}. Left out: {_out(scene)}."),
         Paragraph(f"Cost: {work}, {cost.wall_s:.2f} s."),
     ]  # fmt: skip
