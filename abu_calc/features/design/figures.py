@@ -44,7 +44,7 @@ def _drawings(result: SizeResult) -> Iterator[Figure]:
     scale = next((ratio for ratio in SCALES if ratio * outer <= ROOM), SCALES[-1])
     note = f"drawn to scale {_ratio(scale)}, sizes in mm"
     yield Figure("section", "section", section_drawing(result, scale), f"Section through the axis, {note}.")
-    face = f"Face with the cover off, {note}; balls evenly round the race."
+    face = f"Face with the cover off, {note}; balls evenly spread."
     yield Figure("face", "section", face_drawing(result, scale), face)
     for sheet in arm_sheets(result):
         yield Figure("arm", "swing-arm", sheet, "Sketch of the swing arm, not to scale.")
@@ -56,12 +56,13 @@ def _ratio(scale: float) -> str:
 
 
 def _levels(result: SizeResult) -> Iterator[Figure]:
-    """Figure of the levels before, after and as measured at each place, with the limit."""
+    """Figure of the levels without, with (expected) and as measured with the autobalancer at each place."""
     rows = [row for place in result.vibration.handles for row in (
-        (f"{place.name}, before", place.level_before_db, 2), (f"{place.name}, after", place.level_after_db, 1)
+        (f"{place.name}, without autobalancer", place.level_before_db, 2),
+        (f"{place.name}, with: expected", place.level_after_db, 1),
     )]  # fmt: skip
     if (measured := result.measured_after) is not None:
-        rows.append((f"{measured.place}, measured", measured.measured_level_db, 3))
+        rows.append((f"{measured.place}, with: measured", measured.measured_level_db, 3))
     known = [Bar(name, value, db(value), series) for name, value, series in rows if value is not None]
     if not known:
         return
@@ -69,30 +70,30 @@ def _levels(result: SizeResult) -> Iterator[Figure]:
     values = [*(bar.value for bar in known), *([limit[0]] if limit else [])]
     axis = Axis.around("velocity level, idle [dB]", values)
     text = "; ".join(f"{bar.name} {bar.told}" for bar in known) + (f"; {limit[1]}" if limit else "")
-    caption = (
-        "Velocity level at each place, idle, at the rated speed, 0 dB = 5e-8 m/s rms: what is after (round) should "
-        "stand left of the dashed limit; squares: before, lozenge: measured."
+    caption = "Velocity level at each place, idle, at the rated speed, dB re 5e-8 m/s rms."
+    caption += " The expected level (circle) should stand left of the dashed limit." if limit else ""
+    yield Figure(
+        "levels", "vibration-level", Bars("Levels without and with the autobalancer", text, axis, known, limit), caption
     )
-    yield Figure("levels", "vibration-level", Bars("Levels before and after", text, axis, known, limit), caption)
 
 
 def _over_speed(result: SizeResult) -> Iterator[Figure]:
     levels = result.vibration.by_speed or ()
     if len({speed_level.speed_rpm for speed_level in levels}) < 2:
         return
-    course = sorted((speed_level.speed_rpm, speed_level.level_after_db) for speed_level in levels)
+    curve = sorted((speed_level.speed_rpm, speed_level.level_after_db) for speed_level in levels)
     limit = _limit(result, "ABU401")
     bands = _forbidden(result)
-    points = [*(MarkedPoint(*pair) for pair in course), *_measured(result)]
+    points = [*(MarkedPoint(*pair) for pair in curve), *_measured(result)]
     across = Axis.around("speed [rpm]", (point.x for point in points))
     up = Axis.around("level [dB]", [*(point.y for point in points), *([limit[0]] if limit else [])])
     text = "; ".join(f"{f'{point.word} ' if point.word else ''}{point.x:.0f} rpm {db(point.y)}" for point in points)
     text += f"; {limit[1]}" if limit else ""
     caption = (
-        "Level with the autobalancer at the loudest place over the speed range, 0 dB = 5e-8 m/s rms: the line should "
-        f"stay below the dashed limit{', and out of shaded speeds, where the balls do not balance' if bands else ''}."
+        "Expected level with the autobalancer at the loudest place, idle, against speed, dB re 5e-8 m/s rms. The line "
+        f"should stay below the dashed limit.{' In the shaded ranges the balls do not balance.' if bands else ''}"
     )
-    chart = Plot("Level against speed", text, across, up, (Curve(course),), points, limit, bands)
+    chart = Plot("Level against speed", text, across, up, (Curve(curve),), points, limit, bands)
     yield Figure("speeds", "vibration-level", chart, caption)
 
 
@@ -133,54 +134,108 @@ def _budget(result: SizeResult) -> Iterator[Figure]:
         "displacement at the wheel, 0–peak [µm]", 0.0, max(max(bar.value for bar in rows), limit[0] if limit else 0)
     )
     text = "; ".join(f"{bar.name} {bar.told}" for bar in rows) + (f"; {limit[1]}" if limit else "")
-    caption = "What keeps the balls from balancing to nothing; the sums should end left of what is permitted (dashed)."
-    yield Figure("budget", "accuracy-budget", Bars("Accuracy budget", text, axis, rows, limit), caption)
+    caption = "Displacements that remain at the wheel after the balls settle, by cause, and their sums."
+    caption += " The expected residual should end left of the dashed line." if limit else ""
+    yield Figure("budget", "accuracy-budget", Bars("Residual-displacement budget", text, axis, rows, limit), caption)
+
+
+IDLE_START: Final = "bunched"
+IDLE_RACE_CENTRE: Final = 180.0
+"""Start and angle of the race's centre from the imbalance [deg] in the idle scene."""
 
 
 def _motion(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
-    others = [(_start(start), start.view) for start in result.starts.views]
-    chosen = " Other starts of the machine can be chosen, from their beginning." if others else ""
+    others = [(start_label(start), start.view) for start in result.starts.views if not _is_idle_scene(start, result)]
+    chosen = " The list offers further start cases, from their beginning." if others else ""
     caption = (
-        "The simulated run, seen in the rotor, which turns anticlockwise: the balls leave the imbalance (red) and come "
-        "to rest against it; beside them how the axis goes round, drift taken off. Space plays, arrows move in time."
-        f"{chosen}"
+        "Balls and spindle axis as seen in the rotor, which turns anticlockwise. Left: the balls leave the imbalance "
+        "(red) and come to rest against it. Right: path of the spindle axis, without its drift. The space key starts "
+        f"and stops the run, arrow keys move in time.{chosen}"
     )
-    yield Figure("motion", "simulation-idle", RotorMotionFigure(result.idle_run, "simulated: idle", others), caption)
+    motion = RotorMotionFigure(result.idle_run, _idle_label(result), others)
+    yield Figure("motion", "simulation-idle", motion, caption)
 
 
-def _start(start: StartView) -> str:
-    """A start in a line."""
-    ends = "does not balance"
-    if start.balanced:
-        ends = "balances" if start.settling_time_s is None else f"settles in {number(start.settling_time_s, 2)} s"
-    why = f"{start.why}: " if start.why else ""
-    return f"{why}{start.start}, drag {number(start.drag_per_s, 3)} 1/s, {ends}, {db(start.level_db)}"
+def _is_idle_scene(start: StartView, result: SizeResult) -> bool:
+    """True for the start case that the idle scene simulates, too."""
+    same_start = start.start == IDLE_START and start.race_centre_deg == IDLE_RACE_CENTRE
+    return same_start and start.drag_per_s == result.model.drag_per_s
+
+
+def idle_case(result: SizeResult) -> str:
+    """Start case of the idle scene in words."""
+    return start_case(IDLE_START, IDLE_RACE_CENTRE, result.model.drag_per_s)
+
+
+def start_case(start: str, race_centre_deg: float, drag_per_s: float) -> str:
+    """A start case in words: how the balls start, the side of the race, the drag rate.
+
+    >>> start_case("standstill", 180.0, 15.0)
+    'standstill, race centre 180°, drag rate 15 1/s'
+    """
+    return f"{start}, race centre {race_centre_deg:g}°, drag rate {drag_per_s:.4g} 1/s"
+
+
+def start_label(start: StartView) -> str:
+    """A start case of the list, with its outcome."""
+    placed = f" ({', '.join(f'{angle:.0f}°' for angle in start.angles_deg)})" if start.angles_deg else ""
+    case = start_case(f"{start.start}{placed}", start.race_centre_deg, start.drag_per_s)
+    reason = ""
+    if start.why == "worst" and start.balanced:
+        reason = ", the loudest"
+    elif start.why == "typical":
+        reason = ", median settling time"
+    ends = _settles(start.settling_time_s) if start.balanced else "does not balance"
+    return f"{_upper(case)}{reason}: {'balls stall' if start.stalled else ends}, {db(start.level_db)}"
+
+
+def _settles(time: float | None) -> str:
+    return "balances" if time is None else f"settles in {number(time, 2)} s"
+
+
+def _upper(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+def _idle_label(result: SizeResult) -> str:
+    """The idle scene in the list of start cases, with its outcome."""
+    scene = next((scene for scene in result.simulation if scene.scene == "idle"), None)
+    if scene is None or scene.level_db is None:
+        return _upper(idle_case(result))
+    ends = "does not settle" if scene.settling_time_s is None else _settles(scene.settling_time_s)
+    return f"{_upper(idle_case(result))}: {ends}, {db(scene.level_db)}"
 
 
 def _settling(result: SizeResult) -> Iterator[Figure]:
     if result.idle_run is None:
         return
     limit = next((check.limit for check in result.checks if check.code == "ABU701"), None)
-    caption = "Imbalance of rotor and balls together: it should fall below the dashed line, and stay there."
+    bound = " It should fall below the dashed line and stay there." if limit is not None else ""
+    caption = f"Imbalance that rotor and balls leave together, idle, {idle_case(result)}.{bound}"
     yield Figure("settling", "simulation-idle", settling(result.idle_run, limit), caption)
 
 
 def _over_time(result: SizeResult) -> Iterator[Figure]:
-    """Levels of the simulated runs: idle with the limit and what was measured, at work without."""
-    where = "at the loudest place, 0 dB = 5e-8 m/s rms"
+    """Levels of the simulated runs: idle with the limit and the measured level, grinding without them."""
+    where = "at the loudest place, dB re 5e-8 m/s rms"
     if result.idle_run is not None:
         bound, measured = _limit(result, "ABU401"), result.measured_after
         limit = None if bound is None else bound[0]
         shown = None if measured is None else measured.measured_level_db
-        caption = f"Velocity level over each revolution, idle, {where}"
-        caption += ": it should end below the dashed limit." if limit is not None else ": it should fall, and stay low."
-        caption += "" if measured is None else f" Lozenge: as measured with the autobalancer, {measured.place}."
+        caption = f"Velocity level over each revolution, idle, {idle_case(result)}, {where}."
+        caption += " It should end below the dashed limit." if limit is not None else " It should fall and stay low."
+        caption += "" if measured is None else f" Lozenge: measured with the autobalancer, {measured.place}."
         yield Figure("level", "simulation-idle", level(result.idle_run, limit, shown), caption)
     if result.grinding_run is not None:
-        caption = f"Velocity level over each revolution at work, {where}: what is left when the balls have settled."
-        chart = level(result.grinding_run, None)._replace(title="Level against time, at work")
+        settled = None if result.vibration_loaded is None else result.vibration_loaded.level_after_db
+        caption = (
+            "Velocity level over each revolution, grinding, pressed to the workpiece before the balls settle: "
+            f"{idle_case(result)}, {where}."
+        )
+        caption += "" if settled is None else f" Pressed after the balls settle: {db(settled)}."
+        chart = level(result.grinding_run, None)._replace(title="Level against time, pressed before the balls settle")
         yield Figure("level-loaded", "simulation-grinding", chart, caption)
 
 
@@ -188,9 +243,10 @@ def _run_up(result: SizeResult) -> Iterator[Figure]:
     """Figure of the ensemble's first start case that runs up, at the given viscous drag rate."""
     for start in result.starts.views:
         if start.view.speed_rpm is not None and start.drag_per_s == result.starts.drag_per_s:
+            case = start_case(start.start, start.race_centre_deg, start.drag_per_s)
             caption = (
-                f"{start.start[0].upper()}{start.start[1:]} from standstill, balls side by side: the imbalance that is "
-                "left should fall, and stay low, when the speed is up."
+                f"{_upper(case)}: speed and imbalance left, from standstill, balls together. The imbalance left should "
+                "fall, and stay low at full speed."
             )
             yield Figure("run-up", "many-starts", caught(start.view, start.view.speed_rpm), caption)
             return
@@ -215,8 +271,8 @@ def _candidates(result: SizeResult) -> Iterator[Figure]:
         for _, candidate in all_of_them if candidate.residual_um is not None
     )  # fmt: skip
     caption = (
-        "Candidates, lighter on the left, nearer to rest below: the chosen one is filled, squares are numbered as the "
-        "rows below."
+        "Mass and expected residual of the candidates. The chosen one is filled. Squares carry the row numbers of the "
+        "table below."
     )
     chart = Plot("Mass against residual", text, across, up, (), points[::-1])
     yield Figure("candidates", "runners-up", chart, caption)
@@ -231,10 +287,8 @@ def _costs(result: SizeResult) -> Iterator[Figure]:
         return
     axis = Axis("level rises by [dB]", min(0.0, rows[-1].value), rows[0].value)
     text = "; ".join(f"{bar.name} {bar.told}" for bar in rows)
-    caption = (
-        "What the level rises by where a tolerance of the drawing is used up: the long bars are worth their money."
-    )
-    yield Figure("costs", "for-the-drawing", Bars("What tolerances cost", text, axis, rows), caption)
+    caption = "Rise of the expected level if one tolerance of the drawing is used up, the others as budgeted."
+    yield Figure("costs", "for-the-drawing", Bars("Cost of each tolerance", text, axis, rows), caption)
 
 
 def _limit(result: SizeResult, code: str) -> tuple[float, str] | None:

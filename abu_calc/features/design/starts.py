@@ -31,7 +31,7 @@ MOST_WORK, MOST_PLAIN = 400_000, 60_000
 
 @dataclass(frozen=True)
 class ReplayedStart:
-    """A start's run, what it came to, and why it is shown: "worst", "typical" or nothing."""
+    """A start case run again, its outcome, and why it is shown: "worst", "typical" or nothing."""
 
     why: str
     outcome: StartOutcome
@@ -101,14 +101,21 @@ SAMPLES: Final = 250
 
 @dataclass(frozen=True)
 class StartView:
-    """One start as seen in the rotor. `why`: worst, typical or nothing; `settling_time_s`: None where it never does."""
+    """One start case as seen in the rotor.
+
+    `why`: worst, typical or nothing. `settling_time_s`: None if the balls do not settle. `stalled`: whether balls do.
+    `angles_deg`: angles of the balls from the imbalance, if the file or the search places them.
+    """
 
     why: str
     start: str
     drag_per_s: float
+    race_centre_deg: float
+    angles_deg: tuple[float, ...]
     settling_time_s: float | None
     level_db: float
     balanced: bool
+    stalled: bool
     view: RotorView
 
 
@@ -142,9 +149,12 @@ def _view(design: Design, start: ReplayedStart) -> StartView | None:
         why=start.why,
         start=outcome.member.name,
         drag_per_s=outcome.member.drag,
+        race_centre_deg=outcome.member.race_centre_deg,
+        angles_deg=tuple(from_si(angle, "deg") % 360 for angle in outcome.member.angles),
         settling_time_s=outcome.settling_time if outcome.balanced else None,
         level_db=outcome.level,
         balanced=outcome.balanced,
+        stalled=outcome.hanging,
         view=view,
     )
 

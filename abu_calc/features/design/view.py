@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from abu_calc.features.design.figures import size_charts
+from abu_calc.features.design.figures import IDLE_START, idle_case, size_charts, start_case
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
 from abu_calc.features.design.screen import about, balls, gap_table, numbers_that_matter, section_picture
 from abu_calc.features.design.starts import SettlingOfStart
@@ -28,17 +28,20 @@ CONVENTIONS = (
     "interference is positive when tight; angles of balls are measured from the imbalance in the sense of rotation."
 )
 START = (
-    "Every scene starts at full speed, the axis at rest at its place, balls at rest in the race, bunched side by side "
-    "20° ahead of the imbalance, the race's centre at 180° from it; rolling inertia and viscous drag are always in. A "
-    "weight is what leaving the effect out may change, `abu effects FILE` tells more."
+    "Every scene starts at full speed, with the axis at rest. The balls start at rest in the race, together 20° ahead "
+    "of the imbalance. The race's centre lies at 180° from it. Rolling inertia and viscous drag are always included. "
+    "The estimated influence of an effect is the change that leaving it out may cause. `abu effects FILE` lists them."
 )
 
 WAYS = (
-    "Drag from a third to three times of the file's, as of hot and cold oil. Below the optimum drag small disturbances "
-    "decay by h₀/2J whatever the balls, above it heavier balls are quicker: see the runners-up. From standstill they "
-    "take up the speed by h₀/J. The groove's radius plays no part in the plane. Settling times count from full speed. "
-    "Each is that of the slower side of the race: its centre at 0° from the imbalance, or, at the drag given, at 180°. "
-    "`abu simulate FILE --start spread --race-centre 0` repeats one."
+    "Bunched: the balls start together, 20° ahead of the imbalance. Behind: together, 20° behind it. Spread: evenly "
+    "spread. Standstill: not turning with the race. Run-up: the machine starts from standstill.",
+    "Drag rates from a third to three times of the file's are those of hot and cold oil. Settling times count from "
+    "full speed. Each is that of the slower side of the race: its centre at 0° from the imbalance, or, at the given "
+    "drag rate, at 180°.",
+    "Below the optimum drag rate small disturbances decay by h₀/2J for all balls. Above it heavier balls settle "
+    "faster. From standstill they take up the speed by h₀/J. The groove's radius has no influence in the plane.",
+    "`abu simulate FILE --start spread --race-centre 0` repeats one start case.",
 )
 GAPS = (
     "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the three "
@@ -68,7 +71,7 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
         *_vibration(result),
         *_ensemble(result),
         *_data_gaps(result),
-        *_simulation(result.simulation),
+        *_simulation(result),
         *_alternatives(result.alternatives),
         *_swing_arm(result),
         *_seats(result),
@@ -124,10 +127,10 @@ def _ensemble(result: SizeResult) -> list[Block]:
     return [
         Heading("Many starts", "many-starts"),
         facts(many, "members", "balanced", "hanging"),
-        Grid(("", "median", "worst", ""), rows, frozenset({1, 2})),
-        Heading("What shortens the balls' way: settling time in s, by start and drag"),
+        Grid(("", "median, rated speed", "worst start case", ""), rows, frozenset({1, 2})),
+        Heading("Settling time in s, by start and drag rate, slower side of the race"),
         _ways(many.settling_by_start),
-        Paragraph(WAYS),
+        *map(Paragraph, WAYS),
     ]
 
 
@@ -243,25 +246,35 @@ def _tenths(value: float | None) -> str:
     return "–" if value is None else f"{value:.1f}"
 
 
-def _simulation(scenes: Sequence[SimulatedScene]) -> list[Block]:
-    blocks = [block for scene in scenes for block in _scene(scene)]
+def _simulation(result: SizeResult) -> list[Block]:
+    blocks = [block for scene in result.simulation for block in _scene(scene, idle_case(result))]
     return [*blocks, Paragraph(START)] if blocks else []
 
 
-def _scene(scene: SimulatedScene) -> list[Block]:
+def _scene(scene: SimulatedScene, case: str) -> list[Block]:
+    """Outcome of one scene; `case`: the start case from which every scene begins."""
     cost, angles = scene.cost, ", ".join(f"{angle:.1f}°" for angle in scene.final.ball_angles_deg)
     work = f"{cost.integrator}, tolerance {cost.tolerance:g}, {cost.evaluations} evaluations"
+    settling_time = facts(scene, "settling_time_s").rows
+    named = tuple((f"{label}, {case}", symbol, value) for label, symbol, value in settling_time)
     others = tuple(
-        (f"settling at a drag of {other.drag_per_s:g} 1/s, slower side", "", value_of(other, "settling_time_s"))
+        (
+            f"settling time, {start_case(IDLE_START, 0.0, other.drag_per_s)}",
+            "",
+            value_of(other, "settling_time_s"),
+        )
         for other in scene.settling_estimates or ()
         if other.settling_time_s is not None
     )
     return [
         Heading(f"Simulation: {scene.scene}", f"simulation-{scene.scene}"),
-        facts(scene, "duration_s", "settling_time_s", "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db",
-              "error_estimate"),
-        Facts(others),
-        Paragraph(f"The balls end at {angles} from the imbalance."),
+        Facts((
+            *facts(scene, "duration_s").rows,
+            *named,
+            *others,
+            *facts(scene, "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db", "error_estimate").rows,
+        )),
+        Paragraph(f"Scene {scene.scene}: the balls end at {angles} from the imbalance."),
         Paragraph(f"Effects in: {_in(scene)}. Left out: {_out(scene)}."),
         Paragraph(f"Cost: {work}, {cost.wall_s:.2f} s."),
     ]  # fmt: skip

@@ -1,16 +1,25 @@
 """Figures of a sized machine: bars and points with the numbers of the result, forbidden speeds."""
 
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
 
-from abu_calc.features.design.figures import _forbidden, _ratio, size_charts, size_extras
+from abu_calc.features.design.figures import _forbidden, _ratio, size_charts, size_extras, start_label
 from abu_calc.features.design.records import SpeedLevel
+from abu_calc.features.design.starts import StartView
+from abu_calc.features.design.view import size_blocks
+from abu_calc.inputs.read_machine import read_machine
+from abu_calc.reporting.blocks import Facts
 from abu_calc.reporting.charts.chart import Bars, Plot
+from abu_calc.reporting.charts.figure import RotorMotionFigure
 from abu_calc.simulation.records import StabilityBoundary
+from tests.remembered import recalled
 from tests.reporting.drawings.samples import whole
+
+VIEW = SimpleNamespace()
 
 
 @pytest.fixture(scope="module")
@@ -23,8 +32,8 @@ def test_bars_of_levels_are_those_of_the_places(shown: dict[str, object]) -> Non
     assert isinstance(bars, Bars) and bars.limit is not None and bars.limit[0] == 109
     values = {bar.name: bar.value for bar in bars.rows}
     for place in result.vibration.handles:
-        assert values[f"{place.name}, before"] == place.level_before_db
-        assert values[f"{place.name}, after"] == place.level_after_db
+        assert values[f"{place.name}, without autobalancer"] == place.level_before_db
+        assert values[f"{place.name}, with: expected"] == place.level_after_db
 
 
 def test_bars_of_the_budget_make_its_sum(shown: dict[str, object]) -> None:
@@ -50,6 +59,49 @@ def test_costs_fall_from_the_first_bar(shown: dict[str, object]) -> None:
     values = [bar.value for bar in bars.rows]
     assert values == sorted(values, reverse=True) and values[0] > 0
     assert {figure.name for figure in size_charts(whole())} <= shown.keys()
+
+
+PRESETS = ("avtovaz-707-222", "msh-230", "swing-arm-grinder")
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_each_run_of_the_animation_has_its_own_label_that_names_the_case(name: str) -> None:
+    result = recalled("size", read_machine(name))
+    (figure,) = [figure for figure in size_extras(result).figures if figure.name == "motion"]
+    motion = figure.shown
+    assert isinstance(motion, RotorMotionFigure)
+    labels = [motion.name, *(label for label, _ in motion.others)]
+    cases = [label.partition(":")[0].partition(", the loudest")[0] for label in labels]
+    assert len(labels) == len(set(labels)) and len(set(cases)) == len(cases) > 2
+    assert [label for label in labels if not re.search(r", race centre \d+°, drag rate [\d.]+ 1/s", label)] == []
+
+
+def test_labels_tell_placed_balls_stalled_balls_and_why_a_case_is_shown() -> None:
+    start = StartView("worst", "placed", 15.0, 0.0, (352.4, 21.8), 0.25, 98.7, balanced=True, stalled=False, view=VIEW)  # type: ignore[arg-type]
+    case = "race centre 0°, drag rate 15 1/s"
+    assert start_label(start) == f"Placed (352°, 22°), {case}, the loudest: settles in 0.25 s, 98.7 dB"
+    start = replace(start, why="typical", start="bunched", angles_deg=())
+    assert start_label(start) == f"Bunched, {case}, median settling time: settles in 0.25 s, 98.7 dB"
+    assert start_label(replace(start, why="", balanced=False)).endswith(": does not balance, 98.7 dB")
+    assert start_label(replace(start, why="worst", balanced=False, stalled=True)).endswith(": balls stall, 98.7 dB")
+
+
+def test_caption_of_the_early_pressed_run_names_its_case() -> None:
+    """The run is pressed before the balls settle; the level of the one pressed after stands beside it."""
+    result = whole()
+    caption = next(figure.caption for figure in size_extras(result).figures if figure.name == "level-loaded")
+    assert "before the balls settle" in caption and "have settled" not in caption
+    assert result.vibration_loaded is not None
+    assert f"after the balls settle: {result.vibration_loaded.level_after_db:.1f} dB" in caption
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_each_settling_time_of_the_report_names_start_race_and_drag_rate(name: str) -> None:
+    """One drag rate has a settling time for each start case; each row and cell names its own."""
+    result = recalled("size", read_machine(name))
+    rows = [row for block in size_blocks(result) if isinstance(block, Facts) for row in block.rows]
+    times = [label for label, _, _ in rows if "settling" in label]
+    assert times and [label for label in times if not re.search("race centre .*drag rate", label)] == []
 
 
 def test_speeds_between_boundaries_are_forbidden() -> None:

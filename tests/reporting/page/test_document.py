@@ -111,7 +111,7 @@ def test_size_has_its_figures_with_captions_and_alternatives(written: Any) -> No
     page = read(text)
     starts = next(attributes for _, attributes in page.tags if attributes.get("id") == "motion-start")
     assert starts["aria-label"] == "Start"
-    assert "worst: " in text and "typical: " in text
+    assert ", the loudest: " in text and ", median settling time: " in text
     figures = [attributes for tag, attributes in page.tags if tag == "svg"]
     assert len(figures) >= 6
     ids = {attributes["id"]: tag for tag, attributes in page.tags if "id" in attributes}
