@@ -75,7 +75,8 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
     reach = min(minutes * (action / exposure) ** 2, 1440.0) if exposure > 0 else 1440.0
     remedy = None
     if exposure > action:
-        remedy = f"Limit the use to {reach:.3g} minutes a day: A(8) falls from {exposure:.3g} to {action:g} m/s² (calculated)."
+        remedy = f"Limit the use to {reach:.3g} minutes a day: A(8) falls from {exposure:.3g} to {action:g} m/s² "
+        remedy += "(calculated)."
     return coded("ABU413", verdict(passed, safe), message, exposure, limit, "m/s²", remedy)
 
 
