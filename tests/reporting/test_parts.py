@@ -52,6 +52,12 @@ def test_limits_say_whether_more_or_less_is_permitted() -> None:
     assert limit_in_file(None) == ""
 
 
+def test_a_value_of_rounding_beside_a_limit_of_zero_has_no_digits() -> None:
+    growth = Check("ABU103", "stable speed range", "fail", "it grows", 3.052e-15, 0.0, "1/s")
+    assert value_and_limit(growth) == " (< 1e-09 1/s, at most 0)"
+    assert value_and_limit(replace(growth, value=0.5)).startswith(" (0.5")
+
+
 def test_values_stand_as_a_file_would_have_them() -> None:
     assert [written(value) for value in (True, 0.5, (1.0, 2.5), "k6")] == ["true", "0.5", "[1, 2.5]", "k6"]
 
