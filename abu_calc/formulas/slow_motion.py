@@ -160,9 +160,8 @@ def resonance_drag(lost: Numbers, frequency: Numbers, speed: float) -> Numbers:
     "h₀ > 2ζω·√(n·m·J/(2M))",
     "1/s",
     where=(
-        "2ζω is the damping of the support over all mass that moves with the balls. The bound sufficed in all 64 "
-        "isotropic and 32 anisotropic supports that were simulated (2–30 Hz, ζ 0.005–0.5, 2–8 balls, drag rates "
-        "scanned). The largest rate that was needed was 0.73 of this bound."
+        "2ζω is the damping of the support over all mass that moves with the balls. The bound sufficed in the same "
+        "simulations as that of the resonance drag. The largest rate that was needed there was 0.73 of this bound."
     ),
     assumed="sufficiency, as simulated",
     source="found by simulation",

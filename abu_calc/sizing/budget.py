@@ -185,7 +185,7 @@ def plane_residual(case: Case, imbalance: float, added_mass: float) -> float:
     "Velocity level of a displacement at a speed",
     "v = w·Ω/√2",
     "dB",
-    where="The background is added as energy. A place at rest has the floor of 0 dB.",
+    where="A background level is added as energy. A place at rest has the floor of 0 dB.",
 )
 def displacement_level(displacement: float, speed: float, background: float | None = None) -> float:
     """
