@@ -1,5 +1,6 @@
 """Parts that reports share: checks with their reasons, defaults, and where a result comes from."""
 
+from dataclasses import replace
 from typing import Any
 
 from abu_calc.foundation.checks import Check, Grade
@@ -12,6 +13,7 @@ from abu_calc.reporting.parts import (
     provenance_blocks,
     reasons,
     unlike,
+    value_and_limit,
     warning_blocks,
     written,
 )

@@ -34,7 +34,7 @@ class MotorEffect(Effect):
 
     name: ClassVar[str] = "motor"
     kind: ClassVar[Kind] = "driven"
-    about: ClassVar[str] = "A motor of limited power, whose torque falls linearly from stall to its no-load speed"
+    about: ClassVar[str] = "Motor of limited power: its torque falls linearly from standstill to the no-load speed"
 
     @property
     def rotor(self) -> Rotation:
@@ -70,4 +70,4 @@ class MotorEffect(Effect):
 
     def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without an estimate: capture at a resonance is all or nothing."""
-        return EffectInfluence(None, "the speed itself may differ: it can stick at a resonance")
+        return EffectInfluence(None, "the speed may stall at a resonance")

@@ -13,8 +13,11 @@ CreepVerdict = Literal["holds", "may creep", "creeps", "needs no grip", "not kno
 
 
 class CreepJudgement(NamedTuple):
-    """`probability` that a pair has less interference than its ring needs; friction torques [N·m] of the seat at the
-    least and at the least probable interference, losses taken off; whether the least outweighs the starting torque."""
+    """Verdict on creep, with slip torques [N·m] of the seat after losses.
+
+    `probability` that a pair has less interference than required; slip torques at the least and at the least probable
+    interference; whether the least exceeds the starting torque.
+    """
 
     verdict: CreepVerdict
     why: str
@@ -25,17 +28,17 @@ class CreepJudgement(NamedTuple):
 
 
 @formula(
-    "Torque at which a pressed ring slips on its seat",
+    "Torque at which a press-fitted ring slips on its seat",
     "μ_s·p·π·d·b_s·d/2",
     "N·m",
     where=("μ_s is 0.12 for steel on steel, dry or lightly oiled (assumed)."),
     checked=(SEAT_FRICTION,),
-    assumed="even pressure",
+    assumed="uniform pressure",
     source="Coulomb friction on a cylinder",
 )
-def friction_torque(friction: float, pressure: float, diameter: float, length: float) -> float:
+def slip_torque(friction: float, pressure: float, diameter: float, length: float) -> float:
     """
-    >>> round(friction_torque(0.12, 5e6, 0.080, 0.029), 1)
+    >>> round(slip_torque(0.12, 5e6, 0.080, 0.029), 1)
     174.9
     """
     return SEAT_FRICTION.check(friction) * pressure * math.pi * diameter * length * diameter / 2
@@ -47,18 +50,18 @@ _VERDICTS: Final[dict[Grade, CreepVerdict]] = {
 
 
 def creep(joint: Joint, friction: float, starting_torque: float | None) -> CreepJudgement:
-    """Judge a ring: under a load fixed in direction it needs no grip, else its interference must do.
+    """Judge a ring: under a load fixed in direction it requires no interference.
 
-    It holds where the smallest does, may creep where only the mean does.
+    Any other ring holds if the least interference suffices, and may creep if only the mean does.
     """
     least, probable = _torques(joint, friction) or (None, None)
     starts = holds_at_start(joint, friction, starting_torque)
     if not joint.must_grip:
-        why = f"its load is fixed in direction; {of_all(joint.clearance_probability)} are loose"
+        why = f"load fixed in direction; {of_all(joint.clearance_probability)} have clearance"
         return CreepJudgement("needs no grip", why, None, least, probable, None)
     if joint.short is None:
-        return CreepJudgement("not known", "load or length of the seat are not given", None, least, probable, starts)
-    why = f"{of_all(joint.short)} have less than its {joint.ring.load} load asks for"
+        return CreepJudgement("not known", "radial load or chamfer not given", None, least, probable, starts)
+    why = f"{of_all(joint.short)} have less interference than required"
     return CreepJudgement(_VERDICTS[joint.grip], why, joint.short, least, probable, starts)
 
 
@@ -83,5 +86,5 @@ def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
         joint.pressure_rate * max(smallest - joint.lasting_losses, 0.0)
         for smallest in (joint.interference.smallest, probable)
     )
-    least, likely = (friction_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
+    least, likely = (slip_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
     return least, likely
