@@ -282,7 +282,7 @@ def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     one, other = (document["result"]["final"]["ball_angles_deg"] for document in (slow, full))
     assert one == pytest.approx(other, abs=math.degrees(0.05))
     text = abu("simulate", light, *options[:-1], "--accuracy", "0.05", "--full")
-    assert text.status == 0 and "Averaged slow motion" in text.out
+    assert text.status == 0 and "envelope (averaged slow motion)" in text.out
 
 
 def test_integrators_agree(scene: str) -> None:
