@@ -185,7 +185,7 @@ def hodograph_limit(displacement: float, runout: complex, friction: float) -> fl
         "whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
     ),
     assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(R_g−r), across it at resonance",
-    source="derived; simulated of every machine by abu grinding",
+    source="derived; compared with a simulation of every machine",
     printed=(
         "Kladiev 1996 has axial runout alone shake friction out; the whirl by runout in the plane does, too, but slowly"
     ),
