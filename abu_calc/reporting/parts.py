@@ -125,7 +125,7 @@ def notices(result: Result) -> list[Block]:
 def warning_blocks(warnings: Iterable[str]) -> list[Block]:
     """Warnings, each a paragraph."""
     lines = warning_lines(warnings)
-    return [Heading("Warnings", "warnings"), *lines] if lines else []
+    return [Heading("Notes", "warnings"), *lines] if lines else []
 
 
 def warning_lines(warnings: Iterable[str]) -> list[Paragraph]:

@@ -51,7 +51,7 @@ def one_screen(
     shown = cut(body, room - kept - 1)
     parted = [BLANK, *shown] if shown and len(about) > 1 and not isinstance(shown[0], Heading) else shown
     rest = fitted(warnings, [], room - height([BLANK, *shown]) - 2)
-    below: list[Block] = [Heading("Warnings", "warnings"), *rest] if rest else []
+    below: list[Block] = [Heading("Notes", "warnings"), *rest] if rest else []
     drawn = picture(LINES - height([*about, *reasons, *parted, BLANK, *below, *last])) if picture else ()
     return (*about, *reasons, *parted, *([BLANK, *drawn] if drawn else ()), *below, *last)
 
@@ -65,7 +65,7 @@ def fitted(lines: Sequence[Paragraph], codes: Sequence[Sequence[str]], room: int
         return list(lines)
     fit = max(bisect_right(range(min(len(lines), LINES)), room - 1, key=lambda count: height(lines[:count])) - 1, 0)
     left = [code for each in codes[fit:] for code in each]
-    more = many(len(left), "more check") if codes else many(len(lines) - fit, "more warning")
+    more = many(len(left), "more check") if codes else many(len(lines) - fit, "more note")
     named = f" ({', '.join(dict.fromkeys(left))})" if left else ""
     return [*lines[:fit], Paragraph(f"And {more}{named}: --full.")] if lines else []
 

@@ -347,7 +347,7 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst:
     before, least = (levels.arranged if worst else levels.highest).level_after, math.inf
     for entries in _truer(case):
         after = followed(case, {**entries, **pins(candidate)})
-        level = math.inf if after is None else _level_of(after, worst=worst)
+        level = math.inf if after is None else level_of(after, worst=worst)
         least = min(least, level)
         if after is not None and level <= limit:
             return set_action(entries, after.candidate, Moved(FRICTION if worst else EXPECTED, before, level, "dB",
@@ -359,7 +359,7 @@ def _truer_race(case: Case, candidate: Candidate, levels: SpeedLevels, *, worst:
     )
 
 
-def _level_of(after: Followed, *, worst: bool) -> float:
+def level_of(after: Followed, *, worst: bool) -> float:
     """Highest level [dB] over the speed range, as expected or in the worst friction case."""
     residuals = worst_residuals(*after) if worst else ()
     levels = speed_levels(*after, residuals, possible=True)

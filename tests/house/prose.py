@@ -54,7 +54,8 @@ TIMED: Final = "Cost:"
 """Beginning of sentences with computing times, which are equal by chance."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 ONE_OF_MANY: Final = re.compile(
-    r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |(?:warn|fail|passe)s\b|×)([a-z]+s)\b(?!\.\w|[_=])"
+    r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |warns\b|fails\b|passes\b|×)"
+    r"([a-z]+s)\b(?!\.\w|[_=])"
 )
 TINY: Final = re.compile(r"\b\d\.\d+e-1\d\b")
 EMPTY: Final = re.compile(r"(?<=[:=(,] )None\b|\"None\"|(?<![\w.\"'`-])(?<!found )(?:nan|NaN|null)(?![\w\"'`-])")

@@ -35,8 +35,9 @@ def compare(
     ] = 0.01,
 ) -> Outcome:
     """Compare machines or variants of one machine side by side."""
+    from abu_calc.features.compare.screen import compare_screen
     from abu_calc.features.compare.study import compare as study
-    from abu_calc.features.compare.view import compare_blocks, compare_screen
+    from abu_calc.features.compare.view import compare_blocks
     from abu_calc.inputs.read_machine import read_machine, variant_of
 
     if variants and len(machines) > 1:

@@ -151,6 +151,16 @@ class CompareResult(Result):
     """Entries that all have alike: whole reports show them, JSON does not."""
 
 
+def checks_named(result: CompareResult, name: str) -> list[Check | None]:
+    """The check of each machine with this code, or with this code and name; None: it is not asked there."""
+    found: dict[str, Check] = {}
+    for check in result.checks:
+        own, _, letter = check.name.rpartition(", ")
+        if name in (check.code, f"{check.code} {own}"):
+            found.setdefault(letter, check)
+    return [found.get(file.letter) for file in result.files]
+
+
 @checked
 def compare(
     machines: Sequence[Machine], accuracy: float = 0.01, progress: Progress = silent, workers: int | None = None

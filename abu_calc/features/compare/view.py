@@ -1,30 +1,35 @@
-"""The report of `abu compare`: differences on one screen, the whole comparison as tables, and its figures.
+"""The report of `abu compare`: the whole comparison as tables, and its figures.
 
 A table has one column for each machine and one row for each entry. The figures show the main numbers of each machine as
 bars.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 
-from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part
-from abu_calc.foundation.checks import Grade
+from abu_calc.features.compare.main_numbers import main_blocks
+from abu_calc.features.compare.study import ROUNDING, ComparedFile, CompareResult, Difference, Part, checks_named
+from abu_calc.foundation.checks import Check
 from abu_calc.inputs.reading.text import is_number
 from abu_calc.inputs.reading.text import shown as exact
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
 from abu_calc.reporting.charts.figure import Extras, Figure
-from abu_calc.reporting.parts import RANK, WORD, check_blocks, provenance_blocks, reasons, warning_blocks
-from abu_calc.reporting.screen import BLANK, LINES, cut, many, verdict_line
-from abu_calc.reporting.text import height
+from abu_calc.reporting.parts import RANK, WORD, check_blocks, provenance_blocks, warning_blocks
+from abu_calc.reporting.screen import WORDS as VERDICTS
+from abu_calc.reporting.screen import many, verdict_line
 
 SECTIONS: Final[dict[Part, str]] = {
-    "file": "Files",
-    "check": "Checks: grade, value (limit where it differs)",
-    "design": "Designs",
+    "check": "Checks: grade, value (limit)",
+    "design": "Designs, by the paths of the JSON result",
+    "file": "Entries of the files",
 }
-LONGEST_CELL: Final = 20
+NOTHING: Final = "Nothing differs."
+SIGN: Final = {"most": "≤", "least": "≥"}
+"""Sign between a value and its limit."""
+LONGEST_CELL: Final = 24
 DIGITS: Final = 4
 MOST_DIGITS: Final = 15
 
@@ -76,37 +81,49 @@ def _mark(row_alike: bool, marked: bool) -> str:
 
 
 def _cells(row: Difference, marked: bool) -> tuple[str, ...]:
-    return f"{_mark(row.alike, marked)}{row.path}", *_written(row.values)
+    return f"{_mark(row.alike, marked)}{row.path}", *written_alike(row.values)
 
 
 def _checks(result: CompareResult, rows: Sequence[Difference], marked: bool) -> list[tuple[str, ...]]:
-    """One line for each check of these rows, the worst first: grade and value of each machine."""
-    known = {row.path: row for row in (*result.differences, *result.alike) if row.part == "check"}
-    names = {check.code: check.name for check in reversed(result.checks)}
+    """One line for each check of these rows, the worst first: grade, value and limit of each machine."""
+    equal = {row.path for row in result.alike}
     lines = []
     for head in dict.fromkeys(row.path.rpartition(".")[0] for row in rows):
-        status, value, limit = (known[f"{head}.{key}"] for key in ("status", "value", "limit"))
         name = head.removeprefix("checks.").strip('"')
-        label = name if " " in name else f"{name} {names[name].rpartition(', ')[0]}"
-        limits = [""] * len(limit.values) if limit.alike else [f" ({text})" for text in _written(limit.values)]
-        cells = (
-            "–" if grade is None else f"{WORD[grade]} {value_text}{bound}".replace(" –", "").rstrip()
-            for grade, value_text, bound in zip(status.values, _written(value.values), limits, strict=True)
-        )  # fmt: skip
-        same = status.alike and value.alike and limit.alike
-        line = f"{_mark(same, marked)}{label}{f', {value.unit}' if value.unit else ''}", *cells
-        lines.append((min(map(_rank, status.values)), line))
+        same = all(f"{head}.{key}" in equal for key in ("status", "value", "limit"))
+        label, *cells = graded_line(result, name)
+        ranks = [RANK.index(check.status) for check in checks_named(result, name) if check and check.status in RANK]
+        lines.append((min(ranks, default=len(RANK)), (f"{_mark(same, marked)}{label}", *cells)))
     return [line for _, line in sorted(lines, key=lambda pair: pair[0])]
 
 
-def _rank(grade: Grade | None) -> int:
-    return RANK.index(grade) if grade in RANK else len(RANK)
+def graded_line(result: CompareResult, name: str, digits: int = DIGITS, *, limits: bool = True) -> tuple[str, ...]:
+    """Code, name and unit of a check, then grade and value of each machine, and the limit if `limits`."""
+    checks = checks_named(result, name)
+    first = next(check for check in checks if check)
+    label = f"{first.code} {first.name.rpartition(', ')[0]}"
+    unit = next((check.unit for check in checks if check and check.unit), "")
+    values = written_alike([check and check.value for check in checks], digits)
+    cells = ("–" if check is None else f"{WORD[check.status]}{_value(value, check, digits, limits)}"
+             for check, value in zip(checks, values, strict=True))  # fmt: skip
+    return (f"{label}, {unit}" if unit else label), *cells
 
 
-def _written(values: Sequence[Any]) -> list[str]:
+def _value(value: str, check: Check, least: int, limits: bool) -> str:
+    """A value beside its limit, which has digits enough not to look like the value."""
+    if check.value is None:
+        return ""
+    if check.limit is None or not limits:
+        return f" {value}"
+    texts = (_text(check.limit, digits) for digits in range(least, MOST_DIGITS + 1))
+    limit = next((text for text in texts if text != value), value)
+    return f" {value} ({SIGN[check.bound]} {limit})"
+
+
+def written_alike(values: Sequence[Any], least: int = DIGITS) -> list[str]:
     """Values as text; numbers to as many digits as tell apart those that differ."""
     apart = len({value for value in values if is_number(value)})
-    for digits in range(DIGITS, MOST_DIGITS + 1):
+    for digits in range(least, MOST_DIGITS + 1):
         texts = [_text(value, digits) for value in values]
         if len({text for text, value in zip(texts, values, strict=True) if is_number(value)}) >= apart:
             break
@@ -124,87 +141,14 @@ def _text(value: Any, digits: int) -> str:
     return value if isinstance(value, str) else exact(value)
 
 
-FIRST: Final = (
-    "system_mass_kg", "frequency.region", "imbalance_g_mm", "required_capacity_g_mm",
-    *(f"autobalancer.{key}" for key in (
-        "ball_count", "ball_diameter_mm", "race_radius_mm", "groove_radius_mm", "capacity_g_mm", "outer_diameter_mm",
-        "width_mm", "mass_g", "contact_pressure_MPa",
-    )),
-    "accuracy_budget.residual_um", "vibration.level_before_db", "vibration.level_after_db",
-    "vibration_loaded.level_after_db", "ensemble.level_db.worst", "ensemble.settling_time_s.typical",
-    "ensemble.settling_time_s.worst", "swing_arm.contact_stiffness_limit_exact_N_per_m",
-    "swing_arm.damping_limit_bunched_N_s_per_m",
-)  # fmt: skip
-"""Numbers of the designs on one screen, in this order; seats show their fits."""
-OF_SEATS: Final = ("fit", "interference_um", "recommended_fit")
-NOTHING: Final = "Nothing differs."
-
-
-def compare_screen(result: CompareResult) -> tuple[Block, ...]:
-    """The one screen: what differs in files, checks and designs, each as far as there is room, then why, and warnings.
-
-    Of the designs it has the numbers that matter.
-    """
-    title, verdict, *machines = _about(result)
-    about = [title, verdict, *cut(machines, LINES // 2)]
-    last: list[Block] = [BLANK, Paragraph(f"More: --full, every entry, alike ones too.{_why(result)}")]
-    room = LINES - height([*about, *last])
-    others = height([BLANK]) + 2 if _unsettled(result) or result.warnings else 0
-    tables: list[Block] = [BLANK, Paragraph(NOTHING)]
-    if result.differences:
-        tables = _shared_out(result, room - others)
-    below: list[Block] = [Heading("What did not pass"), *reasons(result.checks)] if _unsettled(result) else []
-    rest = cut([*below, *warning_blocks(result.warnings)], room - height([*tables, BLANK]) - 1)
-    return (*about, *tables, *rest, *last)
-
-
-def _unsettled(result: CompareResult) -> list[str]:
-    return [check.code for check in result.checks if check.status != "pass"]
-
-
-def _why(result: CompareResult) -> str:
-    codes = _unsettled(result)
-    return f" `abu explain {codes[0]}`, what a check asks." if codes else ""
-
-
-def _shared_out(result: CompareResult, room: int) -> list[Block]:
-    """The tables of what differs; those that need less than their share of the lines leave it to the others."""
-    rows = [row for row in result.differences if row.path != "machine.name"]  # it stands above
-    designs = [row for row in rows if row.part == "design"]
-    first = _first(designs)
-    tables = tables_of(result, [*(row for row in rows if row.part != "design"), *first])
-    if designs and not first:
-        tables.append(ComparisonTable("design", ()))
-    letters, cut_to = [file.letter for file in result.files], dict[int, list[Block]]()
-    further = [len(designs) - len(first) if table.part == "design" else 0 for table in tables]
-    least = [height(table_blocks(letters, table)) for table in tables]
-    for done, k in enumerate(sorted(range(len(tables)), key=least.__getitem__)):
-        share = (room - sum(1 + height(blocks) for blocks in cut_to.values())) // (len(tables) - done)
-        cut_to[k] = _rows_that_fit(letters, tables[k], share - 1, further[k])
-    return [block for k in range(len(tables)) for block in cut_to[k]]
-
-
-def _rows_that_fit(letters: Sequence[str], table: ComparisonTable, room: int, further: int) -> list[Block]:
-    """The first rows of a table, and how many there are beside them, `further` among them."""
-    total = len(table.lines)
-    for count in range(total, 0, -1):
-        fitting = [*table_blocks(letters, table, count), *_counted(further + total - count)]
-        if height(fitting) <= room:
-            return fitting
-    return [table.heading, *_counted(further + total)]
-
-
-def _counted(further: int) -> list[Block]:
-    return [Paragraph(f"And {many(further, 'more that differs', 'more that differ')}: --full.")] if further else []
-
-
 def compare_blocks(result: CompareResult, *, full: bool = True) -> tuple[Block, ...]:
     """The whole report: every entry, those marked ≠ that differ; not `full`: those alone that differ."""
     rows, letters = (*result.differences, *(result.alike if full else ())), [file.letter for file in result.files]
     tables = tables_of(result, rows, marked=full)
-    less = [] if full else [Paragraph("Differences only; with --full every entry stands here." if rows else NOTHING)]
+    less = [] if full else [Paragraph(left_out(result) if rows else NOTHING)]
     return (
-        *_about(result),
+        *about(result),
+        *main_blocks(result),
         *less,
         *(block for table in tables for block in table_blocks(letters, table)),
         *check_blocks(result.checks),
@@ -214,25 +158,45 @@ def compare_blocks(result: CompareResult, *, full: bool = True) -> tuple[Block, 
     )
 
 
-def _about(result: CompareResult) -> list[Block]:
-    """Title, verdict, and which machine each letter is."""
-    return [Heading(result.title, "title"), verdict_line(result), *(_machine(file) for file in result.files)]
+def left_out(result: CompareResult) -> str:
+    """Numbers of the lines that are equal, by part, with the option that shows them."""
+    equal = Counter(row.part for row in result.alike)
+    checks = len({row.path.rpartition(".")[0] for row in result.alike if row.path.endswith(".status")}
+                 - {row.path.rpartition(".")[0] for row in result.differences})  # fmt: skip
+    counts = (
+        (checks, "check", "checks"),
+        (equal["design"], "result of the designs", "results of the designs"),
+        (equal["file"], "entry of the files", "entries of the files"),
+    )
+    named = [many(count, name, plural) for count, name, plural in counts if count]
+    return f"Left out because equal: {', '.join(named) or 'nothing'}. --full shows every line."
 
 
-def _machine(file: ComparedFile) -> Paragraph:
-    replaced = [f"{key} = {exact(value)}" for key, value in file.overrides.items()]
-    text = f"{file.letter}  {WORD[file.status]}  {file.title}, {file.file}"
-    return Paragraph(f"{text}, with {', '.join(replaced)}" if replaced else text, file.status, hang=3)
+def about(result: CompareResult) -> list[Block]:
+    """Title, verdict of all machines together, and the machine and verdict of each letter.
+
+    Variants of one machine have its name once, above them.
+    """
+    first, *others = result.files
+    of_one = all((file.title, file.file) == (first.title, first.file) for file in others)
+    shared: list[Block] = [Paragraph(f"{first.title}, {first.file}")] if of_one else []
+    machines = (_machine(result, file, named=not of_one) for file in result.files)
+    return [Heading(result.title, "title"), verdict_line(result), *shared, *machines]
 
 
-def _first(rows: Iterable[Difference]) -> list[Difference]:
-    """The rows of designs that matter most, in the order of FIRST, then those of seats."""
-    designs = {row.path: row for row in rows if row.part == "design"}
-    seats = [row for path, row in designs.items() if path.startswith("fits.") and path.split(".")[2] in OF_SEATS]
-    return [designs[path] for path in FIRST if path in designs] + seats
+def _machine(result: CompareResult, file: ComparedFile, *, named: bool) -> Paragraph:
+    replaced = ", ".join(f"{key} = {exact(value)}" for key, value in file.overrides.items())
+    warned = any(check.status == "warn" and check.name.endswith(f", {file.letter}") for check in result.checks)
+    warns = file.status == "pass" and warned
+    word = "PASS WITH WARNINGS" if warns else VERDICTS[file.status]
+    text = f"{file.title}, {file.file}" + (f", with {replaced}" if replaced else "")
+    return Paragraph(
+        f"{file.letter}  {word}: {text if named else replaced or 'as the file stands'}",
+        "warn" if warns else file.status, hang=3,
+    )  # fmt: skip
 
 
-SERIES: Final = {"before": 2, "worst": 3, "measured": 3}
+SERIES: Final = {"without": 2, "slowest": 3, "measured": 3}
 
 
 class _Compared(NamedTuple):
@@ -249,23 +213,25 @@ class _Compared(NamedTuple):
 FIGURES: Final = (
     _Compared(
         "levels", "Levels of the machines", "velocity level, idle [dB]",
-        {"vibration.level_before_db": "before", "vibration.level_after_db": "after",
+        {"vibration.level_before_db": "without", "vibration.level_after_db": "expected",
          "measured_after.measured_level_db": "measured"},
-        "Velocity level without (square) and with (round) the autobalancer, lozenge: measured; 0 dB = 5e-8 m/s rms.",
+        "Idle velocity level without (square) and expected with (round) the autobalancer; lozenge: measured with it. "
+        "0 dB = 5e-8 m/s rms.",
         "ABU401",
     ),
     _Compared(
         "residual", "Residuals of the machines", "residual, 0–peak [µm]", {"accuracy_budget.residual_um": ""},
-        "What the balls leave at the wheel, expected: shorter is better.",
+        "Expected displacement at the wheel that remains when the balls have settled: shorter is better.",
     ),
     _Compared(
         "mass", "Masses of the autobalancers", "mass with balls [g]", {"autobalancer.mass_g": ""},
-        "What each autobalancer adds to its machine.",
+        "Mass of each autobalancer with its balls.",
     ),
     _Compared(
         "settling", "Settling times of the machines", "settling time [s]",
-        {"ensemble.settling_time_s.typical": "median", "ensemble.settling_time_s.worst": "worst"},
-        "How long the balls take over many starts, median and worst; a machine without a bar does not always settle.",
+        {"ensemble.settling_time_s.typical": "median", "ensemble.settling_time_s.worst": "slowest"},
+        "Settling time of the start cases: median and slowest, at any drag rate. A machine without a bar has a start "
+        "case that never settles.",
         "ABU702",
     ),
 )  # fmt: skip

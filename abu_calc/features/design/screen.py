@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
+from abu_calc.features.design.data_gaps import DataGap
 from abu_calc.features.design.records import AutobalancerRecord, Vibration
 from abu_calc.features.design.section_drawing import legend, section_lines
 from abu_calc.features.design.starts import SettlingOfStart
@@ -16,7 +17,7 @@ from abu_calc.reporting.screen import BLANK, LINES, cut, fitted, many, taken_by,
 from abu_calc.reporting.text import height
 
 INERTIA: Final = "machine.transverse_inertia_kg_m2"
-"""Key without which the machine is a point mass; the warning that names it is the first data gap."""
+"""Key without which the machine is a point mass; the warning that names it is the first note."""
 
 MOST_KEPT: Final = 14
 """Most lines that the tables leave to the actions."""
@@ -44,8 +45,8 @@ def size_screen(result: SizeResult) -> tuple[Block, ...]:
     body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
     groups = action_groups(result.checks, marked(tables))
     heads = [group[0] for group in groups]
-    notes = data_gaps(result) + other_notes(result)
-    last = _closing(result, len(notes))
+    notes = point_mass(result) + other_notes(result)
+    last = _closing(result, len(notes), len(result.data_gaps))
     room = LINES - height([*about, *last])
     body = cut(body, room - min(MOST_KEPT, 3 + taken_by(heads)) if heads else room)
     room -= height(body)
@@ -56,11 +57,15 @@ def size_screen(result: SizeResult) -> tuple[Block, ...]:
         shown = actions if 2 + taken_by(actions) <= room else fitted(heads, codes, room - 2)
         below += [Heading("Actions", "actions"), *shown]
     room = LINES - height([*about, *body, *below, *last])
+    gaps = gap_table(result.data_gaps[: max(0, room - 2)])
+    if gaps:
+        below += [BLANK, *gaps]
+        last = _closing(result, len(notes), 0)
+    room = LINES - height([*about, *body, *below, *last])
     fitting = fitted(notes, [], room - 2) if notes and room > LEAST_NOTES else []
     if fitting:
-        title = "Notes" if not data_gaps(result) else "Data gap" if len(notes) == 1 else "Data gap and notes"
-        below += [Heading(title, "warnings"), *fitting]
-        last = _closing(result, 0)
+        below += [Heading("Notes", "warnings"), *fitting]
+        last = _closing(result, 0, 0)
     return (*about, *body, *below, *last)
 
 
@@ -275,9 +280,31 @@ def action_groups(checks: Sequence[Check], in_tables: frozenset[int]) -> list[li
     return groups
 
 
-def data_gaps(result: SizeResult) -> list[Paragraph]:
-    """Missing data that most move the numbers."""
-    return [Paragraph(text) for text in result.warnings if INERTIA in text]
+def gap_table(gaps: Sequence[DataGap]) -> list[Block]:
+    """Assumed values, ranked, with levels and settling at both ends of their usual range; nothing without any."""
+    if not gaps:
+        return []
+    head = ("Data gap and its usual range", "expected, dB", "friction, dB", "settling, s")
+    rows = tuple(
+        (
+            f"{gap.key.rpartition('.')[2]} {_ends(gap.usual_range, '{:g}')}",
+            _ends(gap.level_db, "{:.1f}"),
+            _ends(gap.worst_friction_level_db, "{:.1f}"),
+            "" if gap.settling_time_s is None else _ends(gap.settling_time_s, "{:.2f}"),
+        )
+        for gap in gaps
+    )
+    return [Grid(head, rows, frozenset({1, 2, 3}))]
+
+
+def _ends(values: tuple[float | None, float | None], layout: str) -> str:
+    low, high = ("never" if value is None else layout.format(value) for value in values)
+    return low if low == high else f"{low} … {high}"
+
+
+def point_mass(result: SizeResult) -> list[Paragraph]:
+    """The note on a machine without inertia: it moves the numbers most, so that it comes first."""
+    return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA in text]
 
 
 def other_notes(result: SizeResult) -> list[Paragraph]:
@@ -303,14 +330,15 @@ def starts_and_defaults(result: SizeResult) -> str:
     return " ".join(sentences)
 
 
-def _closing(result: SizeResult, notes: int) -> list[Block]:
-    """Start cases, defaults and next commands; `notes`: number of those that are not shown."""
-    closing = starts_and_defaults(result) + (f" {many(notes, 'note')}: --full." if notes else "")
+def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
+    """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
+    hidden = [many(count, name) for count, name in ((gaps, "data gap"), (notes, "note")) if count]
+    sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
     code = next((check.code for check in sorted(result.checks, key=_rank) if check.status != "pass"), "ABU401")
-    commands = ["--full", "--explain", "--output report.html", f"abu explain {code}"]
+    commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]
     if result.swing_arm:
-        commands[2:2] = [f"abu stability {file_of(result)} --scene swing-arm-cutting"]
-    return [BLANK, Paragraph(closing.strip()), Paragraph("More: " + "   ".join(commands))]
+        commands[2:2] = [f"`abu stability {file_of(result)} --scene swing-arm-cutting`"]
+    return [BLANK, Paragraph(" ".join(filter(None, sentences))), Paragraph("More: " + "   ".join(commands))]
 
 
 def _rank(check: Check) -> int:

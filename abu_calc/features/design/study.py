@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import TYPE_CHECKING, Annotated, ClassVar, Final, Self
 
+from abu_calc.features.design.data_gaps import DataGap, data_gaps
 from abu_calc.features.design.records import (
     AccuracyBudget,
     AutobalancerRecord,
@@ -131,6 +132,7 @@ class SizeResult(Result):
     vibration_loaded: Vibration | None
     measured_after: MeasuredAfterRecord | None
     ensemble: EnsembleResult | None
+    data_gaps: tuple[DataGap, ...]
     simulation: tuple[SimulatedScene, ...]
     fits: tuple[SeatResult, ...]
     swing_arm: SwingArmRecord | None
@@ -226,6 +228,7 @@ def size(
         ensemble=None
         if tried.ensemble is None
         else EnsembleResult.of(tried.ensemble, predicted_level(design, tried.ensemble)),
+        data_gaps=data_gaps(design, tried.ensemble, accuracy),
         simulation=tuple(
             SimulatedScene.of(run.simulation, run.ledger, _other_drags(tried.ensemble, run)) for run in runs
         ),

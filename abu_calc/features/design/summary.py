@@ -8,11 +8,12 @@ from typing import Final, NamedTuple
 from abu_calc.features.design.screen import (
     action_groups,
     arm_change,
-    data_gaps,
+    gap_table,
     make,
     marked,
     numbers_that_matter,
     other_notes,
+    point_mass,
     starts_and_defaults,
     title_with_speed,
 )
@@ -59,7 +60,7 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
         *([arm_bounds(result.swing_arm)] if result.swing_arm else []),
         Paragraph(starts_and_defaults(result)),
     ]
-    notes = [*(gap._replace(text=f"! {gap.text}") for gap in data_gaps(result)), *other_notes(result)]
+    notes = [*point_mass(result), *other_notes(result)]
     room = SHEETS_MM - SPARE_MM - TITLE_MM - drawing_mm - sum(map(height_mm, body))
     codes = [alike[0].code for alike in unlike(result.checks)]
     shown = first_that_fit(action_groups(result.checks, marked(tables)), room - HEADING_MM - 2 * LINE_MM)
@@ -68,6 +69,9 @@ def size_summary(result: SizeResult, drawing_mm: float) -> Summary:
     if codes:
         body += [Heading("Actions"), *actions]
     room -= HEADING_MM + sum(map(height_mm, actions)) if codes else 0.0
+    gaps = gap_table(result.data_gaps)
+    body += gaps
+    room -= sum(map(height_mm, gaps))
     told = first_that_fit([[note] for note in notes], room - HEADING_MM - LINE_MM)
     left = len(notes) - len(told)
     further = [Paragraph(f"See Warnings for {many(left, 'more note')}.")] if left else []

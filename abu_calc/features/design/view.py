@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from abu_calc.features.design.figures import IDLE_START, idle_case, size_charts, start_case
 from abu_calc.features.design.records import AutobalancerRecord, Frequency, Vibration
-from abu_calc.features.design.screen import about, balls, numbers_that_matter, section_picture
+from abu_calc.features.design.screen import about, balls, gap_table, numbers_that_matter, section_picture
 from abu_calc.features.design.starts import SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.grinding.view import start_blocks
@@ -43,6 +43,13 @@ WAYS = (
     "faster. From standstill they take up the speed by h₀/J. The groove's radius has no influence in the plane.",
     "`abu simulate FILE --start spread --race-centre 0` repeats one start case.",
 )
+GAPS = (
+    "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the three "
+    "assumed values that most move the verdict, for the balls and the race of this design. Levels are calculated, as "
+    "expected and in the worst friction case. The settling time is simulated, for the start case that is slowest as "
+    "the file stands. At other drag rates it is that of the slowest start case there. Usual ranges are engineering "
+    "practice (unverified)."
+)
 ROWS = 15
 """Rows of the section's picture."""
 
@@ -63,6 +70,7 @@ def _blocks(result: SizeResult) -> tuple[Block, ...]:
         *_need(result),
         *_vibration(result),
         *_ensemble(result),
+        *_data_gaps(result),
         *_simulation(result),
         *_alternatives(result.alternatives),
         *_swing_arm(result),
@@ -124,6 +132,12 @@ def _ensemble(result: SizeResult) -> list[Block]:
         _ways(many.settling_by_start),
         *map(Paragraph, WAYS),
     ]
+
+
+def _data_gaps(result: SizeResult) -> list[Block]:
+    """Assumed values that most move the verdict."""
+    table = gap_table(result.data_gaps)
+    return [Heading("Data gaps", "data-gaps"), *table, Paragraph(GAPS)] if table else []
 
 
 def _ways(settling_times: Sequence[SettlingOfStart]) -> Grid:

@@ -29,10 +29,9 @@ WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 def page(outcome: "Outcome") -> str:
     """The text of a file in HTML."""
     extras = extras_handed_over(outcome.extras()) if outcome.extras else Extras()
-    parts = [_for_reader(part) for part in sections(outcome.blocks)]
-    head, *others = parts
+    head, *others = (_for_reader(part) for part in sections(outcome.blocks))
     title = _heading(extras.summary[:1] or head) or outcome.command.capitalize()
-    others = [part for part in others if section_id(part) not in extras.held]
+    others = [part for part in others if part and section_id(part) not in extras.held]
     front = [part for part in others if section_id(part) not in LAST | {SOURCE}]
     back = [part for part in others if section_id(part) in LAST]
     source = [part for part in others if section_id(part) == SOURCE]
@@ -65,8 +64,11 @@ def page(outcome: "Outcome") -> str:
 
 
 def _for_reader(part: Sequence[Block]) -> Sequence[Block]:
-    """A section without commands; entries that the file left out or that were replaced stay as they are."""
-    return part if section_id(part) in {SOURCE, "defaults"} else handed_over(part)
+    """A section without commands, nothing if all of it are commands; entries of the file stay as they are."""
+    if section_id(part) in {SOURCE, "defaults"}:
+        return part
+    shown = handed_over(part)
+    return shown if len(shown) > 1 or len(part) == len(shown) else []
 
 
 def _summary(title: str, blocks: Sequence[Block], figures: Sequence[Figure]) -> Iterator[str]:
@@ -123,11 +125,10 @@ def _note(blocks: Sequence[Block]) -> Iterator[str]:
 
 def _repeat(outcome: "Outcome") -> Iterator[str]:
     """Command with its options, and the whole hash of the file, which a terminal has no room for."""
-    rows = [(label, "", value) for label, value in outcome.settings]
+    yield from elements([Facts(tuple((label, "", value) for label, value in outcome.settings))], REPEAT)
     source = outcome.provenance
     if source.sha256:
-        rows.append((f"SHA-256 of {source.file or 'the file'}", "", source.sha256))
-    yield from elements([Facts(tuple(rows))], REPEAT)
+        yield f'<p>{text(source.file or "")}, SHA-256:</p><pre class="command" tabindex="0">{text(source.sha256)}</pre>'
 
 
 def _contents(titles: Sequence[str]) -> str:

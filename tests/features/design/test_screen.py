@@ -204,9 +204,9 @@ def test_what_there_is_no_room_for_is_counted(sized: SizeResult, seats: CheckFit
         blocks = screen(replace(result, checks=checks, warnings=warnings))  # type: ignore[operator, arg-type]
         text = as_text(blocks)
         assert height(blocks) <= 48
-        for told, all_of, name in ((r"reason \d+\.", bad, "check"), (r"! Warning", warned, "warning")):
+        for told, all_of, name in ((r"reason \d+\.", bad, "check"), (r"! Warning", warned, "note")):
             counted = re.search(rf"And (\d+) more {name}s?{' .ABU403.' if name == 'check' else ''}: --full", text)
-            if name == "warning":
+            if name == "note":
                 counted = counted or re.search(r"(\d+) notes?: --full", flat(text))
             assert len(re.findall(told, flat(text))) + int(counted[1] if counted else 0) == all_of
             assert counted is None or int(counted[1]) > 0

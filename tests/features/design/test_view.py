@@ -18,7 +18,7 @@ def test_report_reads_like_a_calculation_note() -> None:
     assert lines[1].strip().startswith("PASS")
     order = [
         "Checks",
-        "Warnings",
+        "Notes",
         "Design",
         "Frequencies and capacity",
         "Defaults used (not in the file)",

@@ -1,0 +1,178 @@
+"""Assumed values of a machine file, ranked by how far their usual range moves the verdict of its design.
+
+A value counts as assumed if the file leaves it to the default, or gives just that figure. Each end of its usual range
+is followed with the balls and the race of the design: levels and checks are calculated, and the start case
+that is slowest today is simulated again.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Final, NamedTuple, Self
+
+from abu_calc.features.design.verification import design_with
+from abu_calc.foundation import patience
+from abu_calc.foundation.errors import NotTrustworthyError
+from abu_calc.foundation.frozen import dataclass
+from abu_calc.foundation.quantity import Quantity, Record, record
+from abu_calc.inputs.machine import MachineFile
+from abu_calc.simulation.ensemble import first_tolerance, run_of_start
+from abu_calc.simulation.ensemble_results import Ensemble, StartOutcome
+from abu_calc.simulation.records import finite
+from abu_calc.sizing.actions import followed, pins
+from abu_calc.sizing.balls import sound
+from abu_calc.sizing.design import Design
+from abu_calc.sizing.vibration import level_of
+
+MOST: Final = 3
+"""Assumed values that are listed."""
+
+MOST_WORK: Final = 20_000
+"""Evaluations of the slowest start case above which settling at the ends is not simulated."""
+
+ALIKE_DB, ALIKE_FACTOR = 3.0, 2.0
+"""A level that moves by so much and a settling time that changes by this factor rank alike."""
+
+DRAG: Final = "autobalancer.rolling_drag_per_s"
+
+
+class UsualRange(NamedTuple):
+    """Usual range of a value that is mostly assumed; `assumed`: the figure that stands for one that is not known."""
+
+    assumed: float
+    low: float
+    high: float
+    moves_levels: bool = True
+    moves_settling: bool = True
+    """True if the calculated idle levels, and the settling times, depend on it."""
+
+
+RANGES: Final[Mapping[str, UsualRange]] = {
+    "autobalancer.race_eccentricity_mm": UsualRange(0.010, 0.005, 0.020),
+    "autobalancer.rolling_friction_mm": UsualRange(0.002, 0.0005, 0.005),
+    DRAG: UsualRange(15.0, 5.0, 45.0, moves_levels=False),
+    "suspension.natural_frequencies_hz": UsualRange(2.5, 1.6, 2.6),
+    "suspension.damping_ratios": UsualRange(0.5, 0.25, 0.9),
+    "grinding.cutting_coefficient": UsualRange(0.35, 0.3, 0.5, moves_levels=False, moves_settling=False),
+    "grinding.contact_stiffness_N_per_m": UsualRange(2e5, 2e4, 1e6, moves_levels=False, moves_settling=False),
+}
+"""Usual ranges by engineering practice (unverified). Drag rates are those of hot and cold oil; the springs stand for
+two hands (ISO 10068:2012)."""
+
+
+@dataclass(frozen=True)
+class End:
+    """The design at one end of a usual range; levels [dB] and the settling time [s] of the slowest start case,
+    infinite: it never settles, NaN: that was not simulated.
+
+    `holds`: whether the autobalancer meets every requirement of sizing and both levels their limit, and settling its.
+    """
+
+    level: float
+    friction_level: float
+    settling_time: float
+    holds: bool
+
+
+@record
+class DataGap(Record):
+    """An assumed value, and the results at both ends of its usual range: balls and race as designed.
+
+    `decides`: at one end alone the design meets every requirement, the level limit in the worst friction case and the
+    settling limit. `settling_time_s` is that of the start case which is the slowest as the file stands; at the ends of
+    the drag rate, of the slowest one there. An end of None: it never settles. None: it was not simulated.
+    """
+
+    key: Annotated[str, Quantity("key")]
+    value: Annotated[float, Quantity("assumed value", "", 3)]
+    usual_range: Annotated[tuple[float, float], Quantity("usual range", "", 3)]
+    decides: Annotated[bool, Quantity("decides the verdict")]
+    level_db: Annotated[tuple[float, float], Quantity("expected level at both ends", "L")]
+    worst_friction_level_db: Annotated[tuple[float, float], Quantity("worst friction case at both ends", "L")]
+    settling_time_s: Annotated[
+        tuple[float | None, float | None] | None,
+        Quantity("settling time at both ends of the start case that is slowest now", "t_s", 3),
+    ]
+
+    @classmethod
+    def of(cls, key: str, usual: UsualRange, ends: tuple[End, End]) -> Self:
+        """Record of both ends."""
+        low, high = ends
+        times = low.settling_time, high.settling_time
+        return cls(
+            key=key, value=usual.assumed, usual_range=(usual.low, usual.high), decides=low.holds != high.holds,
+            level_db=(low.level, high.level), worst_friction_level_db=(low.friction_level, high.friction_level),
+            settling_time_s=None if any(map(math.isnan, times)) else (finite(times[0]), finite(times[1])),
+        )  # fmt: skip
+
+    @property
+    def movement(self) -> float:
+        """How far the results move between the ends, by the one that moves most: 1 for 3 dB or a factor of 2."""
+        levels = [abs(high - low) / ALIKE_DB for low, high in (self.level_db, self.worst_friction_level_db)]
+        low_time, high_time = self.settling_time_s or (None, None)
+        ratio = math.log(high_time / low_time) / math.log(ALIKE_FACTOR) if low_time and high_time else 0.0
+        return max(*levels, abs(ratio))
+
+
+def data_gaps(design: Design, ensemble: Ensemble | None, accuracy: float) -> tuple[DataGap, ...]:
+    """The three assumed values that most move the verdict, the first one most; none if the balls do not balance."""
+    if ensemble is None or not ensemble.given or not design.frequency.balancing_possible:
+        return ()
+    gaps, slowest = list[DataGap](), max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf)
+    for key, usual in assumed_values(design.case.table):
+        if slowest.member.on_arm and key.startswith("suspension"):
+            continue
+        ends = _end(design, ensemble, key, usual.low, accuracy), _end(design, ensemble, key, usual.high, accuracy)
+        if ends[0] is not None and ends[1] is not None:
+            gaps.append(DataGap.of(key, usual, (ends[0], ends[1])))
+    moving = (gap for gap in gaps if gap.decides or gap.movement > 0)
+    return tuple(sorted(moving, key=lambda gap: (not gap.decides, -gap.movement))[:MOST])
+
+
+def assumed_values(file: MachineFile) -> Iterator[tuple[str, UsualRange]]:
+    """The values of a file that are assumed: left to the default, or just that figure."""
+    for key, usual in RANGES.items():
+        table, name = key.split(".")
+        value = getattr(getattr(file, table), name, None)
+        figures = set(value) if isinstance(value, tuple) else {value}
+        if figures == {usual.assumed}:
+            yield key, usual
+
+
+def _end(design: Design, ensemble: Ensemble, key: str, value: float, accuracy: float) -> End | None:
+    """The design with one value replaced; None if the file refuses it."""
+    entries = {key: [value, value] if key.startswith("suspension") else value}
+    after = followed(design.case, {**entries, **pins(design.autobalancer)})
+    if after is None:
+        return None
+    levels, moves = design.speed_levels, RANGES[key].moves_levels
+    level = level_of(after, worst=False) if moves or levels is None else levels.highest.level_after
+    friction = level_of(after, worst=True) if moves or levels is None else levels.arranged.level_after
+    slowest = max(ensemble.given, key=lambda outcome: outcome.settling_time_or_inf)
+    if key == DRAG:
+        time = max(
+            (outcome.settling_time_or_inf for outcome in ensemble.outcomes if math.isclose(outcome.member.drag, value)),
+            default=math.nan,
+        )
+    elif RANGES[key].moves_settling:
+        time = _settling_time(design, slowest, entries, accuracy)
+    else:
+        time = slowest.settling_time_or_inf
+    limits = design.case.table.limits
+    holds = (
+        sound(after.case, after.candidate)
+        and max(level, friction) <= after.case.level_limit
+        and not time > limits.settling_time_s
+    )
+    return End(level, friction, time, holds)
+
+
+def _settling_time(design: Design, slowest: StartOutcome, entries: Mapping[str, object], accuracy: float) -> float:
+    """Settling time [s] of the slowest start case with entries replaced; infinite: never; NaN: not known."""
+    other = None if slowest.work > MOST_WORK or patience.over() else design_with(design, entries)
+    if other is None:
+        return math.nan
+    try:
+        run = run_of_start(other, slowest.member, accuracy, first_tolerance(other), early_end=True)
+    except NotTrustworthyError:
+        return math.nan
+    return run.outcome.settling_time_or_inf

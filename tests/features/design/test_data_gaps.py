@@ -1,0 +1,100 @@
+"""Assumed values of a file: which are listed, and that following one end gives the numbers told."""
+
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.features.design.data_gaps import RANGES, DataGap, assumed_values
+from abu_calc.features.design.screen import gap_table
+from abu_calc.features.design.study import SizeResult, size
+from abu_calc.inputs.autobalancer import Autobalancer
+from abu_calc.inputs.read_machine import Machine, read_machine
+from abu_calc.reporting.blocks import Grid
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    return read_machine("avtovaz-707-222")
+
+
+@pytest.fixture(scope="module")
+def sized(machine: Machine) -> SizeResult:
+    return size(machine)
+
+
+def gap_of(sized: SizeResult, name: str) -> DataGap:
+    return next(gap for gap in sized.data_gaps if gap.key == f"autobalancer.{name}")
+
+
+def changed(machine: Machine, sized: SizeResult, **entries: object) -> SizeResult:
+    abu = sized.autobalancer
+    pinned = {"ball_count": abu.ball_count, "ball_diameter_mm": abu.ball_diameter_mm, "race_radius_mm": 31.0, **entries}
+    return size(machine.changed({f"autobalancer.{key}": value for key, value in pinned.items()}))
+
+
+@pytest.mark.parametrize("name", ["race_eccentricity_mm", "rolling_friction_mm"])
+@pytest.mark.parametrize("end", [0, 1])
+def test_following_one_end_gives_the_numbers_told(machine: Machine, sized: SizeResult, name: str, end: int) -> None:
+    gap = gap_of(sized, name)
+    other = changed(machine, sized, **{name: gap.usual_range[end]})
+    worst = other.vibration.worst_arrangement
+    assert worst is not None and other.ensemble is not None and gap.settling_time_s is not None
+    assert gap.level_db[end] == pytest.approx(other.vibration.level_after_db, abs=1e-9)
+    assert gap.worst_friction_level_db[end] == pytest.approx(worst.level_after_db, abs=1e-9)
+    # The start case that is slowest as the file stands; ensembles confirm such a one at a tighter tolerance.
+    assert sized.starts.of is not None and other.starts.of is not None
+    slowest = max(sized.starts.of[1].given, key=lambda outcome: outcome.settling_time_or_inf).member
+    (same,) = [outcome for outcome in other.starts.of[1].given if outcome.member == slowest]
+    assert gap.settling_time_s[end] == pytest.approx(same.settling_time, rel=0.02)
+
+
+def test_drag_rates_have_the_settling_times_of_the_start_cases(sized: SizeResult) -> None:
+    gap, many = gap_of(sized, "rolling_drag_per_s"), sized.ensemble
+    assert many is not None and gap.usual_range == (5.0, 45.0)
+    slowest = tuple(
+        max(row.settling_time_s or 9.0 for row in many.settling_by_start if row.drag_per_s == drag)
+        for drag in gap.usual_range
+    )
+    assert gap.settling_time_s == slowest and gap.level_db[0] == gap.level_db[1] == sized.vibration.level_after_db
+
+
+def test_the_value_that_decides_the_verdict_is_first(sized: SizeResult) -> None:
+    assert [gap.decides for gap in sized.data_gaps] == [True, False, False]
+    first, *others = sized.data_gaps
+    assert max(first.worst_friction_level_db) > 109 > min(first.worst_friction_level_db)
+    assert [gap.movement for gap in others] == sorted((gap.movement for gap in others), reverse=True)
+
+
+def test_a_value_that_was_measured_is_not_listed(machine: Machine) -> None:
+    other = size(machine.changed({"autobalancer.rolling_friction_mm": 0.0021}))
+    assert "autobalancer.rolling_friction_mm" not in [gap.key for gap in other.data_gaps]
+
+
+def test_defaults_are_the_assumed_figures() -> None:
+    for key, usual in RANGES.items():
+        place, name = key.split(".")
+        assert usual.low < usual.assumed < usual.high
+        if place == "autobalancer":
+            assert Autobalancer.model_fields[name].default == usual.assumed
+
+
+def test_what_a_file_leaves_out_counts_as_assumed(machine: Machine) -> None:
+    tables = machine.whole("size")
+    listed = dict(assumed_values(tables))
+    plain = tables.model_copy(update={"autobalancer": tables.autobalancer.model_copy(
+        update={"rolling_drag_per_s": 16.0, "rolling_friction_mm": 0.003})})  # fmt: skip
+    assert set(listed) - set(dict(assumed_values(plain))) == {
+        "autobalancer.rolling_drag_per_s", "autobalancer.rolling_friction_mm"
+    }  # fmt: skip
+
+
+def test_balls_that_cannot_carry_the_imbalance_have_no_gaps(machine: Machine) -> None:
+    assert size(machine.changed({"wheel.measured_level_db": 128.0})).data_gaps == ()
+
+
+def test_the_table_says_never_and_leaves_out_what_was_not_simulated(sized: SizeResult) -> None:
+    gap = sized.data_gaps[0]
+    never, unknown = replace(gap, settling_time_s=(0.5, None)), replace(gap, settling_time_s=None)
+    (table,) = gap_table((never, unknown))
+    assert isinstance(table, Grid) and [row[-1] for row in table.rows] == ["0.50 … never", ""]
+    assert gap_table(()) == []
