@@ -89,8 +89,8 @@ def _light(weights: dict[str, EffectInfluence], accuracy: float) -> frozenset[st
 
 def _why(weight: EffectInfluence, light: bool) -> str:
     if weight.value is None:
-        return f"not estimated, so in; {weight.why}"
-    return f"{'below' if light else 'above'} what the accuracy lets pass; {weight.why}"
+        return f"not estimated, so simulated: {weight.why}"
+    return f"{'within' if light else 'beyond'} the accuracy: {weight.why}"
 
 
 @dataclass(frozen=True)

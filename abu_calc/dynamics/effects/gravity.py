@@ -109,7 +109,7 @@ class GravityEffect(Effect):
         """
         if not scene.ball_masses:
             return EffectInfluence(0.0, "no balls")
-        why = "swings the balls once per turn, and the axis twice"
+        why = "swings the balls once per turn, and the spindle twice"
         if scene.support.turns:
             return EffectInfluence(None, f"{why}; on a swing arm not estimated")
         aside, pushed = 0.0, 0.0

@@ -70,4 +70,4 @@ class MotorEffect(Effect):
 
     def weight(self, scene: Circumstances) -> EffectInfluence:
         """Influence without an estimate: capture at a resonance is all or nothing."""
-        return EffectInfluence(None, "the speed itself may differ: it can stick at a resonance")
+        return EffectInfluence(None, "the speed may stall at a resonance")

@@ -61,6 +61,4 @@ class RaceEccentricityEffect(Effect):
 
     def weight(self, scene: Circumstances) -> EffectInfluence:
         """Δ, relative to the axis amplitude without it."""
-        return EffectInfluence(
-            self.magnitude / weighing_amplitude(scene), "the axis whirls with it, whatever the speed"
-        )
+        return EffectInfluence(self.magnitude / weighing_amplitude(scene), "the spindle whirls by it at any speed")

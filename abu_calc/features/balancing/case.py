@@ -139,13 +139,13 @@ def record_warnings(taken: Taken) -> list[str]:
         other, turn = ("its middle", pulse / 2) if edge == "leading" else ("its leading edge", pulse / 2)
         shape = "square" if record.marks.square else "rounded"
         lines.append(
-            f"{file}: a pulse of the mark lasts {pulse:.1f}°, {shape}; its {_edge(edge)} is taken for the passage. By "
-            f"{other} every angle would be {turn:.1f}° other: run.mark_edge says which."
+            f"{file}: a pulse of the mark lasts {pulse:.1f}°, {shape}; its {_edge(edge)} counts as the passage. By "
+            f"{other} every angle would differ by {turn:.1f}°. Specify run.mark_edge."
         )
     if record.unsure > UNSURE:
         lines.append(
-            f"{file}: the samples go in step with the rotation and tell the passage of the mark to "
-            f"{math.degrees(record.unsure):.1f}° only, and so every angle: sample faster."
+            f"{file}: the samples go in step with the rotation, so the passage of the mark and every angle are "
+            f"known to {math.degrees(record.unsure):.1f}° only. Sample faster."
         )
     if abs(record.drift) > DRIFT:
         lines.append(

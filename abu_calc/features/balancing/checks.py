@@ -39,7 +39,7 @@ def _planes(balancing: Found) -> Check:
     value = max(map(condition_number, balancing.solution.influences))
     return coded(
         "ABU1001", verdict(value <= CONDITION[1], value <= CONDITION[0]),
-        "errors of readings may grow by this factor, the condition number", value, CONDITION[0],
+        "condition number: errors of readings may grow by this factor", value, CONDITION[0],
     )  # fmt: skip
 
 
@@ -54,11 +54,11 @@ def _natural_frequencies(balancing: Found) -> Iterator[Check]:
     if balancing.farther is not None and grade != "pass":
         speed, rest = balancing.farther
         remedy = (
-            f"At {from_si(speed, 'rpm'):.0f} rpm the same errors would leave {100 * rest:.1f} % instead of "
-            f"{100 * balancing.rest_share:.1f} %."
+            f"Measure at {from_si(speed, 'rpm'):.0f} rpm: the remaining vibration falls from "
+            f"{100 * balancing.rest_share:.1f} to {100 * rest:.1f} % (calculated with the same errors)."
         )
     yield coded(
-        "ABU1002", grade, f"the speed's distance from the natural frequency of {from_si(omega, 'hz'):.2f} Hz, relative",
+        "ABU1002", grade, f"relative distance of the speed from the natural frequency {from_si(omega, 'hz'):.2f} Hz",
         value, OFF_RESONANCE[0], remedy=remedy, bound="least",
     )  # fmt: skip
 
@@ -81,8 +81,8 @@ def _rigid(balancing: Found) -> Iterator[Check]:
     remedy = None
     if grade != "pass":
         remedy = (
-            "rotor.first_bending_speed_rpm tells better." if balancing.bending_speed is None
-            else "A flexible roll takes more planes, at more speeds (ISO 21940-12)."
+            "Specify rotor.first_bending_speed_rpm." if balancing.bending_speed is None
+            else "The roll bends: balance it in more planes, at more speeds (ISO 21940-12)."
         )  # fmt: skip
     yield coded("ABU1003", grade, message, value, limit, remedy=remedy)
 
@@ -95,10 +95,14 @@ def _sure(balancing: Found) -> Check:
     share = balancing.rest_share
     remedy = None
     if share > SURE[0]:
-        remedy = f"A second run after the correction: the same errors would leave {100 * share**2:.1f} %."
+        remedy = (
+            "Measure and correct once more after this correction: the remaining vibration falls from "
+            f"{100 * share:.1f} to {100 * share**2:.1f} % (calculated with the same errors)."
+        )
     return coded(
         "ABU1004", verdict(share <= SURE[1], share <= SURE[0]),
-        "what errors of readings, rig and correction leave of it, rms", 100 * share, 100 * SURE[0], "%", remedy,
+        "vibration that errors of readings, rig and correction leave, rms, of that now", 100 * share,
+        100 * SURE[0], "%", remedy,
     )  # fmt: skip
 
 
@@ -109,10 +113,13 @@ def _permitted(balancing: Found) -> Iterator[Check]:
         remedy = None
         if 2 * rest > permitted:
             after = from_si(rest * balancing.rest_share, "g_mm")
-            remedy = f"A second run after the correction: the same errors would leave {after:.3g} g·mm."
+            remedy = (
+                "Measure and correct once more after this correction: the imbalance falls from "
+                f"{from_si(rest, 'g_mm'):.3g} to {after:.3g} g·mm (calculated with the same errors)."
+            )
         yield coded(
             "ABU1005", verdict(rest <= permitted, 2 * rest <= permitted),
-            "imbalance expected after the correction; twice that must be permitted, too",
+            "imbalance expected after the correction; PASS asks that twice that is permitted, too",
             from_si(rest, "g_mm"), from_si(permitted, "g_mm"), "g·mm", remedy, of=name,
         )  # fmt: skip
 
@@ -123,10 +130,10 @@ def _agree(balancing: Found) -> Iterator[Check]:
         return
     remedy = None
     if value > AGREE[0]:
-        remedy = "Look for what changed between the runs; or the roll bends, or data of the rig are wrong."
+        remedy = "Repeat the runs. Check speeds, fastening and the data of the rig, and whether the roll bends."
     yield coded(
         "ABU1006", verdict(value <= AGREE[1], value <= AGREE[0]),
-        "largest misfit of a run, in standard deviations by the errors given", value, AGREE[0], None, remedy,
+        "largest misfit of a run, in standard deviations of the errors given", value, AGREE[0], None, remedy,
     )  # fmt: skip
 
 
@@ -138,11 +145,13 @@ def _trials(balancing: Found) -> Iterator[Check]:
     on = [max(abs(run.placed[k]) for run in balancing.case.runs) for k in (0, 1)]
     value = min(on[k] * max(abs(row[k]) for row in matrix) / largest for k in (0, 1)) if largest else 0.0
     remedy = (
-        None if value >= TELLS[0] else f"Trial masses {max(2, round(TELLS[0] / value)) if value else 2} times as heavy."
+        None
+        if value >= TELLS[0]
+        else f"Use trial masses {max(2, round(TELLS[0] / value)) if value else 2} times as heavy."
     )
     yield coded(
         "ABU1007", verdict(value >= TELLS[1], value >= TELLS[0]),
-        "what the weaker trial mass moves, of the largest reading", value, TELLS[0], None, remedy, "least",
+        "change of a reading by the weaker trial mass, of the largest reading", value, TELLS[0], None, remedy, "least",
     )  # fmt: skip
 
 
@@ -151,9 +160,9 @@ def _metal(balancing: Found) -> Iterator[Check]:
         return
     value = max(map(removed, balancing.shares))
     yield coded(
-        "ABU1008", verdict(value <= balancing.removable * (1 + 1e-9)), "mass to take off in a plane",
+        "ABU1008", verdict(value <= balancing.removable * (1 + 1e-9)), "mass to remove in a plane",
         from_si(value, "g"), from_si(balancing.removable, "g"), "g",
-        None if value <= balancing.removable else "More places, so that mass can be put on opposite.",
+        None if value <= balancing.removable else "Specify more places, so that mass can be added opposite.",
     )  # fmt: skip
 
 
@@ -174,10 +183,10 @@ def balance_warnings(
     yield from _within_grade(planes)
     if file.tolerance.balance_grade is not None and file.tolerance.service_speed_rpm is None:
         rpm = from_si(balancing.service_speed, "rpm")
-        yield f"The grade is asked at the speed of the runs, {rpm:.0f} rpm: tolerance.service_speed_rpm is not given."
+        yield f"tolerance.service_speed_rpm is not given: the grade is judged at the speed of the runs, {rpm:.0f} rpm."
     yield from _rig_and_trials(balancing)
     if balancing.case.roll is None and balancing.bending_speed is None:
-        yield "Whether the roll bends at these speeds is not known: rotor.first_bending_speed_rpm tells."
+        yield "It is not known whether the roll bends at these speeds. Specify rotor.first_bending_speed_rpm."
 
 
 def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[str]:
@@ -196,21 +205,21 @@ def _printed(balancing: Found, planes: Sequence[PlaneCorrection]) -> Iterator[st
     off, times = ("on the wrong side", "Ω²") if run.quantity == "acceleration" else ("90° off", "Ω")
     name = "accelerations" if run.quantity == "acceleration" else "velocities"
     yield (
-        "The formula as printed (Didukh 2010, (3)–(6)) takes readings for displacements: "
-        f"with these {name} it would take metal off at {at[0]:.1f}° on the left and {at[1]:.1f}° on the right, {off}, "
-        f"and {times} times too much. Here they are converted first."
+        "The formula as published (Didukh 2010, (3)–(6)) takes readings for displacements. "
+        f"With these {name} it would remove metal at {at[0]:.1f}° left and {at[1]:.1f}° right, {off}, and {times} "
+        "times too much. This result converts them first."
     )
 
 
 def _directions(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
     for name, plane in zip(("left", "right"), planes, strict=True):
         if plane.mass_g and plane.angle_uncertainty_deg > UNTOLD:
-            yield f"In the {name} plane errors are about as large as the imbalance: its angle is not known."
+            yield f"In the {name} plane the errors are about as large as the imbalance: its angle is not known."
 
 
 def _within_grade(planes: Sequence[PlaneCorrection]) -> Iterator[str]:
     if all(plane.permitted_g_mm is not None and plane.imbalance_g_mm <= plane.permitted_g_mm for plane in planes):
-        yield "The roll is within its grade as it is: no correction is needed."
+        yield "The roll is already within its balance grade: no correction is needed."
 
 
 def _rig_and_trials(balancing: Found) -> Iterator[str]:
@@ -220,8 +229,8 @@ def _rig_and_trials(balancing: Found) -> Iterator[str]:
     if balancing.solution.method == "rig data":
         if any(run.weights for run in balancing.case.runs):
             yield (
-                "The trial runs do not suffice for influence coefficients (one without and one in each plane, at one "
-                "speed, with masses that tell): their masses are taken into account, and the rig's data used."
+                "The trial runs do not suffice for influence coefficients: these need one run without and one in each "
+                "plane, at one speed, with masses that change the readings. The rig's data are used instead."
             )
         return
     measured, calculated = balancing.solution.influences[0], influence(roll, balancing.case.runs[0].speed)
@@ -229,6 +238,6 @@ def _rig_and_trials(balancing: Found) -> Iterator[str]:
     off = max(abs(measured[i][k] - calculated[i][k]) for i in (0, 1) for k in (0, 1)) / largest
     if off > RIG_DIFFERS:
         yield (
-            f"The influence coefficients measured differ by {100 * off:.0f} % from those by [rig] and [rotor], "
-            "which are not used: look at their data, or at the trial masses and their angles."
+            f"The measured influence coefficients, which are used, differ by {100 * off:.0f} % from those by [rig] and "
+            "[rotor]. Check the data of the rig, or the trial masses and their angles."
         )

@@ -10,6 +10,7 @@ from typing import Final
 
 from abu_calc.features.balancing.records import PlaneCorrection, Share
 from abu_calc.features.balancing.study import BalanceResult
+from abu_calc.features.balancing.view import misfit
 from abu_calc.features.explain.steps import STEPS, step_blocks
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
@@ -20,7 +21,7 @@ from abu_calc.reporting.drawings.shapes import Arc, Drawing, Line, Point, Shape,
 RADIUS, APART = 20.0, 58.0
 LETTERS: Final = 3.0
 SIGNS: Final = {"remove": "−", "add": "+"}
-DO: Final = {"remove": "take off", "add": "put on"}
+DO: Final = {"remove": "remove", "add": "add"}
 
 
 def planes_drawing(left: PlaneCorrection, right: PlaneCorrection, turns_from_left: str) -> Drawing:
@@ -84,8 +85,8 @@ def _order(what: str, share: Share) -> str:
 NOW, AFTER = 2, 1
 """Series of bars."""
 DRAWN: Final = (
-    "Both planes as one stands before each end of the roll, the zero mark on top: − take off, + put on, small circle "
-    "the heavy spot. Degrees are laid off from the mark against rotation, which the arrows show."
+    "Both planes as one stands before each end of the roll, the zero mark on top: − remove, + add, small circle the "
+    "heavy spot. Degrees count from the mark against rotation, which the arrows show."
 )
 
 
@@ -161,4 +162,4 @@ def _numbers(result: BalanceResult) -> tuple[str, ...]:
     ]
     if result.natural_frequencies_hz is not None:
         lines.append("natural frequencies: " + ", ".join(f"{freq:.2f} Hz" for freq in result.natural_frequencies_hz))
-    return (*lines, f"put back, the answer gives the readings to {number(result.residual_check.reproduced, 2)}")
+    return (*lines, f"readings recalculated from these: {misfit(result.residual_check)} of the largest off")

@@ -35,7 +35,7 @@ class RunReadings(Record):
 
 @record
 class Share(Record):
-    """A mass to take off or to put on."""
+    """A mass to remove or to add."""
 
     action: Annotated[str, Quantity("to do", "", 4, "remove or add")]
     mass_g: Annotated[float, Quantity("mass", "", 4)]
@@ -50,17 +50,17 @@ class PlaneCorrection(Record):
     angle_deg: Annotated[float, Quantity("heavy spot at", "φ_j", 5, "from the zero mark, against rotation")]
     mass_uncertainty_g: Annotated[float, Quantity("uncertainty of the mass", "", 2, "one standard deviation")]
     angle_uncertainty_deg: Annotated[
-        float, Quantity("uncertainty of the angle", "", 2, "one standard deviation; 180: nothing tells it")
+        float, Quantity("uncertainty of the angle", "", 2, "one standard deviation; 180: not known")
     ]
-    remove_at_deg: Annotated[float, Quantity("take off at", "", 5, "the heavy spot")]
-    add_at_deg: Annotated[float, Quantity("or put on at", "", 5, "opposite")]
+    remove_at_deg: Annotated[float, Quantity("remove at", "", 5, "the heavy spot")]
+    add_at_deg: Annotated[float, Quantity("or add at", "", 5, "opposite")]
     corrections: tuple[Share, ...]
     """Corrections to make, by the metal and the places there are."""
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "|Q|", 4)]
     permitted_g_mm: Annotated[float | None, Quantity("permitted imbalance", "U_per", 4)]
     rest_g_mm: Annotated[float, Quantity("imbalance to be expected after it", "", 2, "rms over the errors")]
-    printed_mass_g: Annotated[float | None, Quantity("mass by the printed formula", "", 4, "readings as they stand")]
-    printed_angle_deg: Annotated[float | None, Quantity("angle by the printed formula", "", 5)]
+    printed_mass_g: Annotated[float | None, Quantity("mass by the published formula", "", 4, "readings not converted")]
+    printed_angle_deg: Annotated[float | None, Quantity("angle by the published formula", "", 5)]
 
 
 @record

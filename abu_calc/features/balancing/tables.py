@@ -390,7 +390,7 @@ class Rotor(Table):
         b, c = self.left_plane_to_centre_m, self.centre_to_right_plane_m
         if b is not None and c is not None and b + c == 0:
             raise problem(
-                "the two planes are one: they cannot be told apart",
+                "the two planes coincide: they cannot be distinguished",
                 "centre_to_right_plane_m",
                 found="b + c = 0 m",
                 allowed="b + c above 0 m",

@@ -135,7 +135,7 @@ def method_of(case: Balancing) -> Method:
         )  # fmt: skip
     missing = [name for k, name in enumerate(("left", "right")) if scale[k] == 0]
     raise InputError(
-        "the trial runs do not tell the planes apart",
+        "the trial runs do not distinguish the planes",
         place=Place(key="run"),
         found=f"{len(case.runs)} runs" + (f", none with a trial in the {missing[0]} plane" if missing else ""),
         allowed="three runs at least: one without a trial and one with a trial in each plane, or others as different",
@@ -183,7 +183,7 @@ def _refuse_singular(matrix: Matrix, why: str = "") -> None:
     condition = condition_number(matrix)
     if not condition <= WORST_CONDITION:
         raise NotTrustworthyError(
-            f"the sensors hardly tell the two planes apart: the condition number is {condition:.3g}, at most "
+            f"the sensors hardly distinguish the two planes: the condition number is {condition:.3g}, at most "
             f"{WORST_CONDITION:g} is accepted.{why}\n  Another speed, planes farther apart, or other trial masses."
         )
 

@@ -9,7 +9,14 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Final
 
-from abu_calc.features.balancing.records import PlaneCorrection, RunReadings, SensorReading, Share, Verification
+from abu_calc.features.balancing.records import (
+    PlaneCorrection,
+    ResidualCheck,
+    RunReadings,
+    SensorReading,
+    Share,
+    Verification,
+)
 from abu_calc.features.balancing.study import BalanceResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph, Picture, number
 from abu_calc.reporting.parts import check_blocks, notices, provenance_blocks
@@ -21,8 +28,7 @@ ACROSS: Final = 11
 DOWN: Final = 5
 SIGNS: Final = {"remove": "-", "add": "+"}
 LEGEND: Final = (
-    "- take off, + put on, o the heavy spot, 0 the zero mark. Degrees are laid off from the mark against the arrows of "
-    "rotation."
+    "- remove here, + add here, o heavy spot, 0 zero mark. Degrees count from the mark against the arrows of rotation."
 )
 
 
@@ -68,17 +74,17 @@ def _write(cells: list[list[str]], text: str, middle: int, row: int) -> None:
         cells[row][middle - len(text) // 2 + offset] = letter
 
 
-DO: Final = {"remove": "take off", "add": "put on"}
+DO: Final = {"remove": "remove", "add": "add"}
 CONVENTION: Final = (
-    "All angles of planes are laid off from the zero mark AGAINST rotation. A phase is that of A_j·cos(Ωt − phase), t "
-    "from the passage of the mark at its sensor; amplitudes are 0–peak. Uncertainties are one standard deviation, by "
-    "[errors]; what the verification run is expected to show is the rms over them, twice that is exceeded less than "
-    "once in twenty."
+    "All angles of planes count from the zero mark AGAINST rotation. A phase is that of A_j·cos(Ωt − phase), t from "
+    "the passage of the mark at its sensor; amplitudes are 0–peak. Uncertainties are one standard deviation, by "
+    "[errors]. The verification run is expected to show the rms over them; at most means twice that, exceeded less "
+    "than once in twenty."
 )
-TRIALS_OFF: Final = "The answer is for the roll without the trial masses: take them off first."
+TRIALS_OFF: Final = "The correction is for the roll without the trial masses: remove them first."
 PRINTED: Final = (
-    "As printed (Didukh 2010, (3)–(6)) the angle is the arctan of a quotient and readings are put in as they stand: a "
-    "negative mass means half a turn more, and accelerations point to the wrong side. For comparison only."
+    "As published (Didukh 2010, (3)–(6)), the angle is the arctan of a quotient. A negative mass means half a turn "
+    "more. Readings are not converted to displacements: accelerations point to the wrong side. For comparison only."
 )
 
 
@@ -103,7 +109,7 @@ def balance_blocks(result: BalanceResult) -> tuple[Block, ...]:
         _readings(result.runs),
         *_records(result.runs),
         *_rig(result),
-        Heading("What makes the uncertainty", "uncertainty"),
+        Heading("Causes of the uncertainty", "uncertainty"),
         _causes(result),
         *_printed(result),
         Heading("Conventions", "conventions"),
@@ -143,17 +149,17 @@ def _share(share: Share) -> str:
 def _planes(result: BalanceResult) -> Grid:
     both = (result.left, result.right)
     rows = [
-        ("heavy spot, take off", *(_at(plane.mass_g, plane.remove_at_deg) for plane in both)),
-        ("or put on", *(_at(plane.mass_g, plane.add_at_deg) for plane in both)),
-        ("one standard deviation", *(_uncertain(plane) for plane in both)),
-        ("imbalance", *(f"{number(plane.imbalance_g_mm)} g·mm" for plane in both)),
-        ("expected after it", *(_rest(plane) for plane in both)),
+        ("remove at the heavy spot", *(_at(plane.mass_g, plane.remove_at_deg) for plane in both)),
+        ("or add opposite", *(_at(plane.mass_g, plane.add_at_deg) for plane in both)),
+        ("  standard deviation", *(_uncertain(plane) for plane in both)),
+        ("imbalance now", *(f"{number(plane.imbalance_g_mm)} g·mm" for plane in both)),
+        ("  expected after correction", *(_rest(plane) for plane in both)),
     ]
     for run in result.residual_check.verification:
         at = f"{run.quantity} now, {run.speed_rpm:.0f} rpm"
         rows.append((at, *(f"{number(value, 3)} {run.unit}" for value in (run.left_before, run.right_before))))
         most = (run.left_at_most, run.right_at_most)
-        rows.append(("  after it, at most", *(f"{number(value, 2)} {run.unit}" for value in most)))
+        rows.append(("  at most after correction", *(f"{number(value, 2)} {run.unit}" for value in most)))
     return Grid(("", "left", "right"), tuple(rows))
 
 
@@ -189,12 +195,21 @@ def _verification(runs: Sequence[Verification]) -> Grid:
     return Grid(("rpm", "quantity", "", "now", "expected", "at most"), rows, frozenset({0, 3, 4, 5}))
 
 
+def misfit(check: ResidualCheck) -> str:
+    """Relative difference of the readings from those recalculated; of rounding only the bound."""
+    return f"{number(100 * check.reproduced, 2)} %" if check.reproduced > ROUNDING else "less than 0.0001 %"
+
+
 def _misfit(result: BalanceResult) -> str:
     check = result.residual_check
-    text = f"Put back, the answer gives the readings to {number(check.reproduced, 2)} of the largest"
+    text = f"Readings recalculated from this imbalance differ by {misfit(check)} of the largest reading"
     if check.disagreement is not None:
         text += f", {number(check.disagreement, 2)} standard deviations"
-    return f"{text}. After the correction {number(100 * check.rest_share, 2)} % of the vibration is to be expected."
+    return f"{text}. Vibration expected after the correction: {number(100 * check.rest_share, 2)} % of that now."
+
+
+ROUNDING: Final = 1e-6
+"""Relative misfit below which only rounding differs."""
 
 
 def _readings(runs: Sequence[RunReadings]) -> Grid:
@@ -253,8 +268,8 @@ def _printed(result: BalanceResult) -> list[Block]:
         return []
     cells = [
         f"{number(plane.printed_mass_g or 0.0)} g at "
-        + ("x/0" if plane.printed_angle_deg is None else f"{plane.printed_angle_deg:.1f}°")
+        + ("no angle" if plane.printed_angle_deg is None else f"{plane.printed_angle_deg:.1f}°")
         for plane in both
     ]
-    rows = (("as printed", *cells), ("derived anew", *(_at(plane.mass_g, plane.angle_deg) for plane in both)))
-    return [Heading("The printed formula"), Grid(("", "left", "right"), rows), Paragraph(PRINTED)]
+    rows = (("as published", *cells), ("derived anew", *(_at(plane.mass_g, plane.angle_deg) for plane in both)))
+    return [Heading("The published formula"), Grid(("", "left", "right"), rows), Paragraph(PRINTED)]

@@ -48,7 +48,7 @@ class EffectsResult(Result):
     scene: Annotated[str, Quantity("scene")]
     accuracy: Annotated[float, Quantity("accuracy asked for", "", 2)]
     effects: tuple[EffectEntry, ...]
-    promise: Annotated[float, Quantity("weights of what is left out, together", "", 2)]
+    promise: Annotated[float, Quantity("estimated influence of all that is left out", "", 2)]
 
     @property
     def status(self) -> Status:

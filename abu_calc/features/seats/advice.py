@@ -29,17 +29,17 @@ Start = tuple[float, float | None]
 
 
 class Rejected(NamedTuple):
-    """A neighbour of the field advised, and why it will not do."""
+    """A neighbour of the recommended tolerance class, and why it fails."""
 
     fit: str
     why: str
 
 
 def advised(joint: Joint, start: Start, usual: MakerFits | None) -> Joint | None:
-    """The joint with the field to write; None where no tabulated one will do.
+    """The joint with the recommended tolerance class; None if no tabulated one passes.
 
     With C known the maker's class (the given one where the same row names it), tightened until the mean interference
-    reaches what the ring needs, loosened where stress forbids. Without C the loosest field whose smallest interference
+    reaches what the ring needs, loosened where stress forbids. Without C the loosest class whose smallest interference
     reaches it. Without a load, or where nothing else decides, `usual`, the maker's class for normal loads.
     """
     maker = joint.maker
@@ -69,14 +69,14 @@ def admissible(joint: Joint, start: Start, best: Joint | None) -> tuple[Joint, .
     return tuple(sorted(passing, key=order))
 
 
-def neighbours(best: Joint, start: Start, jams: Callable[[Joint], str | None]) -> tuple[Rejected, ...]:
-    """The next looser and the next tighter field of the grade that will not do; `jams` says so of the clearance."""
+def neighbours(best: Joint, start: Start, too_tight: Callable[[Joint], str | None]) -> tuple[Rejected, ...]:
+    """The next looser and the next tighter class of the grade that fail; `too_tight` judges the bearing's clearance."""
     ladder = _like(best)
     looser = [joint for joint in reversed(ladder) if joint.mean < best.mean]
     tighter = [joint for joint in ladder if joint.mean > best.mean]
     rejections = []
     for way in (looser, tighter):
-        why = ((joint, _why_not(joint, start) or jams(joint)) for joint in way)
+        why = ((joint, _why_not(joint, start) or too_tight(joint)) for joint in way)
         # The first alone is asked for: what the others leave of the clearance is not integrated.
         first = next((Rejected(joint.tolerance_class, reason) for joint, reason in why if reason), None)
         rejections += [first] if first else []
@@ -84,7 +84,7 @@ def neighbours(best: Joint, start: Start, jams: Callable[[Joint], str | None]) -
 
 
 def looser_that_hold(best: Joint, start: Start) -> tuple[Joint, ...]:
-    """Looser fields of the grade that hold by the mean, the tightest first."""
+    """Looser classes of the grade that hold by the mean, the tightest first."""
     return tuple(joint for joint in reversed(_like(best)) if joint.mean < best.mean and _will_do(joint, start))
 
 
@@ -111,16 +111,21 @@ def _will_do(joint: Joint, start: Start) -> bool:
 
 def _why_not(joint: Joint, start: Start) -> str | None:
     if joint.pinched:
-        return "pinches the ring in its split housing"
+        return "the halves of the split housing pinch the ring"
     if joint.grip == "fail" and joint.required is not None and joint.short is not None:
         needed, mean = from_si(joint.required.value, "um"), from_si(joint.mean, "um")
-        return f"creeps ({mean:.3g} µm in the mean, {needed:.3g} needed), {of_all(joint.short)} fall short"
+        short = of_all(joint.short)
+        return f"the ring creeps: mean interference {mean:.3g} µm of {needed:.3g} µm required, {short} have less"
     if joint.stress == "fail":
-        return f"overstressed, {from_si(joint.tightest, 'um'):.3g} µm at most, {joint.stress_limit.by}"
+        limit = from_si(joint.stress_limit.value, "um")
+        return (
+            f"largest interference {from_si(joint.tightest, 'um'):.3g} µm, {limit:.3g} µm permitted by "
+            f"{joint.stress_limit.by}"
+        )
     if holds_at_start(joint, *start) is False:
-        return "slips under the starting torque"
+        return "the ring slips under the starting torque"
     if not joint.must_grip and joint.clearance_probability < LOOSE_ENOUGH:
-        return f"holds the ring fast, {of_all(joint.clearance_probability)} are loose"
+        return f"the ring can hardly move: {of_all(joint.clearance_probability)} have clearance"
     return None
 
 
@@ -157,7 +162,7 @@ with CN stay below it, their k5, for which they ask for more clearance, lies abo
 
 
 class SeatAdvice(NamedTuple):
-    """The joint with the field to write (None: no tabulated one will do), the next ones that will not do."""
+    """The joint with the recommended class (None: no tabulated one passes), and the next ones that fail."""
 
     best: Joint | None
     rejected: tuple[Rejected, ...]
@@ -175,11 +180,10 @@ class JointAdvice(NamedTuple):
 
 
 def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
-    """Fields that grip by the makers' rule and are borne, with the group of clearance that stays above zero in all but
-    few bearings.
+    """Recommended tolerance classes, with the group of clearance that stays above zero in all but few bearings.
 
-    Where the group given is jammed by the fields, a looser group is named in place of it; where none keeps its
-    clearance, the shaft's field is loosened as far as its mean allows.
+    If the classes leave no clearance in the group given, a looser group is named in place of it. If no group keeps its
+    clearance, the shaft's class is loosened as far as its mean interference allows.
     """
     start: Start = (bearing.service.seat_friction, bearing.service.starting_torque)
     inner = advised(shaft, start, makers_classes(bearing, "shaft"))
@@ -201,14 +205,15 @@ def advice(bearing: SeatedBearing, shaft: Joint, housing: Joint) -> JointAdvice:
 def _with_neighbours(
     bearing: SeatedBearing, best: Joint | None, other: Joint | None, start: Start, group: str | None
 ) -> SeatAdvice:
-    def jams(joint: Joint) -> str | None:
+    def too_tight(joint: Joint) -> str | None:
         if group is None or other is None:
             return None
         pair = (joint, other) if joint.seat == "shaft" else (other, joint)
         share = Mounting(bearing, *pair).share_below(group)
-        return f"jams, {of_all(share, 'bearings')} of {group} keep no clearance" if share > SHARE_TO_ORDER else None
+        text = f"no operating clearance is left in {of_all(share, 'bearings')} of group {group}"
+        return text if share > SHARE_TO_ORDER else None
 
-    return SeatAdvice(best, neighbours(best, start, jams) if best else ())
+    return SeatAdvice(best, neighbours(best, start, too_tight) if best else ())
 
 
 def _has_groups(bearing: SeatedBearing) -> bool:

@@ -6,7 +6,7 @@ from abu_calc.features.seats.advice import LOOSE_ENOUGH
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.creep import CreepJudgement
 from abu_calc.features.seats.interference import of_all
-from abu_calc.features.seats.joint import Joint
+from abu_calc.features.seats.joint import ARTICLE, Joint
 from abu_calc.foundation.checks import Check, coded, verdict
 from abu_calc.foundation.moved import Moved
 from abu_calc.foundation.units import from_si
@@ -23,7 +23,6 @@ _CODES: Final = {
 _LIKE_STEEL: Final = 3e-6
 """Difference of expansion [1/K] from the ring's that is nothing to warn of: cast iron's."""
 _MOST: Final = 0.5
-_ARTICLE: Final = {"rotating": "a rotating", "indeterminate": "an indeterminate", "stationary": "a stationary"}
 
 
 def seat_checks(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> tuple[Check, ...]:
@@ -32,7 +31,7 @@ def seat_checks(bearing: SeatedBearing, joint: Joint, recommended: str | None) -
     return (
         first(bearing, joint, recommended),
         _stress(bearing.name, joint, recommended),
-        *_warmth(bearing, joint),
+        *_expansion(bearing, joint),
     )
 
 
@@ -48,11 +47,11 @@ def start_checks(
     code = _CODES[joint.seat][2]
     if creep.least_torque is None:
         why = "no chamfer is given, so the length of the seat is not known"
-        return (coded(code, "not-done", why, None, torque, "N·m", "Give chamfer_mm.", "least", of=bearing),)
+        return (coded(code, "not-done", why, None, torque, "N·m", "Specify chamfer_mm.", "least", of=bearing),)
     passed = bool(creep.holds_at_start)
     return (coded(
-        code, verdict(passed), f"friction torque of {joint.told} at its least "
-        "interference, losses taken off, against the starting torque", creep.least_torque, torque, "N·m",
+        code, verdict(passed), f"slip torque of {joint.told} at its least "
+        "interference after losses, against the starting torque", creep.least_torque, torque, "N·m",
         None if passed else _remedy(joint, recommended), "least", of=bearing,
     ),)  # fmt: skip
 
@@ -62,7 +61,9 @@ def clearance_checks(bearing: str, left: "ClearanceLeft | None") -> tuple[Check,
     if left is None:
         return ()
     passed, safe = left.below_zero_probability < _MOST, left.probable.smallest >= 0
-    choice = f"{left.group_to_choose} keeps it." if left.group_to_choose else "No group keeps it: looser fits."
+    choice = "No clearance group keeps clearance. Specify looser tolerance classes."
+    if left.group_to_choose:
+        choice = f"Specify group {left.group_to_choose}: it keeps clearance (calculated)."
     return (coded(
         "ABU621", verdict(passed, safe), f"least probable radial clearance of group {left.group} after mounting; "
         f"{of_all(left.below_zero_probability, 'bearings')} have none left", _um(left.probable.smallest), 0.0, "µm",
@@ -78,30 +79,30 @@ def _grip(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Chec
         key = "radial_load_kN" if joint.radial_load is None else "chamfer_mm"
         return coded(
             code, "not-done", f"no {missing} is given, so the interference that the ring needs is not "
-            "known", smallest, None, "µm", f"Give {key}.", of=bearing.name,
+            "known", smallest, None, "µm", f"Specify {key}.", of=bearing.name,
         )  # fmt: skip
-    needs = f"what the ring needs under {_ARTICLE[joint.ring.load]} load by {required.by}{_losses(joint)}"
-    mean = f"the mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
-    remark = "" if joint.grip == "pass" else f"; {mean}, {of_all(short)} fall short"
+    limit = f"the interference required under {ARTICLE[joint.ring.load]} load by {required.by}{_losses(joint)}"
+    mean = f"The mean, {_um(joint.mean):.3g} µm, {'reaches' if joint.mean >= required.value else 'is below'} it"
+    remark = "" if joint.grip == "pass" else f". {mean}; {of_all(short)} are below it"
     return coded(
-        code, joint.grip, f"least interference of {joint.told} against {needs}{remark}{_makers(bearing, joint)}",
+        code, joint.grip, f"least interference of {joint.told} against {limit}{remark}{_makers(bearing, joint)}",
         smallest, _um(required.value), "µm", _tighter(joint, recommended),
         "least", of=bearing.name,
     )  # fmt: skip
 
 
 def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Check:
-    share = f"{of_all(joint.clearance_probability)} are loose"
+    share = f"{of_all(joint.clearance_probability)} have clearance"
     if joint.clearance_probability >= LOOSE_ENOUGH:
-        judgement = f"none is needed under a load fixed in direction; {share}, so the ring can creep and be moved"
+        judgement = f"A load fixed in direction requires none; {share}, so the ring can creep and be moved"
     else:
         judgement = (
-            f"conservative for a load fixed in direction, which needs none: {share}, so the ring hardly creeps to "
-            "spread its wear and is hard to move along its seat"
+            f"A load fixed in direction requires none. Only {share}: the ring hardly creeps, so its wear is not "
+            "spread, and it is hard to move along its seat"
         )
     return coded(
         _CODES[joint.seat][0], "pass",
-        f"least interference of {joint.told}; {judgement}{_makers(bearing, joint)}", _um(joint.interference.smallest),
+        f"least interference of {joint.told}. {judgement}{_makers(bearing, joint)}", _um(joint.interference.smallest),
         None, "µm", None, "least", of=bearing.name,
     )  # fmt: skip
 
@@ -109,23 +110,23 @@ def _loose(bearing: SeatedBearing, joint: Joint, recommended: str | None) -> Che
 def _makers(bearing: SeatedBearing, joint: Joint) -> str:
     if joint.maker is None or bearing.load_ratio is None:
         return ""
-    return f"; the catalogue's class for P/C = {bearing.load_ratio:.2g} is {joint.maker.classes[0]} ({SOURCE})"
+    return f". For P/C = {bearing.load_ratio:.2g} the catalogue gives {joint.maker.classes[0]} ({SOURCE})"
 
 
 def _stress(bearing: str, joint: Joint, recommended: str | None) -> Check:
     grade, limit = joint.stress, joint.stress_limit if joint.stress == "fail" else joint.permitted
     warm = " when warm" if joint.tightest > joint.interference.largest else ""
-    remark = "; halves of a split housing pinch a ring tighter than J7" if joint.pinched else ""
+    remark = ". The halves of a split housing pinch a ring in a class tighter than J7" if joint.pinched else ""
     stresses = [f"{from_si(stress, 'MPa'):.0f} MPa" for stress in (joint.hoop_stress, joint.part_stress)]
     return coded(
         _CODES[joint.seat][1], "warn" if joint.pinched and grade == "pass" else grade,
-        f"largest interference of {joint.told}{warm} against what is permitted by {limit.by}; hoop stress of the "
+        f"largest interference of {joint.told}{warm} against the limit by {limit.by}. Hoop stress of the "
         f"ring {stresses[0]}, of the {joint.seat} {stresses[1]}{remark}", _um(joint.tightest), _um(limit.value), "µm",
         _remedy(joint, recommended) if grade == "fail" else None, of=bearing,
     )  # fmt: skip
 
 
-def _warmth(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
+def _expansion(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
     """Warning of a part that expands otherwise than its ring while no temperature is given."""
     shaft, service = joint.seat == "shaft", bearing.service
     part, known = (bearing.shaft, service.ring_over_shaft) if shaft else (bearing.housing, service.housing_over_ring)
@@ -136,8 +137,8 @@ def _warmth(bearing: SeatedBearing, joint: Joint) -> tuple[Check, ...]:
     verb = "gains" if shaft else "loses"
     return (coded(
         _CODES[joint.seat][3], "warn", f"the seat in {part.material} {verb} {change:.3g} µm of interference for every "
-        "10 K that it warms with its ring, and no temperature is given", change, None, "µm", "Give temperature_rise_K.",
-        of=bearing.name,
+        "10 K that it warms with its ring, and no temperature is given", change, None, "µm",
+        "Specify temperature_rise_K.", of=bearing.name,
     ),)  # fmt: skip
 
 

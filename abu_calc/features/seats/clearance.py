@@ -9,7 +9,7 @@ from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.joint import (
     CENTRIFUGAL,
     MEASURED,
-    WARMTH,
+    TEMPERATURE,
     InterferenceLoss,
     Joint,
     Tube,
@@ -85,7 +85,9 @@ def warm_parts(bearing: SeatedBearing, seat: Seat) -> tuple[tuple[float, float],
 
 def _warmth(diameter: float, parts: tuple[tuple[float, float], tuple[float, float]] | None) -> list[InterferenceLoss]:
     return (
-        [] if parts is None else [InterferenceLoss(WARMTH, temperature_loss(diameter, *parts), "d·(α₂·ΔT₂ − α₁·ΔT₁)")]
+        []
+        if parts is None
+        else [InterferenceLoss(TEMPERATURE, temperature_loss(diameter, *parts), "d·(α₂·ΔT₂ − α₁·ΔT₁)")]
     )
 
 

@@ -13,8 +13,11 @@ CreepVerdict = Literal["holds", "may creep", "creeps", "needs no grip", "not kno
 
 
 class CreepJudgement(NamedTuple):
-    """`probability` that a pair has less interference than its ring needs; friction torques [N·m] of the seat at the
-    least and at the least probable interference, losses taken off; whether the least outweighs the starting torque."""
+    """Verdict on creep, with slip torques [N·m] of the seat after losses.
+
+    `probability` that a pair has less interference than required; slip torques at the least and at the least probable
+    interference; whether the least exceeds the starting torque.
+    """
 
     verdict: CreepVerdict
     why: str
@@ -47,18 +50,18 @@ _VERDICTS: Final[dict[Grade, CreepVerdict]] = {
 
 
 def creep(joint: Joint, friction: float, starting_torque: float | None) -> CreepJudgement:
-    """Judge a ring: under a load fixed in direction it needs no grip, else its interference must do.
+    """Judge a ring: under a load fixed in direction it requires no interference.
 
-    It holds where the smallest does, may creep where only the mean does.
+    Any other ring holds if the least interference suffices, and may creep if only the mean does.
     """
     least, probable = _torques(joint, friction) or (None, None)
     starts = holds_at_start(joint, friction, starting_torque)
     if not joint.must_grip:
-        why = f"its load is fixed in direction; {of_all(joint.clearance_probability)} are loose"
+        why = f"load fixed in direction; {of_all(joint.clearance_probability)} have clearance"
         return CreepJudgement("needs no grip", why, None, least, probable, None)
     if joint.short is None:
-        return CreepJudgement("not known", "load or length of the seat are not given", None, least, probable, starts)
-    why = f"{of_all(joint.short)} have less than its {joint.ring.load} load asks for"
+        return CreepJudgement("not known", "radial load or chamfer not given", None, least, probable, starts)
+    why = f"{of_all(joint.short)} have less interference than required"
     return CreepJudgement(_VERDICTS[joint.grip], why, joint.short, least, probable, starts)
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from abu_calc.features.seats.bearing import SeatedBearing
 from abu_calc.features.seats.clearance import warm_parts
-from abu_calc.features.seats.joint import CENTRIFUGAL, WARMTH, Joint, inner_ring_diameter
+from abu_calc.features.seats.joint import CENTRIFUGAL, TEMPERATURE, Joint, inner_ring_diameter
 from abu_calc.features.seats.notes import SHOCK_FACTOR
 from abu_calc.features.seats.records import Clearance, SeatResult, um, um_pair
 from abu_calc.features.seats.seats import BearingSeats
@@ -66,7 +66,7 @@ def _losses(bearing: SeatedBearing, joint: Joint, seat: SeatResult) -> tuple[str
     part, bore = bearing.shaft if joint.seat == "shaft" else bearing.housing, bearing.inner.diameter
     numbers = {
         "smoothing": f"0.4·{_g(um(part.roughness or 0.0))} µm",
-        WARMTH: f"{_mm(joint.diameter)} mm·({_warm(bearing, joint)})",
+        TEMPERATURE: f"{_mm(joint.diameter)} mm·({_warm(bearing, joint)})",
         CENTRIFUGAL: f"Ω = {_g(from_si(bearing.service.speed or 0.0, 'rpm'))} rpm, d = {_mm(bore)}, d₁ = "
         f"{_mm(inner_ring_diameter(bore, bearing.outer.diameter))}, d₀ = {_mm(bearing.shaft.other or 0.0)} mm",
     }

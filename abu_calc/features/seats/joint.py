@@ -132,7 +132,9 @@ def outer_ring_stress(interference: float, diameter: float, ring: Tube, housing:
 
 
 CENTRIFUGAL: Final = "centrifugal growth"
-WARMTH: Final = "temperature"
+TEMPERATURE: Final = "temperature"
+ARTICLE: Final = {"rotating": "a rotating", "indeterminate": "an indeterminate", "stationary": "a stationary"}
+"""Loads of rings with their article."""
 MEASURED: Final = "measured"
 """Name in place of a tolerance class if the limits are as measured."""
 _FOR_HALVES: Final = frozenset("FGHJ")
@@ -280,7 +282,7 @@ class Joint:
     @property
     def tightest(self) -> float:
         """The largest interference [m] of cold and of warm parts."""
-        return self.interference.largest - min(0.0, sum(loss.value for loss in self.losses if loss.name == WARMTH))
+        return self.interference.largest - min(0.0, sum(loss.value for loss in self.losses if loss.name == TEMPERATURE))
 
     @property
     def hoop_stress(self) -> float:

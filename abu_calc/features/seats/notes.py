@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from abu_calc.features.seats.bearing import SEAT_LENGTH, SeatedBearing
 from abu_calc.features.seats.clearance import makers_classes
 from abu_calc.features.seats.interference import Interval
-from abu_calc.features.seats.joint import MEASURED, WARMTH, InterferenceLoss, Joint
+from abu_calc.features.seats.joint import ARTICLE, MEASURED, TEMPERATURE, InterferenceLoss, Joint
 from abu_calc.features.seats.requirement import catalogue_smoothing_loss
 from abu_calc.foundation.formula import formula
 from abu_calc.foundation.units import from_si
@@ -148,19 +148,21 @@ def _share(index: int, count: int) -> float:
 
 
 class Item(NamedTuple):
-    """An entry of the ledger of losses; `counted` in the required interference, or shown beside it."""
+    """An entry of the list of losses; `counted` in the required interference, or shown beside it."""
 
     loss: InterferenceLoss
     counted: bool
 
 
 def ledger(joint: Joint) -> tuple[Item, ...]:
-    """The load by both rules, of which the larger counts, then the losses given, each by its formula; gains by warmth
-    do not count."""
+    """List of losses: the load by both rules, of which the larger counts, then the losses given, each by its formula.
+
+    Gains by temperature do not count.
+    """
     needs = joint.required.by if joint.required else None
     items = [Item(InterferenceLoss("load", bound.value, bound.by), bound.by == needs) for bound in joint.criteria]
     for loss in joint.losses:
-        items.append(Item(loss, loss.value > 0 or loss.name != WARMTH))
+        items.append(Item(loss, loss.value > 0 or loss.name != TEMPERATURE))
         if loss.name == "smoothing":
             value = catalogue_smoothing_loss(joint.interference.smallest, joint.diameter)
             items.append(
@@ -191,8 +193,9 @@ def seat_notes(
 def _needs(joint: Joint) -> tuple[str, ...]:
     if not joint.must_grip or not joint.criteria:
         return ()
-    needs = ", ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
-    return (f"A ring under a rotating load needs, losses aside: {needs}; the larger counts.",)
+    needs = " and ".join(f"{from_si(criterion.value, 'um'):.2f} µm by {criterion.by}" for criterion in joint.criteria)
+    larger = "; the larger counts" if len(joint.criteria) > 1 else ""
+    return (f"Interference required under {ARTICLE[joint.ring.load]} load, without losses: {needs}{larger}.",)
 
 
 def _load(bearing: SeatedBearing, joint: Joint, intensity: float | None) -> tuple[str, ...]:
@@ -200,19 +203,20 @@ def _load(bearing: SeatedBearing, joint: Joint, intensity: float | None) -> tupl
         return ()
     static = bearing.ratings.static if bearing.ratings else 0.0
     heavy = joint.must_grip and joint.radial_load is not None and 0 < static < 4 * joint.radial_load
-    field = advised_class(joint.seat, joint.diameter, intensity)
-    advice = f"handbook tables advise {field}" if field else "outside the handbook tables"
+    tolerance_class = advised_class(joint.seat, joint.diameter, intensity)
+    table = f"table gives {tolerance_class}" if tolerance_class else "tables end below it"
+    strong = f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m with strong shocks"
     return (
-        f"k = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
-        f"Load intensity {from_si(intensity, 'kN_per_m'):.0f} kN/m with strong shocks: {advice} (unverified advice).",
-        *(("The load is above a quarter of C0: catalogues then take 0.02·F_r/B for what it takes.",) if heavy else ()),
+        f"k_B = {joint.factor:g} of the {bearing.series} series is an unverified handbook value.",
+        f"{strong}: the handbook {table} (unverified).",
+        *(("The load is above a quarter of C0: catalogues then give 0.02·F_r/B as its loss.",) if heavy else ()),
     )
 
 
 def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: bool) -> tuple[str, ...]:
     best = own.best.tolerance_class if own.best else None
     notes = (
-        [] if given or best is None else [f"No fit of the {joint.seat} is given: {best}, the one to write, is judged."]
+        [] if given or best is None else [f"No class of the {joint.seat} is given: the recommended {best} is judged."]
     )
     if joint.maker is not None and bearing.load_ratio is not None:
         remark = f"; {joint.maker.note}" if joint.maker.note else ""
@@ -223,13 +227,14 @@ def _advised(bearing: SeatedBearing, joint: Joint, own: "SeatAdvice", given: boo
             f"load {joint.ring.load}, seat of {from_si(joint.diameter, 'mm'):g} mm{remark}."
         )
         if best not in (None, *joint.maker.classes, *joint.maker.special):
-            notes.append(f"{best} is written in place of {joint.maker.classes[0]}, whose grip or stress does not do.")
+            notes.append(f"{best} is recommended: {joint.maker.classes[0]} fails by its interference or its stress.")
     elif (usual := makers_classes(bearing, joint.seat)) is not None and best in usual.classes:
         kind = bearing.kind or "ball"
         what = "the load" if joint.radial_load is None else "C"
         if not joint.must_grip or joint.required is None:
             notes.append(
-                f"{what.capitalize()} is not known: {best} is {SOURCE}'s for a {kind} bearing under normal load."
+                f"{what.capitalize()} is not known, so {best} is the class that {SOURCE} gives for a "
+                f"{kind} bearing under normal load."
             )
     if joint.fit_name == MEASURED:
         notes.append(f"The limits of the {joint.seat} are as measured, the ring's are those of a new bearing.")
@@ -245,8 +250,8 @@ def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None"
         ends = sorted((male.lower - female.lower, male.upper - female.upper))
         reach = " … ".join(f"{from_si(end, 'um'):g}" for end in ends)
         return (
-            f"Sorting cannot keep {joint.fit_name} within {band}: however fine the groups, they spread over "
-            f"{reach} µm, the band must reach beyond both.",
+            f"Sorting cannot keep {joint.fit_name} within {band}. The finest groups still spread over {reach} µm; the "
+            "band must be wider than that on both sides.",
         )
     if selection.groups == 1:
         return (f"{joint.fit_name} keeps within {band} without sorting.",)
@@ -254,8 +259,8 @@ def _sorting(joint: Joint, asked: Interval | None, selection: "Selection | None"
         f"{from_si(selection.interference.smallest, 'um'):.3g} … {from_si(selection.interference.largest, 'um'):.3g}"
     )
     return (
-        f"Selective assembly: sorted into {selection.groups} equal groups and matched by number, "
-        f"{joint.fit_name} keeps within {reached} µm (asked {band}){_after(joint, selection)}.",
+        f"Selective assembly into {selection.groups} equal groups, matched by number: {joint.fit_name} keeps within "
+        f"{reached} µm ({band} required){_after(joint, selection)}.",
     )
 
 
@@ -265,6 +270,6 @@ def _after(joint: Joint, selection: "Selection") -> str:
         return ""
     least, needed = selection.interference.smallest, joint.required.value
     if least >= needed:
-        return f": every pair holds, {from_si(needed, 'um'):.3g} µm are needed"
+        return f". Every pair has the required {from_si(needed, 'um'):.3g} µm"
     lack, all_of_it = from_si(needed - least, "um"), from_si(needed, "um")
-    return f": the loosest pairs still lack {lack:.2g} µm of the {all_of_it:.3g} needed"
+    return f". The loosest pairs still lack {lack:.2g} of the required {all_of_it:.3g} µm"

@@ -37,7 +37,7 @@ def um_pair(pair: Pair) -> Pair:
 class Loss(Record):
     """Loss of interference: the load by both rules, of which the larger counts, then the losses given."""
 
-    name: Annotated[str, Quantity("by")]
+    name: Annotated[str, Quantity("loss")]
     amount_um: Annotated[float, Quantity("taken from the interference")]
     formula: Annotated[str, Quantity("formula")]
     counted: Annotated[bool, Quantity("counted in the required interference")]
@@ -55,16 +55,16 @@ class AdmissibleFit(Record):
 
     decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
-    fit: Annotated[str, Quantity("field")]
-    interference_um: Annotated[Pair, Quantity("interference", "", 4, "least and most, positive when tight")]
+    fit: Annotated[str, Quantity("tolerance class")]
+    interference_um: Annotated[Pair, Quantity("interference", "", 4, "least and most; negative: clearance")]
     clearance_probability: Annotated[float, Quantity("probability of clearance", "", 3)]
 
 
 @record
 class RejectedFit(Record):
-    """A neighbour of the recommended field that will not do."""
+    """A neighbour of the recommended tolerance class, which fails."""
 
-    fit: Annotated[str, Quantity("field")]
+    fit: Annotated[str, Quantity("tolerance class")]
     why: Annotated[str, Quantity("why not")]
 
 
@@ -95,8 +95,8 @@ class Repair(Record):
 
     decimals: ClassVar[Mapping[str, int]] = {"um": 6, "mm": 6}
 
-    grip_left_um: Annotated[Pair, Quantity("grip left", "", 4, "losses taken off")]
-    restore_fit: Annotated[str, Quantity("field to restore")]
+    grip_left_um: Annotated[Pair, Quantity("interference left", "", 4, "after losses")]
+    restore_fit: Annotated[str, Quantity("tolerance class to restore")]
     restore_limits_um: Annotated[Pair, Quantity("limits to restore")]
     bonding_gap_um: Annotated[float, Quantity("gap that a bond must fill", "", 4, "of the loosest pair")]
     next_seat_mm: Annotated[float | None, Quantity("seat of the next size")]
@@ -112,7 +112,7 @@ class Creep(Record):
     why: Annotated[str, Quantity("why")]
     probability: Annotated[float | None, Quantity("share of pairs with less interference than the ring needs", "", 3)]
     friction_moment_N_m: Annotated[
-        Pair | None, Quantity("friction moment", "", 3, "of the least and of the least probable interference")
+        Pair | None, Quantity("slip torque", "", 3, "at the least and at the least probable interference")
     ]
     holds_at_start: Annotated[bool | None, Quantity("holds the starting torque")]
 
@@ -134,8 +134,8 @@ class Requirements(Record):
 
     decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
-    field: Annotated[str, Quantity("field")]
-    limits_um: Annotated[Pair, Quantity("limits of the field")]
+    field: Annotated[str, Quantity("tolerance class")]
+    limits_um: Annotated[Pair, Quantity("limits of the tolerance class")]
     roundness_um: Annotated[float, Quantity("roundness", "", 2)]
     profile_um: Annotated[float, Quantity("longitudinal profile", "", 2)]
     roughness_Ra_um: Annotated[float, Quantity("roughness", "Ra")]
@@ -163,19 +163,19 @@ class Clearance(Record):
     mean_um: Annotated[float, Quantity("mean after mounting", "", 3)]
     below_zero_probability: Annotated[float, Quantity("share of bearings without clearance", "", 3)]
     by_temperature_um: Annotated[float, Quantity("taken by temperature", "", 3)]
-    group_to_choose: Annotated[str | None, Quantity("tightest group that will do")]
+    group_to_choose: Annotated[str | None, Quantity("tightest group that passes")]
 
 
 @record
 class SeatResult(Record):
-    """One seat, judged; interference is positive when tight, limits count from the nominal size."""
+    """One seat, judged; interference is positive, clearance negative, limits count from the nominal size."""
 
     decimals: ClassVar[Mapping[str, int]] = MICROMETRES
 
     name: Annotated[str, Quantity("bearing")]
     seat: Annotated[Seat, Quantity("seat")]
-    fit: Annotated[str, Quantity("field", "", 4, "measured where limits are given in its place")]
-    fit_given: Annotated[bool, Quantity("whether a field is given, else the recommended one is judged")]
+    fit: Annotated[str, Quantity("tolerance class", "", 4, "measured if limits are given in its place")]
+    fit_given: Annotated[bool, Quantity("whether a tolerance class is given, else the recommended one is judged")]
     part_limits_um: Annotated[Pair, Quantity("limits of the part")]
     ring_limits_um: Annotated[Pair, Quantity("limits of the ring")]
     interference_um: Annotated[Pair, Quantity("interference", "", 4, "ei − ES … es − EI")]
@@ -184,7 +184,7 @@ class SeatResult(Record):
     ]
     clearance_probability: Annotated[float, Quantity("probability of clearance", "Φ(−mean/σ)")]
     clearance_probability_truncated: Annotated[
-        float, Quantity("probability of clearance, parts outside their fields sorted out")
+        float, Quantity("probability of clearance, parts outside their limits sorted out")
     ]
     required_interference_um: Annotated[
         float | None, Quantity("required interference", "", 4, "of a ring under a rotating load, losses included")
@@ -197,15 +197,17 @@ class SeatResult(Record):
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "", 4, "of the ring at the largest interference")]
     part_stress_MPa: Annotated[float, Quantity("hoop stress of the part", "", 4, "at the largest interference")]
     load_ratio: Annotated[float | None, Quantity("load ratio", "P/C", 3, "the radial load for P")]
-    maker_fits: Annotated[tuple[str, ...], Quantity("the makers' fields", "", 4, "the first is the usual one")]
-    recommended_fit: Annotated[str | None, Quantity("recommended field")]
+    maker_fits: Annotated[
+        tuple[str, ...], Quantity("the makers' tolerance classes", "", 4, "the first is the usual one")
+    ]
+    recommended_fit: Annotated[str | None, Quantity("recommended tolerance class")]
     recommended_clearance: Annotated[str | None, Quantity("clearance to order")]
     rejected_fits: tuple[RejectedFit, ...]
     admissible_fits: tuple[AdmissibleFit, ...]
     load_intensity_kN_per_m: Annotated[float | None, Quantity("load intensity", "P_R = k₁·F_r/b_s")]
     creep: Creep
     requirements: Requirements
-    asked_interference_um: Annotated[Pair | None, Quantity("interference asked of every pair")]
+    asked_interference_um: Annotated[Pair | None, Quantity("interference required of every pair")]
     selective_groups: Annotated[int | None, Quantity("groups for selective assembly", "n_g")]
     selective_interference_um: Annotated[Pair | None, Quantity("interference within the groups")]
     sorting_groups: tuple[SortingGroup, ...]
@@ -229,7 +231,7 @@ class SeatResult(Record):
 
     @property
     def needed_um(self) -> float | None:
-        """The required interference of a ring that must grip; none of another."""
+        """The required interference; none of a ring whose load is fixed in direction."""
         return None if self.needs_no_grip else self.required_interference_um
 
     @property

@@ -39,7 +39,7 @@ ROWS: Final = (
     "recommended_clearance",
 )
 BELOW: Final = {
-    "clearance_probability_truncated": "  fields kept by sorting out",
+    "clearance_probability_truncated": "  parts beyond limits sorted out",
     "required_by": "  by",
     "permitted_by": "  by",
     "part_stress_MPa": "  of the part, MPa",
@@ -48,7 +48,7 @@ BELOW: Final = {
 SHOWN: Final = {"required_interference_um": "needed_um", "required_by": "needed_by"}
 """A ring that needs no interference shows none."""
 CONVENTION = (
-    "Interference is positive when tight, negative when loose; limits from the nominal size, lower … upper. Probable "
+    "Interference; negative: clearance. Limits count from the nominal size, lower … upper. Probable "
     "interference: mean ∓ root of the sum of squared half tolerances, outward to whole µm. Parts: ISO 286-2:2010, "
     "rings: ISO 492 / GOST 520."
 )
@@ -60,11 +60,11 @@ def by_bearing(seats: Sequence[SeatResult]) -> Iterator[Seats]:
 
 
 def fit_blocks(seats: Sequence[SeatResult]) -> tuple[Block, ...]:
-    """A table a bearing: shaft and housing side by side, notes below."""
+    """A table a bearing: shaft and housing side by side; below them the notes of all, each once."""
     blocks: list[Block] = []
     for pair in by_bearing(seats):
-        blocks += [Heading(f"Bearing seats: {pair[0].name}"), fit_grid(pair), *note_blocks(pair)]
-    return (*blocks, Paragraph(CONVENTION))
+        blocks += [Heading(f"Bearing seats: {pair[0].name}"), fit_grid(pair)]
+    return (*blocks, *note_blocks(seats), Paragraph(CONVENTION))
 
 
 def fit_grid(pair: Seats) -> Grid:
@@ -74,13 +74,24 @@ def fit_grid(pair: Seats) -> Grid:
     return Grid(("", f"shaft {shaft.fit}", f"housing {housing.fit}"), rows)
 
 
-def note_blocks(pair: Seats) -> list[Block]:
-    """The notes of both seats, each once, with its seat where they differ."""
+def note_blocks(seats: Sequence[SeatResult]) -> list[Block]:
+    """The notes of all seats, each once, with its seats unless it concerns them all."""
     blocks: list[Block] = []
-    for note in dict.fromkeys(note for seat in pair for note in seat.notes):
-        homes = [seat.seat for seat in pair if note in seat.notes]
-        blocks.append(Paragraph(note if len(homes) == 2 else f"{homes[0].capitalize()}: {note}"))
+    for note in dict.fromkeys(note for seat in seats for note in seat.notes):
+        homes = [seat for seat in seats if note in seat.notes]
+        blocks.append(Paragraph(f"{_places(homes, seats)}{note}"))
     return blocks
+
+
+def _places(homes: Sequence[SeatResult], seats: Sequence[SeatResult]) -> str:
+    """Seats that a note concerns, before it; empty if these are all."""
+    if len(homes) == len(seats):
+        return ""
+    kinds = list(dict.fromkeys(seat.seat for seat in homes))
+    of_kinds = [seat for seat in seats if seat.seat in kinds]
+    names = [] if len(homes) == len(of_kinds) else list(dict.fromkeys(seat.name for seat in homes))
+    places = ", ".join([*names, *(kinds if len(kinds) == 1 else [])])
+    return f"{places[:1].upper()}{places[1:]}: " if places else ""
 
 
 def _label(name: str) -> str:
@@ -101,30 +112,31 @@ def _cell(value: tuple[float, float] | float | str | None, name: str) -> str:
     return "–" if value is None else value.partition(" (")[0]
 
 
+NO_CLASS: Final = "No tabulated tolerance class both holds the ring and is permitted."
 NAME = 22
 """Signs of a bearing's name in a table: more would be wrapped, and a wrapped name may look like a verdict."""
-VERDICTS = {"pass": "PASS", "warn": "PASS, warning", "fail": "FAIL", "not-done": "NOT EVALUATED"}
+VERDICTS = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 
-def advice_lines(pair: Seats) -> list[Paragraph]:
-    """The fields to write with the clearance to order, then the nearest ones that will not do."""
+def advice_lines(pair: Seats) -> list[Block]:
+    """The tolerance classes to specify with the clearance to order, then the nearest ones that fail."""
     shaft, housing = pair
     if shaft.recommended_fit is None and housing.recommended_fit is None:
-        return [Paragraph("No tabulated field both grips and is borne.")]
+        return [Paragraph(NO_CLASS)]
     fits = [f"{seat.seat} {seat.recommended_fit}" for seat in pair if seat.recommended_fit]
-    none = [f" No tabulated field of the {seat.seat} will do." for seat in pair if not seat.recommended_fit]
-    lines = [Paragraph(f"Write {', '.join([*fits, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
-    wrong = [f"{rejected.fit}: {rejected.why}" for seat in pair for rejected in seat.rejected_fits]
-    return [*lines, Paragraph(f"Not {'; not '.join(wrong)}.")] if wrong else lines
+    none = [f" No tabulated class of the {seat.seat} passes." for seat in pair if not seat.recommended_fit]
+    lines: list[Block] = [Paragraph(f"Specify {', '.join([*fits, *_order(shaft)])}{_ratio(shaft)}.{''.join(none)}")]
+    wrong = tuple((f"{seat.seat} {rejected.fit}", rejected.why) for seat in pair for rejected in seat.rejected_fits)
+    return [*lines, Grid(("not", "because"), wrong)] if wrong else lines
 
 
 def bearing_table(pairs: Sequence[Seats]) -> Grid:
-    """A line a bearing: its fits, the verdict, the advice."""
+    """A line a bearing: its tolerance classes, the verdict, the advice."""
     rows = tuple(
         (shortened(shaft.name, NAME), shaft.fit, housing.fit, VERDICTS[shaft.bearing_verdict], _short(shaft, housing))
         for shaft, housing in pairs
     )
-    return Grid(("bearing", "shaft", "housing", "verdict", "write"), rows)
+    return Grid(("bearing", "shaft", "housing", "verdict", "specify"), rows)
 
 
 def repair_lines(pair: Seats) -> list[Block]:
@@ -146,7 +158,7 @@ def sorting_blocks(pair: Seats) -> list[Block]:
              f"{group.pairs_of_100:.3g}")
             for group in seat.sorting_groups
         )  # fmt: skip
-        header = ("group", f"{seat.seat}, µm", f"{ring}, µm", "tight by, µm", "pairs of 100")
+        header = ("group", f"{seat.seat}, µm", f"{ring}, µm", "interference, µm", "pairs of 100")
         blocks += [
             Heading(f"Sorting of {seat.name}: parts of one group go together"),
             Grid(header, rows, frozenset({4})),
@@ -156,17 +168,20 @@ def sorting_blocks(pair: Seats) -> list[Block]:
 
 def _repair(seat: SeatResult, fix: Repair) -> str:
     (low, high), (least, most) = fix.grip_left_um, fix.restore_limits_um
-    needed = "" if seat.needed_um is None else f", {seat.needed_um:.3g} needed"
+    needed = "" if seat.needed_um is None else f", {seat.needed_um:.3g} µm required"
+    left = f"interference after losses {low:.3g} … {high:.3g} µm{needed}"
     if least <= seat.part_limits_um[0] and seat.part_limits_um[1] <= most:
-        return f"grip left {low:.3g} … {high:.3g} µm{needed}; within {fix.restore_fit}, no repair is needed."
-    bond = f" a bond must fill {fix.bonding_gap_um:.3g} µm;" if fix.bonding_gap_um > 0 else ""
+        return f"{left}. The seat is within {fix.restore_fit}: no repair is needed."
+    bond = f" Or bond the ring: the gap is up to {fix.bonding_gap_um:.3g} µm." if fix.bonding_gap_um > 0 else ""
     next_size = ""
     if fix.next_bearing is not None:
         how, other = ("turn down", "housing") if seat.seat == "shaft" else ("bore out", "shaft")
-        next_size = f" or {how} to {fix.next_seat_mm:g} mm for {fix.next_bearing}, with its own size in the {other}"
+        next_size = (
+            f" Or {how} to {fix.next_seat_mm:g} mm for bearing {fix.next_bearing}, and fit the {other} to that bearing."
+        )
     return (
-        f"grip left {low:.3g} … {high:.3g} µm{needed}. To bring it back to {fix.restore_fit}, finish a sleeve or "
-        f"sprayed metal to {least:+g} … {most:+g} µm;{bond}{next_size or ' the next size is not tabulated'}."
+        f"{left}. To restore {fix.restore_fit}, finish a sleeve or sprayed metal to {least:+g} … {most:+g} µm."
+        f"{bond}{next_size or ' The next size is not tabulated.'}"
     )
 
 
@@ -178,7 +193,7 @@ def _short(shaft: SeatResult, housing: SeatResult) -> str:
 def _order(shaft: SeatResult) -> list[str]:
     left, group = shaft.internal_clearance, shaft.recommended_clearance
     if group is None:
-        return ["no tabulated clearance keeps it"] if left else []
+        return ["but no tabulated clearance group keeps clearance"] if left else []
     return [f"clearance {group}{f' in place of {left.group}' if left and left.group != group else ''}"]
 
 
@@ -220,8 +235,8 @@ def legend() -> str:
     """Legend of the characters."""
     return (
         f"{RING * 3} zone of the ring, {PART * 3} zone of the shaft or housing, --- zero line (nominal size); "
-        "deviations in µm, upper limit above, lower below. A shaft is tight where it stands above its ring, a housing "
-        "where it stands below."
+        "deviations in µm, upper limit above, lower below. Interference: the shaft zone is above its ring zone, the "
+        "housing zone below."
     )
 
 
@@ -246,8 +261,8 @@ def _zone(row: int, step: int, limits: Pair, mark: str, name: str) -> str:
 
 
 SIGN = (
-    "Tight by: interference from the loosest to the tightest pair, negative when loose; at least what the ring needs, "
-    "at most what is permitted."
+    "Interference in µm, from the loosest to the tightest pair; negative: clearance. A ring whose load is fixed in "
+    "direction requires none."
 )
 MOST_LINES: Final = 24
 """Most lines of the table of several bearings; the whole report has the rest."""
@@ -256,12 +271,14 @@ MOST_LINES: Final = 24
 def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
     """The one screen: of one bearing the advice and its seats, of several a table of them all."""
     pairs = list(by_bearing(result.seats))
-    about: list[Block] = [Heading(f"Bearing seats: {result.title}"), verdict_line(result)]
+    sizes = ", ".join(f"{seat.seat} Ø{seat.diameter_mm:g} mm" for seat in result.seats) if len(pairs) == 1 else ""
+    title = f"Bearing seats: {result.title}{f', {sizes}' if sizes else ''}"
+    about: list[Block] = [Heading(title), verdict_line(result)]
     if len(pairs) > 1:
         about += [BLANK, *cut([bearing_table(pairs)], MOST_LINES)]
     else:
         about += [line for pair in pairs for line in advice_lines(pair)]
-    header = ("bearing", "seat", "field", "tight by, µm", "at least", "at most", "write")
+    header = ("bearing", "seat", "class", "interference", "required", "permitted", "specify")
     body: list[Block] = [Grid(header, tuple(map(_row, result.seats)), frozenset({4, 5})), Paragraph(SIGN)]
     for pair in pairs:
         body += [*repair_lines(pair), *sorting_blocks(pair)]
@@ -270,21 +287,26 @@ def check_fit_screen(result: CheckFitResult) -> tuple[Block, ...]:
 
 def _row(seat: SeatResult) -> tuple[str, ...]:
     low, high = seat.interference_um
-    needed = "no grip" if seat.needs_no_grip else _um(seat.required_interference_um)
+    needed = "none" if seat.needs_no_grip else _required(seat.required_interference_um)
     return (
         shortened(seat.name, NAME) if seat.seat == "shaft" else "", seat.seat, seat.fit, f"{low:.4g} … {high:.4g}",
-        needed, _um(seat.permitted_interference_um), seat.recommended_fit or "–",
+        needed, _permitted(seat.permitted_interference_um), seat.recommended_fit or "none",
     )  # fmt: skip
 
 
-def _um(value: float | None) -> str:
-    return "–" if value is None else number(value, 3)
+def _required(value: float | None) -> str:
+    return "not known" if value is None else f"≥ {number(value, 3)}"
+
+
+def _permitted(value: float | None) -> str:
+    return "–" if value is None else f"≤ {number(value, 3)}"
 
 
 MOST_FITS: Final = 5
-"""Admissible fields shown a seat; JSON has all."""
-MARKS: Final = {"holds": "pass", "creeps": "fail", "may creep": "warn", "not known": "not-done"}
-AT_START: Final = {True: ", above the starting torque", False: ", below the starting torque", None: ""}
+"""Admissible tolerance classes shown a seat; JSON has all."""
+CREEP: Final = {"needs no grip": "requires no interference"}
+"""Verdicts on creep as people read them, if they differ from JSON."""
+AT_START: Final = {True: "above the starting torque", False: "BELOW the starting torque", None: "–"}
 
 
 def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
@@ -296,7 +318,7 @@ def check_fit_blocks(result: CheckFitResult) -> tuple[Block, ...]:
         verdict_line(result),
         *table,
         *(block for index, pair in enumerate(pairs, 1) for block in _bearing(index, pair)),
-        Paragraph(CONVENTION),
+        *_readings(result.seats),
         *check_blocks(result.checks),
         *notices(result),
         *provenance_blocks(result.provenance),
@@ -308,15 +330,24 @@ def section_of(index: int) -> str:
     return f"bearing-{index}"
 
 
+def _readings(seats: Sequence[SeatResult]) -> list[Block]:
+    """Notes and conventions of all bearings, each once."""
+    sources = dict.fromkeys(seat.requirements.source for seat in seats)
+    drawing = f"Drawings: form, roughness and shoulder by {', '.join(sources)}; hardness is usual practice."
+    return [Heading("Notes"), *note_blocks(seats), Paragraph(drawing), Paragraph(CONVENTION)]
+
+
 def _bearing(index: int, pair: Seats) -> list[Block]:
-    """Verdict, zones, numbers, losses, fields to choose from, drawing, notes of one bearing."""
+    """Verdict, zones, numbers, losses, tolerance classes to choose from and drawing of one bearing."""
+    caption = legend() if index == 1 else "Zones as above."
     return [
         Heading(f"Bearing seats: {pair[0].name}", section_of(index)),
-        *map(_verdict, pair),
         *advice_lines(pair),
+        Paragraph(""),
+        _creep(pair),
         *repair_lines(pair),
         Paragraph(""),
-        Picture(tuple(zone_lines(*pair)), legend(), indent=2),
+        Picture(tuple(zone_lines(*pair)), caption, indent=2),
         Paragraph(""),
         fit_grid(pair),
         *_clearance(pair[0].internal_clearance),
@@ -324,20 +355,24 @@ def _bearing(index: int, pair: Seats) -> list[Block]:
         *_fits(pair),
         *sorting_blocks(pair),
         *_drawing(pair),
-        Heading("Notes"),
-        *note_blocks(pair),
     ]
 
 
-def _verdict(seat: SeatResult) -> Paragraph:
-    ring, creep = ("Inner ring" if seat.seat == "shaft" else "Outer ring"), seat.creep
-    write = f"Write {seat.recommended_fit}." if seat.recommended_fit else "No tabulated field grips and is borne."
-    start = ""
+def _creep(pair: Seats) -> Grid:
+    """Creep and slip torque of both rings."""
+    columns = [_creep_of(seat) for seat in pair]
+    labels = ("", "creep", "  because", "slip torque, N·m: least, probable", "  least slip torque")
+    rows = tuple(row for row in zip(labels[1:], *columns, strict=True) if any(cell != "–" for cell in row[1:]))
+    header = tuple(f"{'inner' if seat.seat == 'shaft' else 'outer'} ring on {seat.fit}" for seat in pair)
+    return Grid(("", *header), rows)
+
+
+def _creep_of(seat: SeatResult) -> tuple[str, ...]:
+    creep = seat.creep
+    torques = "–"
     if creep.friction_moment_N_m:
-        least, probable = creep.friction_moment_N_m
-        start = f" Friction torque {least:.3g} N·m, probably {probable:.3g}{AT_START[creep.holds_at_start]}."
-    text = f"{ring} on {seat.fit}: {creep.verdict} ({creep.why}). {write}{start}"
-    return Paragraph(text, MARKS.get(creep.verdict))
+        torques = ", ".join(f"{torque:.3g}" for torque in creep.friction_moment_N_m)
+    return CREEP.get(creep.verdict, creep.verdict), creep.why, torques, AT_START[creep.holds_at_start]
 
 
 def _clearance(left: Clearance | None) -> list[Block]:
@@ -348,9 +383,9 @@ def _clearance(left: Clearance | None) -> list[Block]:
         ("after mounting, extreme", _span_text(left.mounted_um)),
         ("after mounting, probable", _span_text(left.probable_um)),
         ("  mean", f"{left.mean_um:.3g}"),
-        ("  none left in", of_all(left.below_zero_probability, "bearings")),
+        ("  no clearance left in", of_all(left.below_zero_probability, "bearings")),
         ("  taken by temperature", f"{left.by_temperature_um:.3g}"),
-        ("tightest group that will do", left.group_to_choose or "–"),
+        ("tightest group that passes", left.group_to_choose or "–"),
     )
     return [Heading("Radial clearance in the bearing, µm"), Grid(("", ""), rows)]
 
@@ -362,7 +397,7 @@ def _losses(pair: Seats) -> list[Block]:
         if not seat.needs_no_grip
         for loss in seat.losses
     )
-    heading = Heading("What the interference must cover, µm")
+    heading = Heading("Losses of interference, µm")
     return [heading, Grid(("seat", "by", "µm", "", "formula"), rows, frozenset({2}))] if rows else []
 
 
@@ -372,16 +407,21 @@ def _fits(pair: Seats) -> list[Block]:
         for seat in pair
         for fit in seat.admissible_fits[:MOST_FITS]
     )
-    grid = Grid(("seat", "field", "interference, µm", "loose"), rows)
-    return [Heading("Fields that pass, the best first"), grid] if rows else []
+    grid = Grid(("seat", "class", "interference, µm", "pairs with clearance"), rows)
+    return [Heading("Classes that pass, best first"), grid] if rows else []
 
 
 def _drawing(pair: Seats) -> list[Block]:
     columns = [_requirements(seat.requirements) for seat in pair]
-    labels = ("field", "roundness, profile, µm", "roughness Ra, µm", "shoulder runout, µm", "hardness at least")
+    labels = (
+        "tolerance class",
+        "roundness, profile, µm",
+        "roughness Ra, µm",
+        "shoulder runout, µm",
+        "hardness at least",
+    )
     grid = Grid(("", "shaft", "housing"), tuple(zip(labels, *columns, strict=True)))
-    source = pair[0].requirements.source
-    return [Heading("For the drawing"), grid, Paragraph(f"Form, roughness and shoulder: {source}; hardness: usual.")]
+    return [Heading("For the drawing"), grid]
 
 
 def _requirements(asked: Requirements) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ def test_the_heavy_spot_is_drawn_against_the_rotation(result: BalanceResult, tur
     for spot, middle, angle, side in zip(spots, middles, angles, (sense, -sense), strict=True):
         assert spot.centre[0] - middle == pytest.approx(side * RADIUS * math.sin(angle))
         assert spot.centre[1] == pytest.approx(RADIUS * math.cos(angle))
-    assert "take off 12.00 g at 205.0°" in drawing.description
+    assert "remove 12.00 g at 205.0°" in drawing.description
     assert [shape.text for shape in drawing.shapes if isinstance(shape, Text)].count("−") == 2
 
 

@@ -147,7 +147,7 @@ def test_wrong_files_are_refused_with_key_line_and_remedy(
 
 
 def test_rules_between_tables(tmp_path: Path) -> None:
-    assert "two planes are one" in str(
+    assert "two planes coincide" in str(
         refused(tmp_path, RIG, ROTOR.replace("= 0.52", "= 0").replace("= 0.61", "= 0"), RUN)
     )
     assert "without [rig]" in str(refused(tmp_path, BARE_ROTOR, RUN))

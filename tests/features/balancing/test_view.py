@@ -7,7 +7,8 @@ import pytest
 
 import abu_calc
 from abu_calc.features.balancing.records import PlaneCorrection
-from abu_calc.features.balancing.view import drawing
+from abu_calc.features.balancing.view import balance_blocks, balance_screen, drawing
+from abu_calc.reporting.text import as_text
 
 PRESET = "sapropel-screw-rig"
 
@@ -46,3 +47,16 @@ def test_both_ends_show_the_same_roll() -> None:
         left, right = line.ljust(80)[2:39], line.ljust(80)[40:77]
         shape = [letter in ".o-" for letter in left], [letter in ".o-" for letter in right[::-1]]
         assert sum(a != b for a, b in zip(*shape, strict=True)) <= 8
+
+
+def test_rounding_has_no_digits_and_the_formula_is_as_published() -> None:
+    whole = as_text(balance_blocks(abu_calc.balance(PRESET)))
+    assert "differ by less than 0.0001 % of the largest reading" in " ".join(whole.split())
+    assert "The published formula" in whole and "printed" not in whole and "take off" not in whole
+
+
+def test_the_screen_says_what_to_remove_where_and_what_remains() -> None:
+    screen = as_text(balance_screen(abu_calc.balance(PRESET)))
+    lines = [line.strip() for line in screen.splitlines()]
+    assert lines[2].startswith("LEFT plane: remove 12.00 g at 205.0°")
+    assert any(line.startswith("expected after correction") and "permitted 693" in line for line in lines)

@@ -87,7 +87,7 @@ def test_all_at_once_as_a_scene_and_as_text(tmp_path: Path) -> None:
     seen = abu("effects", str(path), "--full")
     assert seen.status == 0 and seen.width <= 80
     assert "half the accuracy" in " ".join(seen.out.split())
-    assert "has data for none" in abu("effects", _without_effects(tmp_path)).out
+    assert "has data for no effect" in abu("effects", _without_effects(tmp_path)).out
 
 
 def _without_effects(folder: Path) -> str:

@@ -21,7 +21,7 @@ def entry(name: str, weight: float | None, *, included: bool) -> EffectEntry:
 
 def test_an_effect_without_an_estimate_has_a_question_mark() -> None:
     grid = effects_grid([entry("gravity", 0.00234, included=False), entry("motor", None, included=True)])
-    assert [row[:3] for row in grid.rows] == [("gravity", "out", "0.0023"), ("motor", "in", "?")]
+    assert [row[:3] for row in grid.rows] == [("gravity", "no", "0.0023"), ("motor", "yes", "?")]
 
 
 def test_every_known_effect_has_a_row() -> None:
@@ -33,10 +33,10 @@ def test_every_known_effect_has_a_row() -> None:
 def test_the_screen_leaves_out_the_rule_that_the_whole_report_tells() -> None:
     result = effects(WEIGHED)
     whole, screen = as_text(effects_blocks(result)), as_text(effects_screen(result))
-    assert "A weight is an estimate" in whole and "A weight is an estimate" not in screen
-    assert "Left out, all together" in whole and "gravity" in screen
+    assert "The estimated influence says" in whole and "The estimated influence says" not in screen
+    assert "Left out: 1 effect" in whole and "gravity" in screen
     assert height(effects_screen(result)) <= 48
 
 
 def test_a_scene_without_data_says_so() -> None:
-    assert "The file has data for none." in as_text(effects_blocks(effects(SCENE)))
+    assert "The file has data for no effect." in as_text(effects_blocks(effects(SCENE)))

@@ -150,7 +150,10 @@ def test_advice_names_the_group_that_makes_the_fit_good():
     tight = judged("6207", 0.08, shaft_fit="k5", housing_fit="H7", internal_clearance="CN")
     check = tight.checks[-1]
     assert (check.code, check.status) == ("ABU621", "warn") and "20 of 100 bearings" in check.message
-    assert (tight.shaft.recommended_fit, tight.group_to_order) == ("k5", "C3") and check.remedy == "C3 keeps it."
+    assert (tight.shaft.recommended_fit, tight.group_to_order) == (
+        "k5",
+        "C3",
+    ) and check.remedy == "Specify group C3: it keeps clearance (calculated)."
     assert judged("6207", 0.03, shaft_fit="j6", housing_fit="H7").group_to_order == "CN"
     jammed = judged("6207", 0.08, shaft_fit="p6", housing_fit="N7", internal_clearance="C2")
     assert jammed.checks[-1].status == "fail"
@@ -159,8 +162,8 @@ def test_advice_names_the_group_that_makes_the_fit_good():
 def test_the_nearest_fields_that_fail_are_named_with_the_reason():
     shaft = judged("6205", 0.08, shaft_fit="k5", housing_fit="H7", internal_clearance="C3").shaft
     looser, tighter = shaft.rejected_fits
-    assert looser.fit == "h5" and looser.why.startswith("creeps") and "needed" in looser.why
-    assert tighter.fit == "n5" and "C3 keep no clearance" in tighter.why
+    assert looser.fit == "h5" and "the ring creeps" in looser.why and "µm required" in looser.why
+    assert tighter.fit == "n5" and "no operating clearance is left" in tighter.why
     for one in shaft.rejected_fits:
         again = judged("6205", 0.08, shaft_fit=one.fit, housing_fit="H7", internal_clearance="C3")
         assert any(check.status in ("fail", "warn") for check in again.checks)

@@ -26,7 +26,7 @@ def test_what_is_not_known_is_not_done(missing: str, said: str) -> None:
     found = seats(**{missing: None, "width_mm": 33.5})  # no tabulated bearing has these sizes
     shaft = found.shaft
     assert (shaft.required_interference, shaft.required_by) == (None, None)
-    assert shaft.recommended_fit == "k5" and "is not known: k5 is SKF" in " ".join(shaft.notes)
+    assert shaft.recommended_fit == "k5" and "is not known, so k5 is the class that SKF" in " ".join(shaft.notes)
     assert shaft.load_intensity is None
     assert check(shaft, 0).status == "not-done"
     assert said in check(shaft, 0).message

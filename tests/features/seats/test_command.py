@@ -93,7 +93,9 @@ def test_wrong_options_are_refused(arguments, said):
 
 def test_without_fits_it_answers_which_to_write():
     seen = abu("check-fit", "--designation", "608", "--radial-load-kN", "0.4")
-    assert seen.status == 0 and "Write shaft js5, housing H7, clearance CN (P/C = 0.12)." in " ".join(seen.out.split())
+    assert seen.status == 0 and "Specify shaft js5, housing H7, clearance CN (P/C = 0.12)." in " ".join(
+        seen.out.split()
+    )
     by_sizes = abu("check-fit", "--bore", "80", "--outer", "140", "--width", "33", "--radial-load-kN", "3", "--json")
     shaft, housing = by_sizes.document["result"]
     assert (shaft["recommended_fit"], shaft["fit_given"], housing["recommended_fit"]) == ("m6", False, "H7")

@@ -93,7 +93,7 @@ def test_groups_of_the_bench_by_a_count_of_parts():
     assert [one.share for one in groups] == pytest.approx([one / sum(inside) for one in inside])
     assert sum(one.share for one in groups) == pytest.approx(1)
     found = seats(asked_interference_um=(10.0, 28.0)).shaft
-    assert len(found.groups) == 3 and "every pair holds" in found.notes[-1]
+    assert len(found.groups) == 3 and "Every pair has the required" in found.notes[-1]
     assert seats(asked_interference_um=(0.0, 40.0)).shaft.groups == ()
 
 

@@ -183,7 +183,7 @@ def test_groups_are_the_fewest_that_do(a, wide_a, b, wide_b, low, width):
 def test_a_band_is_meant_for_the_ring_that_must_grip():
     found = seats(asked_interference_um=(10.0, 28.0))
     assert found.shaft.selection.groups == 3
-    assert "sorted into 3 equal groups" in found.shaft.notes[-1]
+    assert "assembly into 3 equal groups" in found.shaft.notes[-1]
     assert found.housing.selection is None and found.housing.asked_interference is None
     narrow = seats(asked_interference_um=(10.0, 12.0)).shaft
     assert narrow.selection is None and "Sorting cannot keep k6" in narrow.notes[-1]
