@@ -44,11 +44,11 @@ WAYS = (
     "`abu simulate FILE --start spread --race-centre 0` repeats one start case.",
 )
 GAPS = (
-    "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the three "
-    "assumed values that most move the verdict, for the balls and the race of this design. Levels are calculated, as "
-    "expected and in the worst friction case. The settling time is simulated, for the start case that is slowest as "
-    "the file stands. At other drag rates it is that of the slowest start case there. Usual ranges are engineering "
-    "practice (unverified)."
+    "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the "
+    "three assumed values that most move the verdict, for the balls and the race of this design. Levels are "
+    "calculated, as expected and in the worst friction case. The settling time is simulated, for the start case "
+    "that is slowest as the file stands. At other drag rates it is that of the slowest start case there. Usual ranges "
+    "are engineering practice (unverified)."
 )
 ROWS = 15
 """Rows of the section's picture."""
