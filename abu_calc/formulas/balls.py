@@ -13,7 +13,7 @@ HALF_ANGLE_SINE = Range("ball radius over pitch radius", 0.0, 1.0, open_low=True
 
 
 @formula(
-    "Half the angle between touching neighbours",
+    "Half the angle between touching balls",
     "β = arcsin(r/(R−r))",
     "rad",
     checked=(HALF_ANGLE_SINE,),
@@ -33,10 +33,11 @@ def most_balls(beta: float) -> int:
 
 
 @formula(
-    "Number of balls up to which one more adds capacity; beyond it one more takes some away",
+    "Number of balls with the largest capacity",
     "n* = round(π/(2β))",
     "1",
     source="derived",
+    where="One more ball reduces the capacity.",
 )
 def best_count(beta: float) -> int:
     return round(math.pi / (2 * beta))
@@ -47,10 +48,10 @@ def best_count(beta: float) -> int:
     "m·R_p·sin(nβ)/sin β",
     "kg m",
     signs="R_p",
-    where=("It grows only up to n* = round(π/(2β))."),
+    where="The capacity grows up to n* = round(π/(2β)) balls.",
     checked=("1 ≤ n ≤ ⌊π/β⌋",),
-    source="derived, and found to be the maximum under the spacing constraint by optimisation",
-    printed="Kladiev 1996, (6), takes 2·m·(R−r), as if balls had no size",
+    source="derived; an optimisation under the spacing constraint found the same maximum",
+    published="Kladiev 1996, (6), takes 2·m·(R−r), as if balls had no size",
 )
 def capacity(count: int, ball_mass: float, pitch_radius: float, beta: float) -> float:
     """

@@ -9,17 +9,18 @@ from abu_calc.foundation.frozen import dataclass
 
 
 @formula(
-    "Largest axis displacement at which dry rolling friction can hold every ball where it is",
+    "Largest spindle displacement at which dry rolling friction can hold every ball in its place",
     "(k_r·R_p/r)/cos(γ_g/2)",
     "m",
     shown="um",
     signs="w θ",
     where=(
-        "|Im(w e^{−iθ})| ≤ k_r·R_p/r for every ball, so |w| is at most that; γ_g is taken modulo 180°. For two balls "
-        "at ±θ this is (k_r·R_p/r)/min(|sin θ|, |cos θ|). Infinite when all balls are in one line."
+        "For every ball |Im(w e^{−iθ})| ≤ k_r·R_p/r holds, so |w| is at most this displacement. γ_g is taken modulo "
+        "180°. For two balls at ±θ the displacement is (k_r·R_p/r)/min(|sin θ|, |cos θ|). It is infinite if all balls "
+        "are in one line."
     ),
-    assumed="hard, clean race, k_r 0.5–5 µm; whatever the speed",
-    source="derived; Kladiev 1996 has no such limit",
+    assumed="hard, clean race with k_r 0.5–5 µm, at any speed",
+    source="derived; Kladiev 1996 gives no such limit",
 )
 def friction_band(arm: float, pitch_radius: float, ball_radius: float, angles: tuple[float, ...]) -> float:
     """
@@ -75,19 +76,19 @@ class _Split:
 
 
 @formula(
-    "Largest displacement at which dry rolling friction can hold the balls in any arrangement",
+    "Largest spindle displacement at which dry rolling friction can hold the balls, over all arrangements",
     "largest w ≥ w_f with u_min(w) ≤ U/(m·R_p) ≤ u_max(w)",
     "m",
     shown="um",
     signs="G",
     where=(
         "At the displacement w each ball rests within arcsin(w_f/w) of the displacement's direction or of the "
-        "opposite one; for each split of the balls u_min and u_max are the least and the largest |w/(G·m·R_p) − Σ of "
-        "the balls' directions|. Counted is the interval of w that begins at w_f; of two balls also the one with a "
-        "ball on either side, where 5–10 % of starts end. Not counted: two balls bunched opposite the imbalance (one "
-        "start in 400), and all on the heavy side."
+        "opposite one. For each split of the balls, u_min and u_max are the least and the largest |w/(G·m·R_p) − Σ of "
+        "the balls' directions|. The interval of w that begins at w_f counts. For two balls the interval with one "
+        "ball on either side counts, too: 5–10 % of starts end there. Two cases do not count: two balls together "
+        "opposite the imbalance (one start in 400), and all balls on the heavy side."
     ),
-    assumed="ball contact left out; w small against R_p",
+    assumed="ball contact left out; w small compared with R_p",
     source="derived; confirmed by integration from random starts",
 )
 def worst_friction(count: int, moment: float, band: float, imbalance: float, receptance: complex) -> WorstFriction:

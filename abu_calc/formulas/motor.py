@@ -7,14 +7,17 @@ from abu_calc.foundation.roots import root
 
 
 @formula(
-    "Idle speed of a machine with a motor: the motor's torque equals the torque that the remaining vibration takes",
+    (
+        "Idle speed of a machine with a motor, at which the motor's torque equals the torque that the remaining "
+        "vibration takes"
+    ),
     "T_s·(1 − Ω/Ω₀) = ½·Δ²·Im(D_x + D_y)",
     "rad/s",
     where=(
-        "Settled balls leave about the race's eccentricity Δ as displacement of the axis. Forty simulated run-ups of "
-        "hand-held machines end within 0.06 % of this speed."
+        "Settled balls leave a spindle displacement of about the race eccentricity Δ. Forty simulated run-ups of "
+        "hand-held machines ended within 0.06 % of this speed."
     ),
-    assumed="balls at rest in the race; no torque but the motor's and the suspension's damping",
+    assumed="balls at rest in the race; no torques but those of the motor and of the suspension's damping",
     source="torque balance at constant speed; Blekhman 1988, ch. 6",
 )
 def idle_speed(
@@ -35,8 +38,8 @@ def idle_speed(
     "Speed under load of a machine with a motor",
     "Ω₀·(1 − f·N·R_w/T_s)",
     "rad/s",
-    where="Zero if the cutting torque f·N·R_w exceeds the stall torque.",
-    assumed="no torque but the motor's and the cutting torque",
+    where="If the cutting torque f·N·R_w exceeds the motor's torque at standstill, the speed is 0.",
+    assumed="no torques but the motor's and the cutting torque",
     source="torque balance at constant speed",
 )
 def working_speed(stall_torque: float, no_load_speed: float, cutting_torque: float) -> float:

@@ -27,10 +27,11 @@ from abu_calc.foundation.units import GRAVITY
     "κ = (m Ω⁴/2M) [1/(Ω² − ω₁²) + 1/(Ω² − ω₂²)]",
     "1/s²",
     where=(
-        "Positive exactly where balls balance: above both frequencies, or between the smaller and √((ω₁² + ω₂²)/2)."
+        "κ is positive exactly if balls balance: above both natural frequencies, or between the smaller one and "
+        "√((ω₁² + ω₂²)/2)."
     ),
     checked=("not at a resonance",),
-    assumed="both axes free, balls light beside the machine",
+    assumed="both axes free, balls light compared with the machine",
     source="derived by averaging; Kladiev 1996, (7), is κ > 0",
 )
 def ball_stiffness(
@@ -71,12 +72,12 @@ def slow_rates(stiffness: float, drag: float, inertia_factor: float) -> tuple[co
 
 
 @formula(
-    "Slowest rate at which a disturbance of the balls dies out, neutral directions apart; ≤ 0 where one does not",
+    "Slowest rate at which a disturbance of the balls dies out; at most 0 if one persists",
     "−Re λ of J λ² + h₀ λ + κ_s = 0",
     "1/s",
     signs="κ θ",
-    where=("κ_s the eigenvalues ½(Σκ ∓ |Σ κ e^{2iθ}|)."),
-    assumed="real rates within about (m/M)^(1/2)",
+    where="κ_s are the eigenvalues ½(Σκ ∓ |Σ κ e^{2iθ}|). Neutral directions do not count.",
+    assumed="real rates differ from this by a relative error of about (m/M)^(1/2)",
     source="derived by averaging",
 )
 def decay_rate(stiffnesses: Sequence[float], angles: Sequence[float], drag: float, inertia_factor: float) -> float:
@@ -84,11 +85,12 @@ def decay_rate(stiffnesses: Sequence[float], angles: Sequence[float], drag: floa
 
 
 @formula(
-    "Drag that damps one slow mode critically: less lets it swing, more lets it creep",
+    "Viscous drag rate that damps one slow mode critically",
     "h₀ = 2√(J κ_s)",
     "1/s",
     checked=("κ_s > 0",),
     source="derived by averaging",
+    where="At a lower rate the mode swings, at a higher rate it creeps.",
 )
 def optimum_drag(stiffness: float, inertia_factor: float) -> float:
     """
@@ -123,23 +125,21 @@ def shaken_drag(
 Numbers = TypeVar("Numbers", float, Any)
 """One or an array of them."""
 
-_CHECKED = (
-    "as found by 64 isotropic and 32 anisotropic sets, 2–30 Hz, ζ 0.005–0.5, 2–8 balls, drag scanned: no counterexample"
-)
-
 
 @formula(
-    "Drag that balls going round below the speed need to be pulled on past a resonance",
+    "Viscous drag rate that pulls stalled balls past a resonance of the support",
     "h₀ > n·m·χ²·Ω_b⁴·(−Im[H_xx(Ω_b) + H_yy(Ω_b)])/(2(Ω − Ω_b))",
     "1/s",
     signs="ζ M ω",
     where=(
-        "χ of balls side by side (1 without size), H_xx and H_yy with the balls' mass on the race. The largest up to "
-        "the highest natural frequency below Ω counts. Of springs alike along x and y that is n·m·ω²/(2ζM(Ω − ω)), "
-        "of one axis alone half of it."
+        "χ is that of balls side by side (1 for balls without size). H_xx and H_yy include the balls' mass on the "
+        "race. The largest value up to the highest natural frequency below Ω counts. On springs alike along x and y "
+        "the bound is n·m·ω²/(2ζM(Ω − ω)), on springs along one axis half of that. The bound sufficed in all 64 "
+        "isotropic and 32 anisotropic supports that were simulated (2–30 Hz, ζ 0.005–0.5, 2–8 balls, drag rates "
+        "scanned)."
     ),
-    assumed=f"Ω_b below Ω, linear support; sufficient {_CHECKED}",
-    source="derived by the balance of drag and dissipation; the effect: Sperling et al. 2002, Wright & Peng 2019",
+    assumed="Ω_b below Ω, linear support; sufficiency, as simulated",
+    source="derived from the balance of drag and dissipation; the effect: Sperling et al. 2002, Wright & Peng 2019",
 )
 def resonance_drag(lost: Numbers, frequency: Numbers, speed: float) -> Numbers:
     """`lost`: n·m·σ²·(−Im[h_xx + h_yy]) [kg m/N].
@@ -153,12 +153,18 @@ def resonance_drag(lost: Numbers, frequency: Numbers, speed: float) -> Numbers:
 
 
 @formula(
-    "Drag above which balls do not run above a heavily damped resonance (ζ of 0.3 and more)",
+    (
+        "Viscous drag rate above which balls do not stall at a speed above a heavily damped resonance (ζ of 0.3 and "
+        "more)"
+    ),
     "h₀ > 2ζω·√(n·m·J/(2M))",
     "1/s",
-    where="2ζω is the damping of the support over all mass that moves with the balls.",
-    assumed=f"sufficient {_CHECKED}; the highest seen was 0.73 of it",
-    source="found by integration",
+    where=(
+        "2ζω is the damping of the support over all mass that moves with the balls. The bound sufficed in the same "
+        "simulations as that of the resonance drag. The largest rate that was needed there was 0.73 of this bound."
+    ),
+    assumed="sufficiency, as simulated",
+    source="found by simulation",
 )
 def damped_drag(damping_rate: float, mass_ratio: float, inertia_factor: float) -> float:
     """`mass_ratio`: n·m/M.
@@ -170,10 +176,11 @@ def damped_drag(damping_rate: float, mass_ratio: float, inertia_factor: float) -
 
 
 @formula(
-    "Drag above which balls do not stand still under gravity, the spindle horizontal",
+    "Viscous drag rate above which gravity does not hold the balls of a horizontal spindle",
     "h₀ > g/(R_p·Ω)",
     "1/s",
-    source="derived: the drag on a ball at rest, m·R_p·h₀·Ω, against its weight; hung at 0.97 of it, not at 1.03",
+    source="derived: drag on a ball at rest, m·R_p·h₀·Ω, against its weight",
+    where="Simulated balls stalled at 0.97 of this rate, and did not stall at 1.03 of it.",
 )
 def gravity_drag(pitch_radius: float, speed: float) -> float:
     """
@@ -184,10 +191,10 @@ def gravity_drag(pitch_radius: float, speed: float) -> float:
 
 
 @formula(
-    "Resultant of touching balls over that of as many in one place",
+    "Resultant of touching balls, relative to that of as many balls in one place",
     "χ = sin(nβ)/(n·sin β)",
     "1",
-    where="β is 0 without size.",
+    where="For balls without size β is 0 and χ is 1.",
     source="geometry",
 )
 def side_by_side(count: int, beta: float) -> float:

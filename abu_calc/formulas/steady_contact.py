@@ -22,15 +22,18 @@ class SteadyContact:
     pressing: float = 1.0
 
     @formula(
-        "Imbalance U that free balls settle at",
+        "Imbalance U at which free balls settle in contact",
         "Ω²U = ε·(D_x − i·s·f·D_y)/(1 + i·s·f + q_n·(D_x + D_y))",
         "kg m",
-        where=("ε is complex by its angle. From (X + iY)/2 = 0, the forward whirl of the axis, which moves balls."),
+        where=(
+            "ε is complex, with the angle of the runout. At this U the spindle has no forward whirl, (X + iY)/2 = 0; a "
+            "forward whirl moves balls."
+        ),
         assumed="above resonance, no separation, two or more balls with capacity to spare",
-        source="derived; rigid and frictionless it is Kladiev 1996, (4)",
-        printed=(
-            "(4) leaves friction out and finds the angles by arctan, which loses the quadrant; its ball angles are "
-            "wrong by about 30° at f = 0.35"
+        source="derived; for a rigid contact without friction it is Kladiev 1996, (4)",
+        published=(
+            "(4) leaves friction out, and its arctan loses the quadrant. Its ball angles are wrong by about 30° at f = "
+            "0.35"
         ),
     )
     def balancing_imbalance(self, runout: complex) -> complex:

@@ -87,13 +87,11 @@ class Springs:
 @formula(
     "Two hands on the handles, ISO 10068:2012 Annex C, model 2",
     where=(
-        "Palm and arm m1 stand on the ground by element 1, the fingers m2 on m1 by 2; m1 and m2 reach the handle by 3 "
-        "and 4; the skin masses m3, m4 move with the handle."
+        "Palm and arm (m1) are connected to the ground by element 1, the fingers (m2) to m1 by element 2. Elements 3 "
+        "and 4 connect m1 and m2 to the handle. The skin masses m3 and m4 move with the handle. The forearms push "
+        "toward the workpiece: the z-axis of the hands is the machine's y-axis, their x-axis the machine's x-axis."
     ),
-    assumed=(
-        "how the elements connect; forearms push toward the work, so that the hands' z is the machine's y, and their x "
-        "its x"
-    ),
+    assumed="how the elements connect; direction of the forearms",
     source="ISO 10068:2012",
 )
 @dataclass(frozen=True)
@@ -137,8 +135,8 @@ def resonance_factor(suspension: SuspensionReaction, speed: float, mass: float) 
     shown="hz",
     signs="D_x",
     where=(
-        "For springs. For hands the highest frequency at which Re D_x = 0 (bracketed from 1000 Hz down in steps of 1 "
-        "%): the machine and the arms."
+        "√(c/M) holds for springs. For hands it is the highest frequency at which Re D_x = 0, that of machine and "
+        "arms together. The search goes down from 1000 Hz in steps of 1 %."
     ),
 )
 def natural_frequency(suspension: SuspensionReaction, axis: int, mass: float) -> float:

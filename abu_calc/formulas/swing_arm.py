@@ -39,24 +39,24 @@ class Arm:
 
 
 @formula(
-    "Contact stiffness felt by the arm, per c_n·l²",
+    "Contact stiffness that acts on the arm, relative to c_n·l²",
     "k_Z(Z) = sin Z·(sin Z + f·(R_w/l − cos Z))",
     "1",
-    where=("f for a disk turning in the pressing sense."),
+    where="f is that of a disk turning in the pressing sense.",
     source="Kovalenko 2010, (3)",
-    printed="the text measures Z to the tangent; then sine and cosine would change places",
+    published="the text measures Z to the tangent; sine and cosine would then change places",
 )
 def contact_gain(angle: float, friction: float, ratio: float) -> float:
     return math.sin(angle) * (math.sin(angle) + friction * (ratio - math.cos(angle)))
 
 
 @formula(
-    "Contact angle Z* that makes the contact gain largest",
+    "Contact angle Z* with the largest contact gain",
     "sin 2Z + f·(R_w/l)·cos Z − f·cos 2Z = 0",
     "rad",
-    where="Series: π/2 + f/2 − (R_w/l)f²/4 + (3(R_w/l)² − 4)f³/24.",
+    where="Z* as a series: π/2 + f/2 − (R_w/l)f²/4 + (3(R_w/l)² − 4)f³/24.",
     checked=(FRICTION, RADIUS_RATIO),
-    source="Kovalenko 2010, (13), the exact root instead of the series",
+    source="Kovalenko 2010, (13); the exact root instead of the series",
 )
 def worst_contact_angle(friction: float, ratio: float) -> float:
     """
@@ -72,11 +72,11 @@ def worst_contact_angle(friction: float, ratio: float) -> float:
 
 
 @formula(
-    "Contact angle that makes the contact gain smallest: friction lifts the wheel by itself",
+    "Contact angle with the smallest contact gain, at which friction lifts the wheel by itself",
     "sin 2Z + f·(R_w/l)·cos Z − f·cos 2Z = 0, Z < π/2",
     "rad",
     signs="k_Z",
-    where="There k_Z < 0 as long as f > 0 and R_w < l: the contact's stiffness is negative.",
+    where="If f > 0 and R_w < l, k_Z is negative at this angle, and so is the stiffness of the contact.",
     checked=(FRICTION, RADIUS_RATIO),
     source="derived from Kovalenko 2010, (3)",
 )
@@ -94,7 +94,7 @@ def lifting_angle(friction: float, ratio: float) -> float:
 
 
 @formula(
-    "Joint stiffness with which the arm stands at every contact angle",
+    "Pivot stiffness with which the arm stands at every contact angle",
     "c_sh > −c_n·min k_Z",
     "N/m",
     source="derived from Kovalenko 2010, (3)",
@@ -108,7 +108,7 @@ def standing_stiffness(arm: Arm) -> float:
     "Contact angles between which the arm does not stand",
     "c_sh + c_n·k_Z(Z) = 0",
     "rad",
-    where="None where the joint is stiff enough for every angle: c_sh > −c_n·min k_Z.",
+    where="If c_sh > −c_n·min k_Z, the pivot is stiff enough for every angle, and there are none.",
     source="derived from Kovalenko 2010, (3)",
 )
 def lifted_angles(arm: Arm) -> tuple[float, float] | None:
@@ -126,10 +126,10 @@ def lifted_angles(arm: Arm) -> tuple[float, float] | None:
 
 
 @formula(
-    "Contact angles at which the speed is that of parametric resonance",
+    "Contact angles at which the speed causes parametric resonance",
     "c_sh + c_n·k_Z(Z) = J_O·Ω²/(4l²)",
     "rad",
-    where="None, one or two: before and behind the angle at which k_Z is largest.",
+    where="There are none, one or two: below and above the angle with the largest k_Z.",
     source="Kovalenko 2010, (3) and (22)",
 )
 def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
@@ -145,12 +145,13 @@ def parametric_angles(arm: Arm, speed: float) -> tuple[float, ...]:
 
 
 @formula(
-    "Largest contact gain by its series, never below the exact one, so on the safe side by at most 1.2 %",
+    "Largest contact gain by its series",
     "k_Z* = 1 + (R_w/l)f + f²/4 − (R_w/l)f³/8",
     "1",
     checked=(FRICTION, RADIUS_RATIO),
-    assumed="R_w/l 0.2…0.5",
+    assumed="R_w/l 0.2 … 0.5",
     source="Kovalenko 2010, (14)",
+    where="The series is never below the exact gain: it is on the safe side, by at most 1.2 %.",
 )
 def series_gain(friction: float, ratio: float) -> float:
     """
@@ -165,8 +166,8 @@ def series_gain(friction: float, ratio: float) -> float:
     "Largest contact stiffness that keeps the arm supercritical",
     "(J_O·Ω² − c_sh·l²)/(k_Z·l²)",
     "N/m",
-    where=("k_Z of contact gain or series gain."),
-    assumed="necessary, not sufficient (finite mass of the balls)",
+    where="k_Z is the exact contact gain or that of the series.",
+    assumed="necessary, not sufficient, because the balls have mass",
     source="Kovalenko 2010, (13) and (14)",
 )
 def stiffness_limit(arm: Arm, speed: float, gain: float) -> float:
@@ -174,23 +175,24 @@ def stiffness_limit(arm: Arm, speed: float, gain: float) -> float:
 
 
 @formula(
-    "Natural frequency of the arm in contact; parametric resonance at twice that",
+    "Natural frequency of the arm in contact",
     "ω₀* = √{(c_sh·l² + c_n·l²·k_Z*)/J_O}",
     "rad/s",
     source="Kovalenko 2010, (15)",
+    where="Parametric resonance occurs at twice this frequency.",
 )
 def resonance(arm: Arm, gain: float) -> float:
     return arm.length * math.sqrt((arm.joint_stiffness + arm.contact_stiffness * gain) / arm.inertia)
 
 
 @formula(
-    "Joint damping that parametric resonance cannot overcome",
+    "Pivot damping that parametric resonance cannot overcome",
     "(m₀e/l)·ω₀*·(1 + 17κ_a²/64), κ_a = l·m₀e/J_O",
     "N·s/m",
     checked=(MODULATION,),
-    assumed="worst detuning near Ω = 2ω₀",
-    source="Kovalenko 2010, (23) and (24); the second-order factor is ours",
-    printed="without it the bound is unsafe by 0.27 % at κ_a = 0.1, 2.5 % at 0.3",
+    assumed="the least favourable speed near Ω = 2ω₀",
+    source="Kovalenko 2010, (23) and (24); the second-order factor is derived here",
+    published="without that factor the bound is unsafe by 0.27 % at κ_a = 0.1, and by 2.5 % at 0.3",
 )
 def damping_limit(arm: Arm, imbalance: float, natural: float) -> float:
     kappa = MODULATION.check(arm.length * imbalance / arm.inertia)
@@ -198,7 +200,7 @@ def damping_limit(arm: Arm, imbalance: float, natural: float) -> float:
 
 
 @formula(
-    "Rate at which the arm's oscillation grows at Ω = 2ω₀; negative: it decays",
+    "Rate at which the arm's oscillation grows at Ω = 2ω₀, negative if it decays",
     "κ_a·ω₀/2 − h_a, h_a = h_sh·l²/(2J_O)",
     "1/s",
     checked=(MODULATION,),
@@ -214,11 +216,11 @@ def growth_rate(arm: Arm, imbalance: float, natural: float) -> float:
     "c_p = c_sh + c_n·k_Z(Z)",
     "N/m",
     where=(
-        "Negative at small contact angles, where friction lifts the wheel by itself: the arm then does not stand "
-        "(static divergence)."
+        "At small contact angles the stiffness is negative, because friction lifts the wheel by itself. The arm then "
+        "does not stand (static divergence)."
     ),
     assumed="one contact point",
-    source="Kovalenko 2010, (3); the divergence is ours",
+    source="Kovalenko 2010, (3); the divergence is derived here",
 )
 def arm_stiffness(arm: Arm) -> float:
     return arm.joint_stiffness + arm.contact_stiffness * contact_gain(
@@ -227,7 +229,7 @@ def arm_stiffness(arm: Arm) -> float:
 
 
 @formula(
-    "Resting angle of the arm while cutting, none where the arm does not stand",
+    "Resting angle of the arm while cutting; none if the arm does not stand",
     "(T_a/l² + c_n·k_Z·φ₀)/c_p",
     "rad",
     source="Kovalenko 2010, (5')",
@@ -241,10 +243,13 @@ def pressed_angle(arm: Arm) -> float | None:
 
 
 @formula(
-    "Pressing torque beyond which the wheel presses",
+    "Pressing torque above which the wheel presses",
     "T_a > c_sh·l²·φ₀",
     "N·m",
-    where="As long as the arm stands; none is needed where it touches at rest or before, φ₀ ≤ 0.",
+    where=(
+        "This holds if the arm stands. If the wheel touches the workpiece at rest or before, φ₀ ≤ 0, no torque is "
+        "needed."
+    ),
     source="Kovalenko 2010, below (5')",
 )
 def least_pressing_moment(arm: Arm) -> float:
@@ -252,12 +257,12 @@ def least_pressing_moment(arm: Arm) -> float:
 
 
 @formula(
-    "Normal force between wheel and work at rest",
+    "Static normal force between wheel and workpiece",
     "N = c_n·l·(φ − φ₀)·sin Z",
     "N",
     source="Kovalenko 2010, (3)",
 )
-def press_force(arm: Arm, angle: float) -> float:
+def normal_force(arm: Arm, angle: float) -> float:
     return arm.contact_stiffness * arm.length * (angle - arm.touch_angle) * math.sin(arm.contact_angle)
 
 
@@ -277,11 +282,11 @@ ORDERS = 3
         "    M₂ = 2Ω²[(ω₀² − 4Ω²)M₁ − 4h_aΩN₁]/K₂,  N₂ = 2Ω²[4h_aΩM₁ + (ω₀² − 4Ω²)N₁]/K₂\n"
         "    M₁₃ = 2Ω²[(ω₀² − Ω²)M₂ − 2h_aΩN₂]/K₁,  N₁₃ = 2Ω²[2h_aΩM₂ + (ω₀² − Ω²)N₂]/K₁\n"
         "    M₃ = 6Ω²[(ω₀² − 9Ω²)M₂ − 6h_aΩN₂]/K₃,  N₃ = 6Ω²[6h_aΩM₂ + (ω₀² − 9Ω²)N₂]/K₃\n"
-        "Resonances at ω₀ over a whole number are forced ones: large motion, no growth."
+        "Resonances at ω₀ divided by a whole number are forced: the motion is large, but does not grow."
     ),
     checked=(MODULATION,),
     source="Kovalenko 2010, (11)",
-    printed="it calls the motion near them unstable; there is no instability there",
+    published="the source calls the motion near these resonances unstable; it is stable there",
 )
 def forced_harmonics(kappa: float, speed: float, natural: float, decay: float) -> tuple[complex, complex, complex]:
     """Amplitudes M + iN [rad] of ω, 2ω, 3ω; infinite at a resonance that nothing damps.
@@ -302,10 +307,10 @@ def forced_harmonics(kappa: float, speed: float, natural: float, decay: float) -
 
 
 @formula(
-    "Rates at which the free motion of the arm dies out",
+    "Growth rates of the free motion of the arm",
     "−h_a away from resonance; −(h_a ± κ_a·ω₀/2) at Ω = 2ω₀",
     "1/s",
-    where="A positive rate grows.",
+    where="A negative rate decays, a positive rate grows.",
     checked=(MODULATION,),
     source="Kovalenko 2010, (22), as rates in time",
 )
@@ -316,13 +321,16 @@ def free_rates(kappa: float, natural: float, decay: float) -> tuple[float, float
 
 
 @formula(
-    "Damping on the edge of the tongue, averaged",
+    "Damping at the edge of the instability region, averaged",
     "h_a/(κ_a·ω₀) = ½·√{1 − 16·[(ω₀/Ω − ½)/κ_a]²}",
     "1",
-    where="Without damping the arm grows where |ω₀/Ω − ½| < κ_a/4; above that it does not grow at all.",
-    assumed="small κ_a; the tongue at Ω = 2ω₀, the only one that counts",
+    where=(
+        "Without damping the arm's motion grows if |ω₀/Ω − ½| < κ_a/4. Outside this range it does not grow at any "
+        "damping."
+    ),
+    assumed="small κ_a; the instability region at Ω = 2ω₀, the only one of practical size",
     source="Kovalenko 2010, (20) to (23)",
-    printed='the matrix "E = (0 0; 0 1)" is the unit matrix',
+    published='the matrix "E = (0 0; 0 1)" is a misprint of the unit matrix',
 )
 def averaged_edge(kappa: float, ratio: float) -> float:
     """

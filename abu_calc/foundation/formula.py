@@ -1,7 +1,7 @@
-"""Registry of formulas and of their signs: `abu explain`, `help()` and range checks are made of it.
+"""Registry of formulas and their symbols, the source of `abu explain`, `help()` and range checks.
 
-A formula is registered where it stands, by the decorator of the function (or class) that computes it. A sign means one
-thing in all of abu-calc; its unit is given as files have it, and in SI.
+The decorator of the function (or class) that computes a formula registers it. A symbol has one meaning in all of
+abu-calc. Its unit is given as in files and in SI.
 """
 
 import importlib
@@ -24,14 +24,14 @@ SI_NAMES: Final = {
     "MPa": "Pa", "GPa": "Pa", "kN": "N", "kN_per_m": "N/m", "mm_per_s": "m/s",
     "min": "s",
 }  # fmt: skip
-"""SI unit of what files have in another."""
+"""SI unit of quantities that files give in another unit."""
 IN_FILES: Final = {"m": "mm", "kg m": "g_mm", "Pa": "MPa", "rad": "deg", "rad/s": "rpm", "m/s": "mm_per_s"}
-"""The other way, as numbers of results have it."""
+"""The inverse: unit of numbers in results."""
 FUNCTIONS: Final = "sin cos tan arcsin arccos arctan lg ln exp Re Im arg min max det e^ dε ds_w dx_s π Σ ᵀ °C MPa mm"
 SHORT: Final = "at of by to so in an or and i j k"
-"""Short words, the imaginary unit, running numbers."""
+"""Short words, the imaginary unit, indices."""
 WORDS: Final = frozenset(f"{FUNCTIONS} {SHORT}".split())
-"""Words of a formula that are no symbols."""
+"""Words of a formula that are not symbols."""
 
 
 class Sign(NamedTuple):
@@ -43,7 +43,7 @@ class Sign(NamedTuple):
 
 @cache
 def signs() -> dict[str, Sign]:
-    """All of them."""
+    """All symbols by name."""
     text = Path(__file__).with_name("symbols.toml").read_text(encoding="utf-8")
     return {name: Sign(*entry) for name, entry in tomllib.loads(text).items()}
 
@@ -55,7 +55,7 @@ def _pattern() -> re.Pattern[str]:
 
 
 def signs_in(equation: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Signs of an equation in their order, and letters that are none.
+    """Symbols of an equation in their order, and letters that are not symbols.
 
     >>> signs_in("β = arcsin(r/(R−r)), qqq")
     (('β', 'r', 'R'), ())
@@ -77,7 +77,7 @@ def _told(name: str, sign: Sign, *, si: bool) -> str:
 
 
 def unit_name(unit: str, *, si: bool) -> str:
-    """A unit as it is printed: that of files, or that of SI.
+    """A unit as it is shown: that of files, or that of SI.
 
     >>> unit_name("g_mm", si=False), unit_name("g_mm", si=True), unit_name("N_per_m", si=True)
     ('g·mm', 'kg m', 'N/m')
@@ -86,7 +86,7 @@ def unit_name(unit: str, *, si: bool) -> str:
 
 
 def unit_in_files(unit: str) -> str:
-    """The unit in which files and reports have what is in this unit of SI; itself where that is the same.
+    """Unit of files and reports for an SI unit; the same unit if they do not differ.
 
     >>> unit_in_files("kg m"), unit_in_files("rad/s"), unit_in_files("1/s")
     ('g_mm', 'rpm', '1/s')
@@ -95,7 +95,7 @@ def unit_in_files(unit: str) -> str:
 
 
 def in_files(limits: Range) -> str:
-    """A range of a quantity in the unit that files have.
+    """A range in the unit of files.
 
     >>> in_files(Range("speed", 0.0, 100.0, unit="rad/s"))
     '0 … 954.93 rpm'
@@ -108,7 +108,7 @@ def in_files(limits: Range) -> str:
 
 
 def conversions(units: tuple[str, ...]) -> str:
-    """Conversions from the units of files to SI, of those that differ.
+    """Conversions from units of files to SI, for units that differ.
 
     >>> conversions(("mm", "kg", "g"))
     '1 mm = 0.001 m, 1 g = 0.001 kg'
@@ -127,7 +127,7 @@ _Computes = TypeVar("_Computes", bound=Callable[..., Any])
 class Formula:
     """Shown parts of a formula. Indented lines of `where` are equations, not wrapped.
 
-    `checked` is the range that the code refuses to leave, `assumed` the part of it that nothing checks.
+    `checked` is the range outside which the code refuses to compute, `assumed` a condition that nothing checks.
     """
 
     key: str
@@ -140,59 +140,60 @@ class Formula:
     checked: tuple[Range | str, ...] = ()
     assumed: str = ""
     source: str = ""
-    printed: str = ""
-    """Differences in the source's formula as published."""
+    published: str = ""
+    """Differences and errors in the formula as published."""
     signs: str = ""
     """Symbols that are not in the equation, but in the text beside it."""
     shown: str = ""
     """Unit in which results have it, as keys name it, where that is not the usual one of files for `unit`."""
     own_units: bool = False
-    """The equation takes no SI: it, or what is said beside it, names its units."""
+    """True if the equation does not take SI; equation or `where` then names its units."""
 
     @property
     def name(self) -> str:
         """The name in words.
 
-        >>> Formula("sizing.case:RigidMachine.effective_mass", "Mass felt at a place").name
+        >>> Formula("sizing.case:RigidMachine.effective_mass", "Effective mass at a place").name
         'effective mass'
         """
         return self.key.replace(":", ".").rsplit(".", 1)[-1].replace("_", " ")
 
     @property
     def paragraphs(self) -> tuple[str, ...]:
-        """All it says, a paragraph each: what it gives, signs with their units in SI, range, source, print."""
+        """Texts in SI, one paragraph each: equation, symbols, explanation, range, source, errors as published."""
         unit = f" [{self.unit}]" if self.unit else ""
-        ranges = self._ranges([f"{span.name} {span}" if isinstance(span, Range) else span for span in self.checked])
-        return self._said(unit, ranges, si=True)
+        limits = [f"{span.name} {span}" if isinstance(span, Range) else span for span in self.checked]
+        return self._said(unit, limits, si=True)
 
     @property
     def for_users(self) -> tuple[str, ...]:
-        """The same in the units of files and reports; `file_units` lists them."""
+        """The same texts in the units of files and reports; `file_units` lists them."""
         unit = ", ".join(unit_name(single_unit, si=False) for single_unit in self._result_units)
         limits = [span if isinstance(span, str) else f"{span.name} {in_files(span)}" for span in self.checked]
-        said = self._said(f" [{unit}]" if unit else "", self._ranges(limits), si=False)
+        said = self._said(f" [{unit}]" if unit else "", limits, si=False)
         place = 1 + bool(self._names)
         return (*said[:place], *(["This equation takes these units, not SI."] if self.own_units else ()), *said[place:])
 
     @property
     def file_units(self) -> tuple[str, ...]:
-        """Units of files and reports in which people see its numbers, while the equation takes SI."""
+        """Units of its numbers in files and reports, if the equation takes SI."""
         return () if self.own_units else (*self._result_units, *(signs()[name].unit for name in self._names))
 
     @property
     def _result_units(self) -> list[str]:
         return self.shown.split(", ") if self.shown else list(map(unit_in_files, filter(None, self.unit.split(", "))))
 
-    def _said(self, unit: str, ranges: str, *, si: bool) -> tuple[str, ...]:
+    def _said(self, unit: str, limits: list[str], *, si: bool) -> tuple[str, ...]:
         equation = f": {self.equation}" if self.equation else ""
         signs_told = f"{told(self._names, si=si)}." if self._names else ""
-        labelled = (("Range", ranges), ("Source", self.source), ("Printed", self.printed))
+        labelled = (
+            ("Range", f"{', '.join(limits)} (checked)" if limits else ""),
+            ("Assumed", f"{self.assumed} (not checked)" if self.assumed else ""),
+            ("Source", self.source),
+            ("As published", self.published),
+        )
         parts = (f"{self.gives}{equation}{unit}.", *([signs_told] if signs_told else ()), *self.where.splitlines())
         return (*parts, *(f"{name}: {text}." for name, text in labelled if text))
-
-    def _ranges(self, limits: list[str]) -> str:
-        checked = [f"{', '.join(limits)} (checked)"] if limits else []
-        return "; ".join([*checked, *([f"{self.assumed} (not checked)"] if self.assumed else [])])
 
     @property
     def _names(self) -> tuple[str, ...]:
@@ -201,7 +202,7 @@ class Formula:
 
     @property
     def text(self) -> str:
-        """The same in one piece.
+        """The paragraphs as one text.
 
         >>> print(Formula("a:b", "Time", "2·k", "s", checked=(Range("k", 0, 1),), source="derived").text)
         Time: 2·k [s].
@@ -217,14 +218,14 @@ REGISTERED: Final[dict[str, Formula]] = {}
 
 def formula(
     gives: str, equation: str = "", unit: str = "", *, where: str = "", checked: tuple[Range | str, ...] = (),
-    assumed: str = "", source: str = "", printed: str = "", signs: str = "", shown: str = "", own_units: bool = False,
+    assumed: str = "", source: str = "", published: str = "", signs: str = "", shown: str = "", own_units: bool = False,
 ) -> Callable[[_Computes], _Computes]:  # fmt: skip
-    """Decorates what computes a formula: registers it, and lets `help()` say it before the docstring's examples."""
+    """Decorator that registers a formula and puts its text before the examples in the docstring of its function."""
 
     def registered(computes: _Computes) -> _Computes:
         key = f"{computes.__module__}:{computes.__qualname__}".removeprefix(_PACKAGE)
         entry = register(
-            Formula(key, gives, equation, unit, where, checked, assumed, source, printed, signs, shown, own_units)
+            Formula(key, gives, equation, unit, where, checked, assumed, source, published, signs, shown, own_units)
         )
         computes.__doc__ = "\n\n".join(filter(None, (entry.text, inspect.cleandoc(computes.__doc__ or ""))))
         return computes
@@ -233,7 +234,7 @@ def formula(
 
 
 def register(entry: Formula) -> Formula:
-    """Registers a formula that no function of its module computes."""
+    """Register a formula that no function of its module computes."""
     REGISTERED[entry.key] = entry
     return entry
 

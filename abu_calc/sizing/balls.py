@@ -16,7 +16,7 @@ from abu_calc.sizing.budget import (
     ResidualBudget,
     budget_where_worst,
     fan,
-    oval_rest,
+    ovality_residual,
     permitted_displacement,
 )
 from abu_calc.sizing.capacity import Requirement, required_capacity
@@ -184,11 +184,11 @@ class AutobalancerChoice:
 
 
 @formula(
-    "The best of every stock diameter × count up to n* × race radius in the envelope",
+    "Best of all combinations of stock diameter, number of balls up to n* and race radius in the envelope",
     where=(
-        "Enough capacity comes first, then strength, a race that stays round, the accuracy budget, the mass fraction, "
-        "no more than a dozen balls, and the least mass (ties: the smaller ball). Of each diameter and count the "
-        "smallest sufficient race stands for the rest: a larger one is heavier."
+        "The criteria rank in this order: capacity, strength, roundness of the race, residual-displacement budget, "
+        "mass fraction, at most a dozen balls, least mass. At equal mass the smaller ball ranks first. For each "
+        "diameter and number, only the smallest sufficient race is ranked, because a larger one is heavier."
     ),
 )
 def choose(case: Case, imbalance: float) -> AutobalancerChoice:
@@ -261,7 +261,7 @@ def evaluate(case: Case, imbalance: float, count: int, diameter: float, race_rad
     oval = roundness(case, stress.ball_force, race_radius, diameter)
     balls = CandidateBalls(count, ball_mass, diameter / 2, pitch, held, oval.lobes)
     budget = budget_where_worst(case, imbalance, need, balls, angles)
-    stays_round = oval_rest(oval.unaided) <= permitted_displacement(case, mass, case.speed_range[1])
+    stays_round = ovality_residual(oval.unaided) <= permitted_displacement(case, mass, case.speed_range[1])
     share = mass / case.machine_mass
     return Candidate(
         count, diameter, ball_mass, race_radius, held, need, body, balls, budget, stress, oval, stays_round, share

@@ -83,11 +83,14 @@ def fan(count: int, resultant: float, contact_half_angle: float) -> tuple[float,
 
 
 @formula(
-    "Displacement 0–peak at the wheel that keeps every handle within the limit",
-    "√2·v/Ω, background taken off",
+    "Permitted displacement at the wheel, 0–peak, at which every handle keeps the limit",
+    "√2·v/Ω",
     "m",
     shown="um",
-    where=("v is the limit; divided by the largest motion of a handle per motion of the wheel."),
+    where=(
+        "v is the velocity of the limit. The program first subtracts the background as energy. It then divides by the "
+        "largest motion of a handle per motion of the wheel."
+    ),
     source="Kladiev 1996 (limit)",
 )
 def permitted_displacement(case: Case, added_mass: float, speed: float) -> float:
@@ -123,8 +126,8 @@ def accuracy_budget(
         speed=speed,
         race_eccentricity=case.race_eccentricity,
         rolling_friction=min(band, (balls.count * balls.moment + carried) / need.effective_mass),
-        race_ovality=oval_rest(balls.lobes) * (speed / case.speed_range[1]) ** 2,
-        plane_offset=plane_rest(case, imbalance, need.added_mass),
+        race_ovality=ovality_residual(balls.lobes) * (speed / case.speed_range[1]) ** 2,
+        plane_offset=plane_residual(case, imbalance, need.added_mass),
         capacity_shortfall=missing * resonance_factor(case.suspension, speed, need.effective_mass) if missing else 0.0,
         permitted=permitted_displacement(case, need.added_mass, speed),
         resting_angles=angles,
@@ -149,26 +152,29 @@ def judged_speeds(case: Case) -> tuple[float, ...]:
 
 
 @formula(
-    "Displacement that two lobes of the race can leave",
+    "Spindle displacement that two-lobe ovality of the race can leave",
     "n_k·a_k, n_k = 2",
     "m",
     shown="um",
-    where=("A ball rests where its race slopes no more than the displacement pulls: n_k lobes slope by n_k·a_k/R_p."),
+    where=(
+        "A ball rests if the slope of its race is at most the pull of the displacement. The slope of n_k lobes is "
+        "n_k·a_k/R_p."
+    ),
     source="derived",
 )
-def oval_rest(lobes: float) -> float:
+def ovality_residual(lobes: float) -> float:
     return 2 * lobes
 
 
 @formula(
-    "Displacement that rests at the wheel when balls in another plane have stilled the race",
+    "Displacement that remains at the wheel if balls in another plane have stilled the race",
     "U·(1/M + a_w²/J_c) − V·(1/M + a_w·a_r/J_c), V = U·(plane ratio)",
     "m",
     shown="um",
-    assumed="rigid body well above its suspension",
+    assumed="as for the plane ratio",
     source="derived",
 )
-def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
+def plane_residual(case: Case, imbalance: float, added_mass: float) -> float:
     body, ratio = case.body, plane_ratio(case, added_mass)
     by_imbalance = body.inertance(body.wheel, body.wheel, added_mass)
     by_balls = ratio * body.inertance(body.wheel, case.race_place, added_mass)
@@ -179,7 +185,7 @@ def plane_rest(case: Case, imbalance: float, added_mass: float) -> float:
     "Velocity level of a displacement at a speed",
     "v = w·Ω/√2",
     "dB",
-    where="A background is added as energy. A place at rest is given the floor of 0 dB.",
+    where="A background level is added as energy. A place at rest has the floor of 0 dB.",
 )
 def displacement_level(displacement: float, speed: float, background: float | None = None) -> float:
     """

@@ -22,19 +22,19 @@ class Requirement:
     eccentricity_part: float
     plane_ratio: float
     required: float
-    printed_limit: float
+    published_limit: float
     compliant: float | None
 
 
 @formula(
-    "Share of Mε that a rigid contact asks for",
+    "Share of Mε that a rigid contact requires",
     "√{[(1−ω_x²/Ω²)² + f²(1−ω_y²/Ω²)²]/(1+f²)}",
     "1",
-    where=("Worst place of the runout against the imbalance. It tends to 1 far above resonance."),
+    where="The runout has its least favourable angle to the imbalance. Far above resonance the factor tends to 1.",
     checked=(FRICTION,),
     assumed="rigid contact without separation",
     source="derived by averaging",
-    printed="Kladiev 1996, (6), has the limit 1, on the safe side above resonance",
+    published="Kladiev 1996, (6), uses the limit 1, which is on the safe side above resonance",
 )
 def runout_factor(speed: float, natural_frequencies: tuple[float, float], friction: float) -> float:
     """
@@ -47,12 +47,13 @@ def runout_factor(speed: float, natural_frequencies: tuple[float, float], fricti
 
 
 @formula(
-    "Balls' imbalance in the race plane per imbalance in the wheel plane that stills the race",
+    "Imbalance of the balls in the race plane that stills the race, per imbalance in the wheel plane",
     "(1/M + a_r·a_w/J_c)/(1/M + a_r²/J_c)",
     "1",
     where=(
-        "1 in one plane, negative for a race beyond the node of the wheel, where the balls gather on the other side. "
-        "What rests at the wheel is in the accuracy budget."
+        "The ratio is 1 if both planes coincide. It is negative for a race beyond the node of the wheel: there the "
+        "balls gather on the other side. The displacement that remains at the wheel is part of the "
+        "residual-displacement budget."
     ),
     assumed="rigid body well above its suspension",
     source="derived",
@@ -75,18 +76,18 @@ def steady_contact(case: Case, added_mass: float, *, damped: bool) -> SteadyCont
 
 
 @formula(
-    "Capacity need",
-    "m₀e + M·ε·√{…} + M·Δ, the first two times the ratio of the planes",
+    "Imbalance that the balls must be able to balance",
+    "m₀e + M·ε·√{…} + M·Δ, the first two times the plane ratio",
     "kg m",
     where=(
-        "Of a machine that tilts M is the mass felt at the wheel, with the autobalancer; ε counts only when the "
-        "contact presses radially; √{…} is the runout factor. Beside it: the printed limit m₀e + Mε (Kladiev 1996, "
-        "(6)), and what a compliant contact asks for: m₀e + ε·c_n·|D_x − i·s·f·D_y|/(Ω²·|D_x + D_y + c_n(1 + "
-        "i·s·f)|) + M·Δ."
+        "If the machine tilts, M stands for its effective mass with the autobalancer: at the wheel, and in M·Δ at the "
+        "race. ε counts only if the contact presses radially. √{…} is the runout factor. The published limit m₀e + "
+        "Mε (Kladiev 1996, (6)) is given for comparison. A compliant contact requires m₀e + ε·c_n·|D_x − "
+        "i·s·f·D_y|/(Ω²·|D_x + D_y + c_n(1 + i·s·f)|) + M·Δ, the first two times the plane ratio."
     ),
     assumed="above resonance",
-    source="derived; practice of the shop floor for Δ",
-    printed="(6) leaves out the race's eccentricity, the planes, and that balls have a size (see balls)",
+    source="derived; Δ from workshop practice",
+    published="(6) leaves out race eccentricity, plane ratio and the size of the balls (see `abu explain balls`)",
 )
 def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requirement:
     mass = case.body.effective_mass(added_mass)
@@ -110,6 +111,6 @@ def required_capacity(case: Case, imbalance: float, added_mass: float) -> Requir
         eccentricity_part=eccentricity,
         plane_ratio=ratio,
         required=(imbalance + runout) * abs(ratio) + eccentricity,
-        printed_limit=imbalance + mass * case.runout,
+        published_limit=imbalance + mass * case.runout,
         compliant=compliant,
     )

@@ -35,8 +35,8 @@ class RigidMachine:
         "Acceleration at one place per force at another",
         "I_a = 1/M + a_p·a_q/J_c",
         "1/kg",
-        where=("`added` is what the autobalancer adds to M."),
-        assumed="well above the suspension's frequencies",
+        where="M includes the autobalancer.",
+        assumed="frequencies well above those of the suspension",
         source="Newton–Euler of a free rigid body in the plane",
     )
     def inertance(self, at: float, force_at: float, added: float = 0.0) -> float:
@@ -47,11 +47,11 @@ class RigidMachine:
         return 1 / (self.mass + added) + at * force_at * self.inverse_inertia
 
     @formula(
-        "Mass felt at a place, that of the wheel unless another is named",
+        "Effective mass at a place, at the wheel unless another place is named",
         "1/m_eff = 1/M + a_p²/J_c",
         "kg",
-        assumed="well above the suspension's frequencies",
-        source="Newton–Euler of a free rigid body in the plane",
+        assumed="as for the inertance",
+        source="the inertance with force and motion at one place",
     )
     def effective_mass(self, added: float = 0.0, at: float | None = None) -> float:
         place = self.wheel if at is None else at

@@ -7,7 +7,7 @@ from abu_calc.foundation.formula import formula
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.units import from_si, to_si
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import oval_rest
+from abu_calc.sizing.budget import ovality_residual
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.track import Track
 from abu_calc.standards.tolerance_classes import DeviationLimits, part_limits
@@ -38,11 +38,11 @@ class DrawingRequirement:
 
 
 @formula(
-    "What one more displacement costs",
+    "Increase of the level by one more displacement",
     "20·lg(√(w² + w_d²)/w)",
     "dB",
-    where="w is what stays without it.",
-    assumed="independent parts",
+    where="w is the displacement without it.",
+    assumed="independent displacements",
     source="root of the sum of squares",
 )
 def extra_level(residual: float, part: float) -> float:
@@ -134,8 +134,8 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
         DrawingRequirement(
             "web and cover",
             "both must carry the wall, the cover without clearance: two-lobe ovality then leaves "
-            f"{_um(oval_rest(oval.lobes))} µm, with one web alone {_um(oval_rest(oval.unaided))} µm; the diameter of "
-            f"a free ring would grow by {_um(oval.free_ring)} µm",
+            f"{_um(ovality_residual(oval.lobes))} µm, with one web alone {_um(ovality_residual(oval.unaided))} µm; "
+            f"the diameter of a free ring would grow by {_um(oval.free_ring)} µm",
         ),
         DrawingRequirement("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
     )

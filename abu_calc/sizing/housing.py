@@ -69,14 +69,13 @@ class Housing:
     "R_g = r + (5/7)(R − r), from 5(R−r) = 7(R_g−r)",
     "m",
     where=(
-        "Then the ball's natural frequency across the groove equals the speed at any speed, and axial runout shakes "
-        "out dry friction."
+        "With this radius, the ball's natural frequency across the groove equals the speed, whatever the speed is. "
+        "Axial runout then shakes out dry friction. If the ball is free to spin about the contact normal, the square "
+        "of its frequency is Ω²[(5/7)(R−r)/(R_g−r) + 2/7]. The resonance is then at R_g = R. A real ball lies between "
+        "both cases."
     ),
-    assumed=(
-        "a ball held from spinning about the contact normal. Free, the square of that frequency is "
-        "Ω²[(5/7)(R−r)/(R_g−r) + 2/7], and the resonance sits at R_g = R; a real ball lies between"
-    ),
-    source="Kladiev 1996, (12), its meaning derived",
+    assumed="a ball that does not spin about the contact normal",
+    source="Kladiev 1996, (12); its meaning is derived here",
 )
 def groove_radius(race_radius: float, ball_radius: float) -> float:
     """
@@ -113,11 +112,12 @@ def groove_depth(groove: float, inner_width: float) -> float:
 @formula(
     "Dimensions and mass of the housing, from rings and discs",
     where=(
-        "Ring R…R+wall of steel, its groove filled toward the edges (exactly, a circle's arc going round); body "
-        "wall, webs and hub of the body's material, thick as the rules of the design say. The body's own web reaches "
-        "its wall, the cover's fits inside the ring. Rollers run on a straight race without groove."
+        "The ring is of steel, from R to R plus the wall. Its groove is filled toward the edges; the volume of the "
+        "turned circular arc is exact. Body wall, webs and hub are of the body's material. The rules of the design "
+        "give their thicknesses. The body's own web reaches its wall, the cover's web fits inside the ring. A race "
+        "for rollers is straight, without a groove."
     ),
-    assumed="a drawing decides",
+    assumed="the drawing gives the final dimensions",
     source="own rules",
 )
 def housing(

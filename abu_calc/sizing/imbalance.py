@@ -25,13 +25,13 @@ class Imbalance:
 
 
 @formula(
-    "Imbalance that shakes a place with a velocity",
+    "Imbalance that causes a given vibration velocity at a place",
     "m₀e = √2·v/(Ω·I_a·k_Ω)",
     "kg m",
     signs="M D_x",
-    where="I_a from wheel to place, 1/M for a point mass; k_Ω = MΩ²/|D_x|.",
-    assumed="one harmonic at Ω; above the suspension's frequencies",
-    source="Kladiev 1996, for a point mass √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is ours",
+    where="I_a is the inertance from wheel to place, 1/M for a point mass; k_Ω = MΩ²/|D_x|.",
+    assumed="one harmonic at Ω, above the natural frequencies of the suspension",
+    source="Kladiev 1996, for a point mass √2·v·M/Ω·|1−(ω₀/Ω)²|; the rigid body is derived here",
 )
 def imbalance_from_level(velocity_rms: float, speed: float, inertance: float, resonance: float = 1.0) -> float:
     """

@@ -35,13 +35,13 @@ class InstrumentValues:
 
 
 @formula(
-    "What instruments show of a velocity at the spindle's frequency",
+    "Readings of instruments for a velocity at the spindle's frequency",
     "s_v = v/Ω, a = Ω·v, a_h = W_h(Ω)·a, a_hv = √2·a_h",
     "m, m/s², m/s², m/s²",
     shown="um, m/s², m/s², m/s²",
-    where=("√2 as one spinning imbalance moves two axes alike and the third, along the spindle, hardly."),
+    where="One spinning imbalance moves two axes alike, and hardly moves the third, along the spindle: hence √2.",
     assumed="one harmonic at Ω; two axes alike",
-    source="ISO 5349-1:2001 for W_h; the harmonic is ours",
+    source="ISO 5349-1:2001 for W_h",
 )
 def readings(velocity: float, speed: float) -> InstrumentValues:
     """
@@ -59,13 +59,13 @@ def readings(velocity: float, speed: float) -> InstrumentValues:
 
 
 @formula(
-    "Rms velocity of one axis from what an instrument showed, lists averaged in velocity",
+    "Rms velocity of one axis from a reading of an instrument; from a list, the mean of its velocities",
     "v = Ω·s_v = a/Ω = a_h/(W_h·Ω) = a_hv/(√2·W_h·Ω)",
     "m/s",
-    where="As what instruments show, the other way.",
+    where="This is the inverse of the formula of the readings.",
     checked=("W_h at 5.62 … 1413 Hz",),
-    assumed="one harmonic at Ω; of a sum of three axes two alike and the third nothing",
-    source="ISO 5349-1:2001 for W_h; the mean as Kladiev 1996 averages its octaves",
+    assumed="one harmonic at Ω; in a total of three axes two are alike and the third is zero",
+    source="ISO 5349-1:2001 for W_h; Kladiev 1996 averages its octaves likewise",
 )
 def velocity_shown(shown: Shown, speed: float) -> float:
     """

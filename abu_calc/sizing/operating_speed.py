@@ -18,7 +18,7 @@ from abu_calc.sizing.case import Case, working_speeds
 Region = Literal["subcritical", "between", "supercritical"]
 
 BALL_SHARE = Range(
-    "mass of one ball over the mass felt at the wheel",
+    "mass of one ball over the effective mass at the wheel",
     0.0,
     0.5,
     open_low=True,
@@ -49,18 +49,18 @@ class FrequencyRegion:
 
 
 @formula(
-    "How far above the natural frequency lightly damped balls still fail",
+    "Distance above the natural frequency that two lightly damped balls of finite mass need",
     "(Ω−ω)/Ω > (2m/(J·M))^(1/3)",
     "1",
     signs="n",
     where=(
-        "More damping of the balls narrows the gap. No check rests on it: more balls, and both axes free, need more, "
-        "up to (3nm/(J·M))^(1/3)."
+        "A higher viscous drag rate narrows this gap. More than two balls, or two free axes, widen it up to "
+        "(3nm/(J·M))^(1/3). No check uses it."
     ),
     checked=(BALL_SHARE,),
-    assumed="two balls, one free axis, light damping of balls and support; an estimate where m/M is above 0.1",
+    assumed="two balls, one free axis, light damping of balls and support; an estimate if m/M is above 0.1",
     source="derived from the averaged motion of two opposite balls; confirmed by integration of the full equations",
-    printed="Kladiev 1996, (7), asks only for Ω > ω, which is necessary but not sufficient",
+    published="Kladiev 1996, (7), requires only Ω > ω, which is necessary but not sufficient",
 )
 def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> float:
     """
@@ -72,17 +72,17 @@ def finite_mass_gap(ball_mass: float, mass: float, inertia_factor: float) -> flo
 
 
 @formula(
-    "Speeds at which light balls balance, a zone between the natural frequencies and all above the larger",
+    "Speeds at which light balls balance",
     "1/(Ω²−ω₁²) + 1/(Ω²−ω₂²) > 0",
     "rad/s",
     signs="H_xx H_yy",
     where=(
-        "That holds for ω₁ < Ω < √((ω₁²+ω₂²)/2) and for Ω > ω₂. On any support, with its damping: Re[H_xx + H_yy] < "
-        "0: it moves against the imbalance."
+        "On springs this holds for Ω > ω₂ and for ω₁ < Ω < √((ω₁²+ω₂²)/2). On any support, damping included, the "
+        "condition is Re[H_xx + H_yy] < 0: the support moves against the imbalance."
     ),
-    assumed="light balls; what balls of finite mass need, the eigenvalues tell (ABU103)",
+    assumed="light balls; for balls of finite mass the eigenvalues decide (ABU103)",
     source="derived by averaging; the upper zone is Kladiev 1996, (7)",
-    printed="the thesis knows only the upper zone",
+    published="Kladiev 1996 gives only the upper zone",
 )
 def zones(frequencies: tuple[float, float]) -> tuple[tuple[float, float] | None, float]:
     """

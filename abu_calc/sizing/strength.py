@@ -24,8 +24,9 @@ CURVATURE_RATIO = Range("ratio of the contact's curvatures", 1.0, 100.0)
     "Pa",
     signs="r R R_g r_c R_e E_e E ν",
     where=(
-        "Curvature sums 1/r − 1/R and 1/r − 1/R_g; a_e/b_e = r_c^(2/π), "
-        "b_e³ = 6·(1 + (π/2 − 1)/r_c)·F·R_e/(π·r_c^(2/π)·E_e). Steel on steel. Within 2 % of the elliptic integrals."
+        "The curvature sums are 1/r − 1/R and 1/r − 1/R_g; a_e/b_e = r_c^(2/π), b_e³ = 6·(1 + (π/2 − "
+        "1)/r_c)·F·R_e/(π·r_c^(2/π)·E_e). Ball and race are of steel. The result is within 2 % of the elliptic "
+        "integrals."
     ),
     checked=(CURVATURE_RATIO,),
     assumed="elastic, frictionless",
@@ -62,7 +63,7 @@ def hertz_roller_in_cylinder(force: float, roller_radius: float, race_radius: fl
     "Pressure that leaves no dent",
     "p₀ ≤ 1.6·σ_y, σ_y ≈ 3.25·HV MPa, so 5.2·HV MPa",
     "Pa",
-    where="Catalogues' static limits (4200 MPa) allow a dent that would hold the balls.",
+    where="The static limit of catalogues (4200 MPa) allows a dent that would hold the balls.",
     assumed="hardened steel",
     source="assumed, from engineering practice",
 )
@@ -75,19 +76,19 @@ def permitted_pressure(vickers: float) -> float:
     "ρ·(Ω·R_o)²",
     "Pa",
     assumed="thin ring",
-    source="thin ring",
+    source="thin-ring theory",
 )
 def hoop_stress(speed: float, radius: float, density: float) -> float:
     return density * (speed * radius) ** 2
 
 
 @formula(
-    "What two opposite ball forces would add to the diameter of a free ring",
+    "Growth of the diameter of a free ring under two opposite ball forces",
     "0.149·F·R_o³/(E·I_r), I_r = b_r·h_w³/12",
     "m",
     shown="um",
-    where="A web must carry the wall.",
-    assumed="thin ring with nothing to hold it",
+    where="This growth shows why a web must carry the wall.",
+    assumed="thin ring without support",
     source="thin-ring theory (Timoshenko)",
 )
 def ring_flexure(force: float, radius: float, width: float, wall: float) -> float:
@@ -95,13 +96,12 @@ def ring_flexure(force: float, radius: float, width: float, wall: float) -> floa
 
 
 @formula(
-    "Two lobes of a web, an annular plate in its plane, that two opposite forces pull at its edge",
+    "Amplitude of the two lobes of a web, an annular plate that two opposite forces pull at its edge in its plane",
     "2F/(π·R_o)·R_o/(E·t_w)·[1 + ν/3 + (8/3)·x_i(3 + x_i²)/(1 − x_i)³], x_i = (R_i/R_o)²",
     "m",
     shown="um",
-    where="Amplitude of the part with two lobes.",
-    assumed="plane stress, the inner edge free; R_i = 0 for a hub that the spindle holds, which is stiffer than a disc",
-    source="Airy function of an annulus; for R_i near R_o it is the thin ring",
+    assumed="plane stress, free inner edge; R_i = 0 for a hub that the spindle holds, which is stiffer than a disc",
+    source="Airy function of an annulus; for R_i near R_o it becomes the thin ring",
 )
 def web_lobes(force: float, radius: float, inner_radius: float, thickness: float, modulus: float) -> float:
     """
@@ -115,12 +115,11 @@ def web_lobes(force: float, radius: float, inner_radius: float, thickness: float
 
 
 @formula(
-    "Two lobes of a wall between two webs, which two opposite forces push out half-way",
+    "Amplitude of the two lobes of a wall between two webs, which two opposite forces push out half-way",
     "2F/(π·R_o)·l_w³/(48·D_w), D_w = E·h_w³/(12(1−ν²))",
     "m",
     shown="um",
-    where="Amplitude of the part with two lobes.",
-    assumed="strips of the wall rest on the webs and do not help each other: more than a shell would give",
+    assumed="strips of the wall rest on the webs and do not support each other, which gives more than a shell",
     source="simply supported beam",
 )
 def wall_lobes(force: float, radius: float, width: float, wall: float) -> float:
@@ -128,12 +127,12 @@ def wall_lobes(force: float, radius: float, width: float, wall: float) -> float:
 
 
 @formula(
-    "Two lobes of a wall that a web holds at one edge only, half-way",
+    "Amplitude of the two lobes, half-way, of a wall that a web holds at one edge only",
     "2F/(π·R_o)·l_w·R_o²/(4·D_w·[3(l_w/R_o)² + (9/2)(1 − ν)])",
     "m",
     shown="um",
-    where="Amplitude of the part with two lobes: the wall opens like a bell.",
-    assumed="bending without extension; the web a hinge, though its own bending stiffens it",
+    where="The wall opens like a bell.",
+    assumed="bending without extension; the web acts as a hinge, although its own bending stiffens the wall",
     source="Love's inextensional shell, Rayleigh–Ritz",
 )
 def hinged_wall_lobes(force: float, radius: float, width: float, wall: float) -> float:

@@ -17,8 +17,8 @@ from abu_calc.formulas.swing_arm import (
     growth_rate,
     least_pressing_moment,
     lifted_angles,
+    normal_force,
     parametric_angles,
-    press_force,
     pressed_angle,
     resonance,
     series_gain,
@@ -99,7 +99,7 @@ def swing_arm_bounds(
         joint_stiffness_standing=standing_stiffness(arm),
         least_pressing_moment=least_pressing_moment(arm),
         pressed_angle=angle,
-        press_force=None if angle is None else press_force(arm, angle),
+        press_force=None if angle is None else normal_force(arm, angle),
         checks=(),
     )
     return replace(bounds, checks=doubted(_checks(bounds), table.borrowed()))

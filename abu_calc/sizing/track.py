@@ -11,7 +11,7 @@ from abu_calc.foundation.units import GRAVITY, from_si
 from abu_calc.sizing import trials
 from abu_calc.sizing.actions import followed, pins, set_action, speeds_from
 from abu_calc.sizing.balls import Candidate
-from abu_calc.sizing.budget import oval_rest, permitted_displacement
+from abu_calc.sizing.budget import ovality_residual, permitted_displacement
 from abu_calc.sizing.case import Case
 from abu_calc.sizing.housing import groove_radius
 from abu_calc.sizing.trials import Requirement
@@ -37,10 +37,10 @@ class Track:
 
 
 @formula(
-    "Least speed that carries balls round a horizontal axis",
+    "Lowest speed that carries the balls round a horizontal axis",
     "√(g/R_p)",
     "rad/s",
-    where="Below it balls rattle in the bottom of the race.",
+    where="Below this speed the balls rattle at the bottom of the race.",
     assumed="horizontal spindle",
     source="derived",
 )
@@ -162,7 +162,7 @@ def _faster(case: Case, candidate: Candidate, lowest: float, needed: float) -> A
 def _left(case: Case, candidate: Candidate) -> tuple[float, float]:
     """Displacement that two-lobe ovality leaves with one web alone, and the permitted one [µm]."""
     permitted = permitted_displacement(case, candidate.mass, case.speed_range[1])
-    return from_si(oval_rest(candidate.roundness.unaided), "um"), from_si(permitted, "um")
+    return from_si(ovality_residual(candidate.roundness.unaided), "um"), from_si(permitted, "um")
 
 
 def _roundness(case: Case, candidate: Candidate, top: str) -> Check:
@@ -171,7 +171,7 @@ def _roundness(case: Case, candidate: Candidate, top: str) -> Check:
     The value is compared with all that the level's limit permits.
     """
     left, permitted = _left(case, candidate)
-    drawn = f"{from_si(oval_rest(candidate.roundness.lobes), 'um'):.3g} µm"
+    drawn = f"{from_si(ovality_residual(candidate.roundness.lobes), 'um'):.3g} µm"
     required = Requirement("the displacement by two-lobe ovality", "µm", lambda *given: _left(*given)[0],
                            lambda *given: _left(*given)[1], lambda _, other: other.stays_round,
                            "the permitted displacement")  # fmt: skip

@@ -118,15 +118,16 @@ class SpeedLevels:
 
 
 @formula(
-    "Idle levels: before, the whole imbalance without autobalancer; after, what the accuracy budget leaves",
+    "Idle levels: without autobalancer by the whole imbalance, with it by the residual-displacement budget",
     "v = Ω·w/√2",
     "dB",
     where=(
-        "Times the motion of the place per motion of the wheel; in the louder of x and y; the background added as "
-        "energy. Where balls cannot balance there is no level after."
+        "The displacement is multiplied by the motion of the place per motion of the wheel. The louder of x and y "
+        "counts. The background is added as energy. If the balls cannot balance, there is no level with the "
+        "autobalancer."
     ),
     assumed="steady state",
-    source="Kladiev 1996 (level and limit); the rigid body and the budget are ours",
+    source="Kladiev 1996 (level and limit); rigid body and budget are derived here",
 )
 def idle_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> VibrationLevels:
     mass = case.body.effective_mass()
@@ -193,17 +194,21 @@ class LevelsUnderLoad:
 
 
 @formula(
-    "Levels under load by steady contact without separation: information, the contact's stiffness is uncertain",
+    (
+        "Levels under load by steady contact without separation, as information because the contact stiffness is "
+        "uncertain"
+    ),
     "",
     "dB",
     where=(
-        "Before: the imbalance and the runout at the file's angle, without autobalancer. After: the balls balance the "
-        "forward whirl, and what stays is added to the budget's residual as squares; none where balls cannot balance, "
-        "or where the contact asks for more than they carry. A face contact does not press radially: idle. Where the "
-        "force between wheel and work would pull, they part, and neither holds: the simulation of grinding gives the "
-        "level after."
+        "Without the autobalancer, the imbalance acts with the runout at the file's angle. With it, the balls balance "
+        "the forward whirl. The remaining motion is added to the residual of the budget, as the root of the sum of "
+        "squares. If the balls cannot balance, or the contact requires more than their capacity, there is no level "
+        "with the autobalancer. A face contact does not press radially: the idle levels hold. If the contact force "
+        "would have to pull, wheel and workpiece lose contact, and neither level holds. The simulation of grinding "
+        "then gives the level with the autobalancer."
     ),
-    assumed="no separation of wheel and work",
+    assumed="wheel and workpiece keep contact",
     source="derived",
 )
 def loaded_vibration(case: Case, imbalance: float, candidate: Candidate, possible: bool) -> LevelsUnderLoad | None:

@@ -101,7 +101,7 @@ def third_octaves() -> tuple[ThirdOctave, ...]:
     "Weighting of hand-transmitted accelerations by frequency",
     "W_h = ξ²ω_b²/((ξ²+ξω_a/Q_a+ω_a²)(ξ²+ξω_b/Q_a+ω_b²)) · (ξ+ω_c)ω_c/(ξ²+ξω_c/Q_c+ω_c²)",
     "1",
-    where="Within 1 % of table A.2.",
+    where="Table A.2 of the standard agrees within 1 %.",
     source="ISO 5349-1:2001, annex A",
 )
 def hand_arm_response(s: Any) -> Any:
@@ -202,9 +202,9 @@ def balance_grades() -> dict[str, float]:
     "Permissible residual imbalance of a rotor",
     "U_per = G_e·m_R/Ω",
     "kg m",
-    where="In user units U_per = 9549·G_e·m_R/Ω in g·mm, by the grade in mm/s, kg and rpm.",
+    where="In other units: U_per = 9549·G_e·m_R/Ω in g·mm, with G_e in mm/s, m_R in kg and Ω in rpm.",
     checked=(_MASS, _SPEED, "a grade of the list"),
-    assumed="rotors in a constant (rigid) state",
+    assumed="rotors with rigid behaviour",
     source="ISO 21940-11:2016",
 )
 def permissible_imbalance(grade: str, mass: float, speed: float) -> float:

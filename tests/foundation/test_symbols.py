@@ -26,7 +26,7 @@ def test_every_sign_is_told(one: Formula) -> None:
     equations = [one.equation, *(line for line in one.where.splitlines() if line.startswith("    "))]
     assert [letter for equation in equations for letter in signs_in(equation)[1]] == []
     assert set(one.signs.split()) <= signs().keys()
-    said = " ".join((one.gives, one.where, one.assumed, one.printed, one.source))
+    said = " ".join((one.gives, one.where, one.assumed, one.published, one.source))
     assert {name for name in INDEXED.findall(said) if name not in {"Q_L", "e_r"}} <= signs().keys()
     # No sentence gives a sign another meaning, or a unit: both stand in the list.
     assert not re.search(r"\[(m|kg|rad|rad/s|Pa|N|1/s|m/s|kg m)\]", said)
@@ -104,7 +104,7 @@ def test_results_in_micrometres_hertz_and_kilonewtons_are_explained_in_them() ->
     for name in ("friction band", "permitted displacement", "probable interference", "clearance left"):
         assert shown[name].endswith("[µm].")
     assert shown["natural frequency"].endswith("[Hz].") and shown["natural frequencies"].endswith("[Hz].")
-    assert shown["load intensity"].endswith("[kN/m].") and shown["printed answer"].endswith("[°, g].")
+    assert shown["load intensity"].endswith("[kN/m].") and shown["published answer"].endswith("[°, g].")
     assert "1 µm = 1e-6 m" in conversions(formula_of("formulas.friction_band:friction_band").file_units)
     assert formula_of("formulas.friction_band:friction_band").paragraphs[0].endswith("[m].")
 

@@ -50,8 +50,8 @@ BANNED: Final = {
 }
 """Words and phrases that the glossary replaces, where they have no other meaning in these texts."""
 HEADLESS: Final = re.compile(r"(?:What|Of|Where|Who)\s")
-TIMED: Final = "Cost:"
-"""Beginning of sentences with computing times, which are equal by chance."""
+REPEATING: Final = ("Cost:", "Range:")
+"""Beginnings of sentences that may repeat: computing times are equal by chance, formulas share ranges."""
 SENTENCE: Final = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 ONE_OF_MANY: Final = re.compile(
     r"(?<![\d.,–-])\b1 (?!is |was |has |as |its |this |less |across |warns\b|fails\b|passes\b|×)"
@@ -117,7 +117,12 @@ def violations(text: str, place: str, *, repeats: bool = True) -> Iterator[Viola
                 yield Violation(f"{words} words", _normal(sentence), place)
             if HEADLESS.match(sentence) and not sentence.endswith("?"):
                 yield Violation("headless", _normal(sentence), place)
-            if repeats and words > 5 and sentence in seen and not sentence.startswith(TIMED):
+            if (
+                repeats
+                and words > 5
+                and sentence in seen
+                and not (sentence.startswith(REPEATING) or LEGEND.search(sentence))
+            ):
                 yield Violation("twice", _normal(sentence), place)
             seen.add(sentence)
 

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from abu_calc.sizing import size
-from abu_calc.sizing.budget import displacement_level, fan, oval_rest, permitted_displacement, plane_rest
+from abu_calc.sizing.budget import displacement_level, fan, ovality_residual, permitted_displacement, plane_residual
 from abu_calc.sizing.case import read_case
 from tests.sizing.machines import PINNED, machine
 
@@ -46,7 +46,7 @@ def test_what_the_balls_cannot_carry_stays_in_the_level() -> None:
 
 
 def test_two_lobes_are_opposite_balls_at_twice_their_amplitude() -> None:
-    assert oval_rest(1.5e-6) == pytest.approx(3e-6)
+    assert ovality_residual(1.5e-6) == pytest.approx(3e-6)
 
 
 def test_a_background_as_loud_as_the_limit_permits_nothing() -> None:
@@ -62,8 +62,8 @@ def test_a_background_as_loud_as_the_limit_permits_nothing() -> None:
 
 def test_nothing_stays_at_the_wheel_if_the_race_is_in_its_plane() -> None:
     body = {"machine__transverse_inertia_kg_m2": 0.1, "machine__center_of_mass_to_wheel_mm": 200.0}
-    assert plane_rest(read_case(machine(**body)), 250e-6, 0.2) == pytest.approx(0.0, abs=1e-18)
-    assert plane_rest(read_case(machine(**body, autobalancer__plane_offset_mm=-30.0)), 250e-6, 0.2) > 1e-7
+    assert plane_residual(read_case(machine(**body)), 250e-6, 0.2) == pytest.approx(0.0, abs=1e-18)
+    assert plane_residual(read_case(machine(**body, autobalancer__plane_offset_mm=-30.0)), 250e-6, 0.2) > 1e-7
 
 
 def test_a_displacement_at_rest_has_the_level_of_the_background() -> None:

@@ -57,7 +57,7 @@ def test_need_of_a_machine_by_hand() -> None:
     need = required_capacity(case, 250e-6, 0.25)
     share = 1 - 6.2 / 6.45 * (2.5 / (5800 / 60)) ** 2
     assert need.required == pytest.approx(250e-6 + 6.45 * 0.09e-3 * share + 6.45 * 0.01e-3, rel=1e-9)
-    assert need.printed_limit == pytest.approx(250e-6 + 6.45 * 0.09e-3, rel=1e-9)
+    assert need.published_limit == pytest.approx(250e-6 + 6.45 * 0.09e-3, rel=1e-9)
     assert need.compliant is None
 
 

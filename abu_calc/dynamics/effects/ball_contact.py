@@ -106,15 +106,15 @@ class BallContactEffect(Effect):
 
     name: ClassVar[str] = "ball_contact"
     kind: ClassVar[Kind] = "dissipative"
-    about: ClassVar[str] = "Balls of one race cannot pass each other: they meet, press and part"
+    about: ClassVar[str] = "Ball contact: balls of one race cannot pass each other; they collide, press and separate"
     detail: ClassVar[str] = (
-        "Rule of impacts: touching pairs meet one after the other, the fastest approach first, and each leaves "
-        "-restitution times its speed of approach. Balls that touch in a row have no order of impacts of their own. "
+        "Rule of impacts: touching pairs collide one after the other, the fastest approach first. Each pair leaves at "
+        "-restitution times its speed of approach. For balls that touch in a row, physics gives no order of impacts. "
         "This order passes an elastic impact to the end of a row, keeps momentum and never adds energy. Another order "
-        "changes speeds by up to 0.9 % of the hit (six equal balls, restitution 0.5): 2° in 0.18 s after a hit at "
-        "1200°/s, and nothing for restitution 0 or 1. Rebounds that would part pressed balls by less than 1e-6 rad "
-        "(up to 1e-4 rad at a loose tolerance) are none: those pairs are resolved at once and move together. The cost "
-        "is the number of impacts, which grows fast for many pressed balls with a restitution near 1."
+        "changes speeds by up to 0.9 % of the impact speed (six equal balls, restitution 0.5). That is 2° in 0.18 s "
+        "after an impact at 1200°/s, and nothing for restitution 0 or 1. Rebounds that would separate pressed balls by "
+        "less than 1e-6 rad (up to 1e-4 rad at a loose tolerance) are left out. Such pairs move together at once. The "
+        "cost is the number of impacts, which grows fast for many pressed balls with a restitution near 1."
     )
     switches: ClassVar[bool] = True
     balls_meet: ClassVar[bool] = True

@@ -48,7 +48,7 @@ class DryRollingFrictionEffect(Effect):
     name: ClassVar[str] = "dry_rolling_friction"
     kind: ClassVar[Kind] = "dissipative"
     about: ClassVar[str] = (
-        "Dry rolling friction: a ball stands still in its race until it is pulled harder than f times its normal force"
+        "Dry rolling friction: a ball rests in its race until the pull on it exceeds f times its normal force"
     )
     switches: ClassVar[bool] = True
 

@@ -87,7 +87,7 @@ class GrindingContactEffect(Effect):
 
     name: ClassVar[str] = "grinding_contact"
     kind: ClassVar[Kind] = "driven"
-    about: ClassVar[str] = "Grinding contact: the wheel is pressed to the work on the −y side, where it cuts"
+    about: ClassVar[str] = "Grinding contact: the wheel is pressed to the workpiece on its −y side, and cuts there"
     switches: ClassVar[bool] = True
     whole_run: ClassVar[bool] = True
 

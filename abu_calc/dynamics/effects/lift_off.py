@@ -61,7 +61,7 @@ class LiftOffEffect(Effect):
 
     name: ClassVar[str] = "lift_off"
     kind: ClassVar[Kind] = "conservative"
-    about: ClassVar[str] = "Lift-off: the work presses the disk of a swing arm, and does not pull it"
+    about: ClassVar[str] = "Lift-off: the workpiece can push the disk of a swing arm away, but not pull it"
     table: ClassVar[str] = "scene.swing_arm"
     switches: ClassVar[bool] = True
     whole_run: ClassVar[bool] = True

@@ -34,7 +34,7 @@ class MotorEffect(Effect):
 
     name: ClassVar[str] = "motor"
     kind: ClassVar[Kind] = "driven"
-    about: ClassVar[str] = "A motor of limited power, whose torque falls linearly from stall to its no-load speed"
+    about: ClassVar[str] = "Motor of limited power: its torque falls linearly from standstill to the no-load speed"
 
     @property
     def rotor(self) -> Rotation:

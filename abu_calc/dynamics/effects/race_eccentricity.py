@@ -30,7 +30,7 @@ class RaceEccentricityEffect(Effect):
     name: ClassVar[str] = "race_eccentricity"
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = (
-        "Race eccentricity: the races' centres stand off the axis of rotation by Δ at the angle φ in the rotor"
+        "Race eccentricity: the centres of the races are off the axis of rotation by Δ, at the angle φ in the rotor"
     )
     averaged: ClassVar[bool] = True
 

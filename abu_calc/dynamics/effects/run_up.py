@@ -52,7 +52,7 @@ class RunUpEffect(Effect):
     name: ClassVar[str] = "run_up"
     kind: ClassVar[Kind] = "driven"
     about: ClassVar[str] = (
-        "Run-up and run-down: the rotor's speed rises from 0 to Ω at an even pace, and falls to 0 at the end of the run"
+        "Run-up and run-down: the rotor's speed rises evenly from 0 to Ω, or falls evenly to 0 at the end of the run"
     )
 
     @property

@@ -60,7 +60,7 @@ class TransverseMotionEffect(Effect):
 
     name: ClassVar[str] = "transverse_motion"
     kind: ClassVar[Kind] = "driven"
-    about: ClassVar[str] = "Transverse motion: balls roll across the race too, in its groove, by w along the spindle"
+    about: ClassVar[str] = "Transverse motion: balls also roll across the race, in its groove, by w along the spindle"
     switches: ClassVar[bool] = True
 
     def __post_init__(self) -> None:

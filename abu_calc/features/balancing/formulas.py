@@ -60,7 +60,7 @@ class RollOnRig:
         "M_jj = M_L + M_roll·((l₃+l₄)/L_s)² + J_roll/L_s² on the left, M_R + M_roll·((l₁+l₂)/L_s)² + J_roll/L_s² on "
         "the right."
     ),
-    source="derived; the source has none",
+    source="derived; Didukh 2010 has no damping",
 )
 def support_damping(roll: RollOnRig) -> tuple[float, float]:
     masses, twice = roll.masses, 2 * roll.damping_ratio
@@ -72,7 +72,7 @@ def support_damping(roll: RollOnRig) -> tuple[float, float]:
     "det(C_jk − ω²·M_jk) = 0",
     "rad/s",
     shown="hz",
-    where="Undamped.",
+    where="The damping is left out.",
     source="Lagrange's equations",
 )
 def natural_frequencies(roll: RollOnRig) -> tuple[float, float]:
@@ -88,17 +88,17 @@ def natural_frequencies(roll: RollOnRig) -> tuple[float, float]:
 
 
 @formula(
-    "What the supports' motions are worth as forces and moments about the centre of mass",
+    "Forces and moments about the centre of mass, per motion of the supports and over Ω²",
     "k₁₁ = −M_roll(l₃+l₄)/L_s − M_L + C_L/Ω², k₁₂ = −M_roll(l₁+l₂)/L_s − M_R + C_R/Ω²",
     "kg, kg m",
     shown="kg, kg·m",
     signs="k₂₁ k₂₂ J_roll C_j h_j",
     where=(
-        "k₂₁ = −J_roll/L_s − M_L(l₁+l₂) + C_L(l₁+l₂)/Ω², k₂₂ = J_roll/L_s + M_R(l₃+l₄) − C_R(l₃+l₄)/Ω²; with damping "
-        "C_j + iΩ·h_j in place of C_L and C_R."
+        "k₂₁ = −J_roll/L_s − M_L(l₁+l₂) + C_L(l₁+l₂)/Ω², k₂₂ = J_roll/L_s + M_R(l₃+l₄) − C_R(l₃+l₄)/Ω². With damping, "
+        "C_j + iΩ·h_j replaces C_L and C_R."
     ),
     source="Didukh 2010, derived anew by Lagrange's equations",
-    printed="the line for D1 is missing",
+    published="the line for D1 is missing",
 )
 def kernels(roll: RollOnRig, speed: float) -> Matrix:
     damping, left, right = support_damping(roll), roll.a + roll.b, roll.c + roll.d
@@ -115,14 +115,14 @@ def kernels(roll: RollOnRig, speed: float) -> Matrix:
     signs="X_L X_R A_j ψ_j",
     where=(
         "S_F = k₁₁·X_L + k₁₂·X_R and S_M = k₂₁·X_L + k₂₂·X_R; X_j = A_j·e^{−iψ_j} of the displacement. The mass is "
-        "|Q| over the radius of its plane, the heavy spot −arg Q from the mark against rotation: the quadrant is that "
-        "of the complex number."
+        "|Q| over the radius of its plane. The heavy spot is at −arg Q from the mark, against rotation, in the "
+        "quadrant of the complex number."
     ),
     assumed="rigid roll, small motions across the roll in one direction",
     source="Didukh 2010, in complex form",
-    printed=(
-        "arctan of a quotient, which loses the quadrant (200° comes out as 20° with a negative mass, 90° and 270° as a "
-        "division by zero)"
+    published=(
+        "the arctan of a quotient loses the quadrant: 200° becomes 20° with a negative mass, and 90° and 270° become "
+        "a division by zero"
     ),
 )
 def imbalances(roll: RollOnRig, speed: float, motion: Pair) -> Pair:
@@ -140,7 +140,7 @@ def imbalances(roll: RollOnRig, speed: float, motion: Pair) -> Pair:
 
 
 @formula(
-    "Influence of the planes on the sensors, by the rig's data",
+    "Influence of the planes on the sensors, from the rig's data",
     "W = k_jk⁻¹·(1 1; l₂ −l₃)",
     "m per kg m",
     signs="X_j Q_L Q_R",
@@ -156,14 +156,14 @@ def influence(roll: RollOnRig, speed: float) -> Matrix:
 
 @formula(
     "Displacement of a reading",
-    "X_j = A_j·e^{−iψ_j}, of velocities /(iΩ), of accelerations /(−Ω²)",
+    "X_j = A_j·e^{−iψ_j}, velocities divided by iΩ, accelerations by −Ω²",
     "m",
     shown="um",
     where="ψ_j is the phase of A_j·cos(Ωt − ψ_j).",
     source="differentiation",
-    printed=(
-        "Didukh 2010 names the amplitudes accelerations in (3) and puts them where displacements belong: masses come "
-        "out Ω² times too large and angles 180° off, so that metal would be taken off on the wrong side"
+    published=(
+        "Didukh 2010 calls the amplitudes accelerations in (3), and uses them as displacements. The masses become Ω² "
+        "times too large and the angles are off by 180°, so that metal would be removed on the wrong side"
     ),
 )
 def displacement(quantity: str, amplitude: float, phase: float, speed: float) -> complex:
@@ -180,15 +180,20 @@ ORDERS: Final = {"displacement": 0, "velocity": 1, "acceleration": 2}
 
 
 @formula(
-    "The same as printed: readings as they stand, arctan of a quotient",
+    "Correction by the formula as published, with readings unchanged and the arctan of a quotient",
     "φ_1 = arctan((D2·l₃ + D4)/(D1·l₃ + D3)), m_1 = (D1·l₃ + D3)/(R_1·(l₂+l₃)·cos φ_1)",
     "rad, kg",
     shown="deg, g",
-    where=("Plane 2 with l₂ and minus. For comparison: reports show where it points."),
+    where=(
+        "For plane 2, D1·l₂ − D3 replaces D1·l₃ + D3, and D2·l₂ − D4 replaces D2·l₃ + D4. Reports show this answer "
+        "for comparison."
+    ),
     source="Didukh 2010, (3)–(6)",
-    printed="as here; what is wrong with it stands at the two formulas before",
+    published="as here; the formulas of displacement and imbalances name its errors",
 )
-def printed_answer(roll: RollOnRig, speed: float, readings: Pair, radii: tuple[float, float]) -> tuple[Signed, Signed]:
+def published_answer(
+    roll: RollOnRig, speed: float, readings: Pair, radii: tuple[float, float]
+) -> tuple[Signed, Signed]:
     """The angle is not a number where the quotient has no denominator."""
     left, right = (
         _printed(imbalance, radius) for imbalance, radius in zip(imbalances(roll, speed, readings), radii, strict=True)
@@ -202,9 +207,9 @@ def _printed(imbalance: complex, radius: float) -> Signed:
 
 
 @formula(
-    "Condition number of the way from imbalances to readings",
+    "Condition number of the relation between imbalances and readings",
     "σ_max/σ_min of W",
-    where="How much errors of readings may grow, relative to the whole; 1 is best.",
+    where="Relative errors of the readings may grow by this factor; 1 is best.",
     source="linear algebra",
 )
 def condition_number(matrix: Matrix) -> float:
@@ -225,11 +230,11 @@ def condition_number(matrix: Matrix) -> float:
     "ω_bar = (π/L_s)²·√(E·I_r·L_s/M_roll), I_r = M_roll²/(4π·ρ²·L_s²)",
     "rad/s",
     where=(
-        "E = 206 GPa, ρ = 7850 kg/m³. Held without moment at both ends. A tube of that mass bends later, a roll with "
-        "much mass that does not stiffen it earlier."
+        "E = 206 GPa, ρ = 7850 kg/m³. Both ends are held without moment. A tube of the same mass has a higher bending "
+        "speed. A roll has a lower one if much of its mass does not stiffen it."
     ),
-    assumed="steel, the mass even along the roll",
-    source="Euler and Bernoulli's beam",
+    assumed="steel, mass uniform along the roll",
+    source="Euler–Bernoulli beam",
 )
 def bar_bending_speed(mass: float, length: float) -> float:
     second_moment = mass**2 / (4 * math.pi * STEEL_DENSITY**2 * length**2)

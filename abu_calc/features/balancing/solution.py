@@ -18,7 +18,7 @@ from abu_calc.features.balancing.errors import (
     placing,
     size,
 )
-from abu_calc.features.balancing.formulas import Pair, Signed, influence, natural_frequencies, printed_answer
+from abu_calc.features.balancing.formulas import Pair, Signed, influence, natural_frequencies, published_answer
 from abu_calc.features.balancing.tables import ReadingsFile
 from abu_calc.features.balancing.two_planes import (
     Balancing,
@@ -188,4 +188,4 @@ def _printed(case: Balancing, radii: tuple[float, float]) -> tuple[Signed, Signe
     run = next((run for run in case.runs if not run.weights), None)
     if case.roll is None or run is None:
         return None
-    return printed_answer(case.roll, run.speed, run.readings, radii)
+    return published_answer(case.roll, run.speed, run.readings, radii)

@@ -202,7 +202,7 @@ def size(
         idle_speed_rpm=None if design.case.idle_speed is None else from_si(design.case.idle_speed, "rpm"),
         imbalance_g_mm=from_si(design.imbalance.value, "g_mm"),
         required_capacity_g_mm=from_si(need.required, "g_mm"),
-        required_capacity_limit_g_mm=from_si(need.printed_limit, "g_mm"),
+        required_capacity_limit_g_mm=from_si(need.published_limit, "g_mm"),
         required_capacity_compliant_g_mm=None if need.compliant is None else from_si(need.compliant, "g_mm"),
         autobalancer=AutobalancerRecord.of(design.case.autobalancer, design.autobalancer, design.track),
         section=Section.of(design),

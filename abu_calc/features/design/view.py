@@ -24,8 +24,8 @@ from abu_calc.reporting.parts import (
 from abu_calc.simulation.records import SimulatedScene, StabilityBoundary
 
 CONVENTIONS = (
-    "Amplitudes are 0–peak, velocities of levels rms, levels 20 lg(v / 5e-8 m/s) in the louder of x and y; "
-    "interference is positive when tight; angles of balls are measured from the imbalance in the sense of rotation."
+    "Amplitudes are 0–peak. Levels are 20 lg(v / 5e-8 m/s), v the rms velocity in the louder of x and y. "
+    "Negative interference is clearance. Angles of balls count from the imbalance in the sense of rotation."
 )
 START = (
     "Every scene starts at full speed, with the axis at rest. The balls start at rest in the race, together 20° ahead "
@@ -46,9 +46,9 @@ WAYS = (
 GAPS = (
     "A value counts as assumed if the file leaves it to the default, or gives the same figure. The table lists the "
     "three assumed values that most move the verdict, for the balls and the race of this design. Levels are "
-    "calculated, as expected and in the worst friction case. The settling time is simulated, for the start case "
-    "that is slowest as the file stands. At other drag rates it is that of the slowest start case there. Usual ranges "
-    "are engineering practice (unverified)."
+    "calculated, as expected and in the worst friction case. The settling time is simulated, for the start case that "
+    "is slowest as the file stands. At other drag rates it is that of the slowest start case there. Usual ranges are "
+    "engineering practice (unverified)."
 )
 ROWS = 15
 """Rows of the section's picture."""

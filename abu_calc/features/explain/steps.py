@@ -66,13 +66,13 @@ STEPS: Final[Mapping[str, Step]] = {
         ),
     ),
     "budget": Step(
-        "Accuracy budget",
+        "Residual-displacement budget",
         (
             "formulas.friction_band:friction_band",
             "formulas.friction_band:worst_friction",
-            "sizing.budget:oval_rest",
+            "sizing.budget:ovality_residual",
             "sizing.budget:permitted_displacement",
-            "sizing.budget:plane_rest",
+            "sizing.budget:plane_residual",
         ),
     ),
     "balls": Step(
@@ -85,7 +85,7 @@ STEPS: Final[Mapping[str, Step]] = {
         ),
     ),
     "track": Step(
-        "Track and housing",
+        "Race and housing",
         (
             "sizing.housing:groove_radius",
             "sizing.housing:housing",
@@ -118,9 +118,9 @@ STEPS: Final[Mapping[str, Step]] = {
         ("sizing.instruments:readings", "standards.vibration:hand_arm_response", "standards.vibration:daily_exposure"),
     ),
     "grinding": Step(
-        "Machine at its work",
+        "Machine at its workpiece",
         (
-            "features.grinding.formulas:printed_resultant",
+            "features.grinding.formulas:published_resultant",
             "features.grinding.formulas:loaded_stiffness",
             "features.grinding.formulas:flutter_drag",
             "features.grinding.formulas:characteristic",
@@ -148,7 +148,7 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.seats.joint:inner_ring_stress",
             "features.seats.joint:outer_ring_stress",
             "features.seats.joint:raceway_change",
-            "features.seats.creep:friction_torque",
+            "features.seats.creep:slip_torque",
             "features.seats.clearance:clearance_left",
             "features.seats.notes:selective_groups",
             "features.seats.drawing_requirements:seat_requirements",
@@ -173,7 +173,7 @@ STEPS: Final[Mapping[str, Step]] = {
             "formulas.swing_arm:arm_stiffness",
             "formulas.swing_arm:pressed_angle",
             "formulas.swing_arm:least_pressing_moment",
-            "formulas.swing_arm:press_force",
+            "formulas.swing_arm:normal_force",
             "formulas.swing_arm:forced_harmonics",
             "formulas.swing_arm:free_rates",
             "formulas.swing_arm:averaged_edge",
@@ -190,7 +190,7 @@ STEPS: Final[Mapping[str, Step]] = {
             "features.balancing.formulas:influence",
             "features.balancing.formulas:condition_number",
             "features.balancing.formulas:bar_bending_speed",
-            "features.balancing.formulas:printed_answer",
+            "features.balancing.formulas:published_answer",
         ),
     ),
     "simulation": Step(

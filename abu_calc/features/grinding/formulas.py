@@ -19,26 +19,26 @@ from abu_calc.foundation.formula import formula
 
 
 @formula(
-    "What the balls add up to under load, as printed",
+    "Resultant of the balls under load, as published",
     "√{(Mε)²(ω_x²−Ω²)² + (m₀e)²Ω⁴ − 2 m₀e Mε Ω²(ω_x²−Ω²) cos φ_ε}/Ω², at the angle π + β_U",
     "kg m",
     signs="m R_p",
     where=(
-        "β_U = arctan(Mε(ω_x²−Ω²) sin φ_ε/(Mε(ω_x²−Ω²) cos φ_ε − m₀eΩ²)). Two balls then rest to either side of that "
-        "angle, by the arccos of the half of it over m·R_p."
+        "β_U = arctan(Mε(ω_x²−Ω²) sin φ_ε/(Mε(ω_x²−Ω²) cos φ_ε − m₀eΩ²)). Two balls then rest on either side of that "
+        "angle, by the arccos of half the resultant over m·R_p."
     ),
     assumed="rigid contact, no friction, undamped support",
     source="Kladiev 1996, (4)",
-    printed=(
-        "Kept as printed, to be compared: it leaves the friction out, and arctan loses the quadrant when "
-        "Mε(ω_x²−Ω²)cos φ_ε > m₀eΩ². Right is Ω²U = ε·(D_x − i·s·f·D_y)/(1 + i·s·f + q_n(D_x + D_y))"
+    published=(
+        "For comparison only: the formula leaves friction out, and its arctan loses the quadrant if Mε(ω_x²−Ω²)cos "
+        "φ_ε > m₀eΩ². The right formula is Ω²U = ε·(D_x − i·s·f·D_y)/(1 + i·s·f + q_n(D_x + D_y))"
     ),
 )
-def printed_resultant(
+def published_resultant(
     mass: float, imbalance: float, runout: complex, natural_frequency: float, speed: float
 ) -> complex:
     """
-    >>> printed = printed_resultant(5.6, 1e-4, cmath.rect(4e-5, 0.6), 80.0, 607.3746)
+    >>> printed = published_resultant(5.6, 1e-4, cmath.rect(4e-5, 0.6), 80.0, 607.3746)
     >>> round(1e6 * abs(printed), 4), round(math.degrees(cmath.phase(printed)), 3)
     (307.8696, -156.191)
     """
@@ -49,17 +49,17 @@ def printed_resultant(
 
 
 @formula(
-    "Stiffness of the slow motion of balls under load, its two eigenvalues that are not neutral",
+    "Stiffness of the slow motion of balls under load: its two eigenvalues that are not neutral",
     "mΩ²/2·[−n Re G ± √(n²(Re G)² − |G|²(n² − |Σe^{2iθ}|²))]",
     "1/s²",
     signs="κ f",
     where=(
-        "θ as the balls stand. Two balls at a rigid contact: κ times 1 ± √(cos² − f²·sin²) of the angle between "
-        "them. A pair of complex ones lets the balls flutter."
+        "θ are the angles of the balls at rest. For two balls at a rigid contact the eigenvalues are κ·(1 ± √(cos² − "
+        "f²·sin²)), sine and cosine of the angle between them. A complex pair lets the balls flutter."
     ),
-    assumed="balls light beside the machine, no separation",
-    source="derived by averaging; Kladiev 1996, (7), is Re > 0 without friction",
-    printed="(7) is not sufficient with friction",
+    assumed="balls light compared with the machine, contact without separation",
+    source="derived by averaging; Re > 0 without friction is Kladiev 1996, (7)",
+    published="(7) is not sufficient with friction",
 )
 def loaded_stiffness(
     whirl: complex, ball_mass: float, speed: float, count: int, doubled: float
@@ -71,15 +71,16 @@ def loaded_stiffness(
 
 
 @formula(
-    "Drag below which balls flutter under load",
+    "Viscous drag rate below which balls flutter under load",
     "h₀ = |Im κ_s|·√(J/Re κ_s)",
     "1/s",
     signs="κ f",
     where=(
-        "κ_s under load; the larger of both. Two balls at a rigid contact: √(Jκ(f²·sin² − cos²)) of the angle "
-        "between them where that is real, else 0. Infinite where Re κ_s < 0: no drag holds them."
+        "κ_s is that under load; the larger value of both counts. For two balls at a rigid contact it is √(Jκ(f²·sin² "
+        "− cos²)), sine and cosine of the angle between them, or 0 if the root is not real. If Re κ_s < 0, it is "
+        "infinite: no drag rate holds the balls."
     ),
-    source="derived: J λ² + h₀ λ + κ_s = 0 has a root in the right half plane below it",
+    source="derived: J λ² + h₀ λ + κ_s = 0 has a root in the right half plane below this rate",
 )
 def flutter_drag(stiffnesses: Sequence[complex], inertia_factor: float) -> float:
     """
@@ -92,16 +93,16 @@ def flutter_drag(stiffnesses: Sequence[complex], inertia_factor: float) -> float
 
 
 @formula(
-    "Contact stiffnesses at which the loaded machine changes its ways",
+    "Contact stiffnesses between which balls increase the imbalance",
     "c₁ = MΩ² − c_y, c₂ = 2MΩ² − c_x − c_y",
     "N/m",
     where=(
-        "Below c₁ balls balance and wear centres the wheel; between them balls increase the imbalance, and without "
-        "an autobalancer wear drives the wheel off; above c₂ balls balance, and wear increases the runout."
+        "Below c₁ balls balance, and wear centres the wheel. Between c₁ and c₂ balls increase the imbalance; without "
+        "an autobalancer, wear drives the wheel off centre. Above c₂ balls balance, and wear increases the runout."
     ),
-    assumed="no separation; suspension hardly damped",
+    assumed="no separation; little damping of the suspension",
     source="derived",
-    printed="Kladiev 1996 has wear centre the wheel at a rigid contact, where it drives it off",
+    published="Kladiev 1996 says that wear centres the wheel at a rigid contact; it drives the wheel off centre",
 )
 def stiffness_regions(dynamic_stiffness: tuple[complex, complex]) -> tuple[float, float]:
     """
@@ -114,21 +115,21 @@ def stiffness_regions(dynamic_stiffness: tuple[complex, complex]) -> tuple[float
 
 
 @formula(
-    "Change of the runout per depth that is worn off on average",
+    "Change of the runout per mean depth of wear",
     "dε/ds_w = −Re(F_H e^{−iφ_ε})/N₀",
     "1",
     signs="ε s_w D_x D_y",
     where=(
-        "F_H is D_y·ε + Ω²U at a rigid contact, with free balls ε·(D_x + D_y)/(1 + i·s·f + q_n(D_x + D_y)). What is "
-        "worn off one side is missing there: it changes the imbalance by dε times the wheel's mass as a disc. "
-        "Bouncing or not, the rate is between −2 and 2."
+        "F_H is D_y·ε + Ω²U at a rigid contact, and with free balls ε·(D_x + D_y)/(1 + i·s·f + q_n(D_x + D_y)). Wear "
+        "on one side also changes the imbalance, by dε times the wheel's mass as a disc. With or without bouncing, "
+        "the rate is between −2 and 2."
     ),
-    assumed="wear in proportion to force and way (Archard 1953)",
+    assumed="wear proportional to force and sliding distance (Archard 1953)",
     source="derived",
-    printed=(
-        "Kladiev 1996 has wear centre the wheel at a rigid contact, and live longer with an autobalancer (48 min "
-        "against 32); by this law it is driven off, twice as fast with one, and the mean wear does not depend on "
-        "vibration"
+    published=(
+        "according to Kladiev 1996 wear centres the wheel at a rigid contact. By this law it drives the wheel off "
+        "centre, twice as fast with an autobalancer. Kladiev 1996 also gives a longer life with an autobalancer (48 "
+        "min against 32). By this law the mean wear does not depend on vibration"
     ),
 )
 def runout_rate(pressure: complex, runout: complex, press: float) -> float:
@@ -155,16 +156,17 @@ def largest_factor(slope: complex, offset: complex, limit: float) -> float | Non
 
 
 @formula(
-    "Axis without autobalancer at a rigid contact, well above the suspension",
+    ("Spindle displacement without autobalancer at a rigid contact, well above the suspension's natural frequencies"),
     "|m₀e(1 + i·s·f)/M − i·s·f·ε·e^{iφ_ε}|",
     "m",
     shown="um",
     where=(
-        "Amplitude along the work against φ_ε; largest at φ_ε = s(90° + arctan f). Its square is a limaçon of Pascal."
+        "The amplitude along the workpiece, as a function of φ_ε, is largest at φ_ε = s(90° + arctan f). Its square "
+        "is a limaçon of Pascal."
     ),
     assumed="Ω far above the natural frequencies, rigid contact",
     source="derived",
-    printed="Kladiev 1996 calls the figure a cardioid; it is none unless m₀e/M·√(1+f²) = fε, and then its square is",
+    published="Kladiev 1996 calls the curve a cardioid. Only its square is one, and only if m₀e/M·√(1+f²) = fε",
 )
 def hodograph_limit(displacement: float, runout: complex, friction: float) -> float:
     """`displacement` m₀e/M [m], `friction` sf.
@@ -176,18 +178,23 @@ def hodograph_limit(displacement: float, runout: complex, friction: float) -> fl
 
 
 @formula(
-    "Amplitude of a shaking beyond which balls roll in spite of dry friction",
+    "Amplitude of shaking beyond which balls roll in spite of dry friction",
     "a_s > k_r·R_p/r",
     "m",
     shown="um",
     where=(
-        "Across the race, of the axial runout by which a face wheel moves the machine, or along it, of the backward "
-        "whirl |X − iY|/2 that runout causes at work, against the friction force m(k_r/r)Ω²R_p."
+        "A face wheel shakes the balls across the race, since its axial runout moves the machine. Runout at work "
+        "shakes them along the race, by the backward whirl |X − iY|/2. Both act against the friction force "
+        "m(k_r/r)Ω²R_p."
     ),
-    assumed="the groove may be shaken at any frequency; at Ω, 5(R−r) = 7(R_g−r), across it at resonance",
+    assumed=(
+        "the groove may be shaken at any frequency; with 5(R−r) = 7(R_g−r), shaking at Ω across the race is at "
+        "resonance"
+    ),
     source="derived; compared with a simulation of every machine",
-    printed=(
-        "Kladiev 1996 has axial runout alone shake friction out; the whirl by runout in the plane does, too, but slowly"
+    published=(
+        "according to Kladiev 1996 axial runout alone shakes friction out. The whirl by runout in the plane does so, "
+        "too, but slowly"
     ),
 )
 def shaking_threshold(arm: float, pitch_radius: float, ball_radius: float) -> float:
@@ -199,10 +206,10 @@ def shaking_threshold(arm: float, pitch_radius: float, ball_radius: float) -> fl
 
 
 @formula(
-    "Drag that dry friction amounts to while a backward whirl shakes the balls along the race",
+    "Viscous drag rate equivalent to dry friction while a backward whirl shakes the balls along the race",
     "4J(k_r·R_p/r)Ω/(π·a_s)",
     "1/s",
-    where="The mean of friction over a swing at 2Ω.",
+    where="This is the mean of the friction over one swing at 2Ω.",
     assumed="a_s well above k_r·R_p/r",
     source="derived by averaging",
 )
@@ -228,13 +235,13 @@ MOST: Final = 100_000
     "",
     signs="m G Ω",
     where=(
-        "P_λ = −(m/2)(Ω − iλ)²·G(Ω − iλ), P̄_λ its conjugate at the conjugate λ. A root right of zero lets balls "
-        "leave their places: flutter by cutting friction, or a natural frequency on the contact too near the speed "
-        "for their mass."
+        "P_λ = −(m/2)(Ω − iλ)²·G(Ω − iλ); P̄_λ is its conjugate at the conjugate λ. If a root has a positive real "
+        "part, the balls leave their places. The cause is flutter by cutting friction, or a natural frequency on the "
+        "contact too near the speed for the balls' mass."
     ),
-    assumed="no separation; what turns at 2Ω averaged out",
-    source="derived; idle, on equal axes it is exact",
-    printed="Kladiev 1996, (7), asks for Ω > ω alone",
+    assumed="no separation; terms at 2Ω averaged out",
+    source="derived; exact at idle on equal axes",
+    published="Kladiev 1996, (7), requires only Ω > ω",
 )
 def characteristic(
     whirl: Callable[[complex], complex], ball_mass: float, speed: float, count: int, doubled: float,

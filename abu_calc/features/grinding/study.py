@@ -13,7 +13,7 @@ from abu_calc.features.grinding import curves as facts
 from abu_calc.features.grinding import work as analysis
 from abu_calc.features.grinding.checks import agreement, flutter_limits, work_checks
 from abu_calc.features.grinding.curves import shaken
-from abu_calc.features.grinding.formulas import printed_resultant, stiffness_regions
+from abu_calc.features.grinding.formulas import published_resultant, stiffness_regions
 from abu_calc.features.grinding.outcomes import GrindingOutcomes, loudest_start, lower_bound, with_starts
 from abu_calc.features.grinding.records import (
     AxisMotion,
@@ -315,7 +315,7 @@ def _printed(work: Work) -> Printed | None:
         return None
     mass, ratio = case.body.effective_mass(autobalancer.mass), autobalancer.requirement.plane_ratio
     natural = natural_frequency(case.suspension, 0, mass)
-    printed = ratio * printed_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
+    printed = ratio * published_resultant(mass, design.imbalance.value, steady.runout, natural, case.speed)
     share = abs(printed) / (2 * autobalancer.ball_mass * autobalancer.pitch_radius)
     half = math.acos(share) if autobalancer.ball_count == 2 and share <= 1 else None
     place = cmath.phase(printed)

@@ -189,18 +189,18 @@ class Mounting:
 
 
 @formula(
-    "Clearance that a bearing keeps",
+    "Operating clearance of a bearing",
     "initial − change of both raceways − α·(d_i+d_e)/2·ΔT",
     "m",
     shown="um",
     where=(
-        "The raceways change by the raceway change at the interference less smoothing and less what warmth takes "
-        "from the grip; a loose ring changes nothing. The extreme clearance takes all extremes together; the "
-        "probable one are the 0.135 % and 99.865 % ends of initial − Σ rate·max(interference, 0), integrated over "
-        "the three normal laws."
+        "Each raceway changes by the raceway change at the interference less smoothing and temperature loss. A loose "
+        "ring changes nothing. The extreme clearances combine all extreme values. The probable clearances are the "
+        "0.135 % and 99.865 % quantiles of initial − Σ rate·max(interference, 0), integrated over the three normal "
+        "laws."
     ),
     checked=("deep groove ball bearings",),
-    assumed="rings as plain tubes; sizes and clearance independent, normal, half a field = 3σ",
+    assumed="rings as plain tubes; sizes and clearance independent and normal, half a tolerance zone = 3σ",
     source="Lamé; ISO 5753-1:2009 for the groups",
 )
 def clearance_left(group: str, bearing: SeatedBearing, shaft: Joint, housing: Joint) -> ClearanceLeft:

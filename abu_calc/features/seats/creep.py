@@ -28,17 +28,17 @@ class CreepJudgement(NamedTuple):
 
 
 @formula(
-    "Torque at which a pressed ring slips on its seat",
+    "Torque at which a press-fitted ring slips on its seat",
     "μ_s·p·π·d·b_s·d/2",
     "N·m",
     where=("μ_s is 0.12 for steel on steel, dry or lightly oiled (assumed)."),
     checked=(SEAT_FRICTION,),
-    assumed="even pressure",
+    assumed="uniform pressure",
     source="Coulomb friction on a cylinder",
 )
-def friction_torque(friction: float, pressure: float, diameter: float, length: float) -> float:
+def slip_torque(friction: float, pressure: float, diameter: float, length: float) -> float:
     """
-    >>> round(friction_torque(0.12, 5e6, 0.080, 0.029), 1)
+    >>> round(slip_torque(0.12, 5e6, 0.080, 0.029), 1)
     174.9
     """
     return SEAT_FRICTION.check(friction) * pressure * math.pi * diameter * length * diameter / 2
@@ -86,5 +86,5 @@ def _torques(joint: Joint, friction: float) -> tuple[float, float] | None:
         joint.pressure_rate * max(smallest - joint.lasting_losses, 0.0)
         for smallest in (joint.interference.smallest, probable)
     )
-    least, likely = (friction_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
+    least, likely = (slip_torque(friction, pressure, joint.diameter, length) for pressure in pressures)
     return least, likely

@@ -33,10 +33,10 @@ class SeatRequirements(NamedTuple):
 
 
 @formula(
-    "Requirements of a seat made to a tolerance class, for a bearing of an accuracy class",
+    "Requirements for a seat made to a tolerance class, for a bearing of an accuracy class",
     where=(
-        "Roundness and longitudinal profile: a share of the tolerance (¼ for classes 0 and 6, ⅛ for 5 and 4, 1/16 for "
-        "2)."
+        "Roundness and longitudinal profile may take a share of the tolerance: ¼ for classes 0 and 6, ⅛ for 5 and 4, "
+        "1/16 for 2."
     ),
     checked=("seats of 3 … 500 mm",),
     source="GOST 3325-85; unverified",
@@ -72,16 +72,16 @@ class SeatRepair(NamedTuple):
 
 
 @formula(
-    "What a measured seat has left, and what a repair must restore",
+    "Interference left in a measured seat, and gap that a repair must fill",
     "measured interference − losses; gap = −(least interference)",
     "m",
     shown="um",
     where=(
-        "A sleeve or sprayed metal is finished to the limits of the field to restore. A bond fills the largest gap of "
-        "the loosest pair. The next size is the neighbour of the series: the next smaller bore of a shaft turned down, "
-        "the next larger outside diameter of a housing bored out."
+        "A sleeve or sprayed metal is finished to the limits of the tolerance class to restore. A bond fills the "
+        "largest gap of the loosest pair. The next size is a neighbour in the series of bearings. A shaft is turned "
+        "down to the next smaller bore. A housing is bored out to the next larger outside diameter."
     ),
-    assumed="limits about one nominal size, the rings new",
+    assumed="both limits refer to one nominal size, new rings",
     source="derived from the limits of size",
 )
 def seat_repair(joint: Joint, restore: str, designation: str | None) -> SeatRepair | None:

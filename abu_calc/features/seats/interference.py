@@ -49,7 +49,7 @@ class Interval(NamedTuple):
     "ei − ES … es − EI",
     "m",
     shown="um",
-    assumed="limits about one nominal size",
+    assumed="both limits refer to one nominal size",
     source="ISO 286-1:2010",
 )
 def theoretical_interference(male: DeviationLimits, female: DeviationLimits) -> Interval:
@@ -61,11 +61,11 @@ def theoretical_interference(male: DeviationLimits, female: DeviationLimits) -> 
 
 
 @formula(
-    "Interference to expect",
+    "Probable interference",
     "mean ∓ √((T₁/2)² + (T₂/2)²), rounded outward to whole micrometres",
     "m",
     shown="um",
-    assumed="independent parts, fields centred",
+    assumed="independent parts, sizes centred in their tolerance zones",
     source="the bearing makers' tables of probable interference",
 )
 def probable_interference(male: DeviationLimits, female: DeviationLimits) -> Interval:
@@ -80,11 +80,11 @@ def probable_interference(male: DeviationLimits, female: DeviationLimits) -> Int
 
 
 @formula(
-    "Probability that a pair is loose",
+    "Probability that a pair has clearance",
     "Φ(−mean/σ), σ = √((T₁/2)² + (T₂/2)²)/3",
     "1",
-    where="A clearance of zero counts as tight. Exact in that model, tails included.",
-    assumed="both sizes independent, normal, centred in their fields, half a field = 3σ",
+    where="A clearance of zero counts as interference. The result is exact in this model, tails included.",
+    assumed="both sizes independent, normal, centred in their tolerance zones; half a zone = 3σ",
     source="normal law",
 )
 def clearance_probability(male: DeviationLimits, female: DeviationLimits) -> float:
@@ -104,12 +104,12 @@ def probability_below(interference: float, male: DeviationLimits, female: Deviat
 
 
 @formula(
-    "Probability that a pair is loose when every part outside its field is sorted out",
+    "Probability that a pair has clearance if every part outside its tolerance zone is rejected",
     "∫ p_m(x_s)·P_f(x_s) dx_s",
     "1",
     where=(
-        "Both are normal laws, cut at the limits and scaled to 1. Where the fields do not meet the result is exactly "
-        "0 or 1; where they do, Simpson's rule over the part they share, good to 1e-8."
+        "Both sizes follow normal laws, cut at the limits and scaled to 1. If the zones do not overlap, the result is "
+        "exactly 0 or 1. If they overlap, Simpson's rule over the common part gives it to 1e-8."
     ),
     assumed="both sizes independent",
     source="truncated normal law",

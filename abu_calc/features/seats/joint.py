@@ -62,10 +62,10 @@ def outer_ring_diameter(bore: float, outer: float) -> float:
 
 
 @formula(
-    "Pressure between two pressed tubes",
+    "Pressure between two press-fitted tubes",
     "p = (δ/d)/{[(1+q₂²)/(1−q₂²) + ν₂]/E₂ + [(1+q₁²)/(1−q₁²) − ν₁]/E₁}",
     "Pa",
-    where=("No pressure without interference."),
+    where="Without interference there is no pressure.",
     checked=(TUBE_RATIO, SEAT_DIAMETER),
     assumed="elastic, long tubes of equal length",
     source="Lamé; DIN 7190-1:2017",
@@ -81,9 +81,9 @@ def contact_pressure(interference: float, diameter: float, male: Tube, female: T
     "p·(1+q²)/(1−q²)",
     "Pa",
     signs="E δ d",
-    where="On a solid shaft of the same steel E·δ·(1+q²)/(2d).",
+    where="On a solid shaft of the same steel it is E·δ·(1+q²)/(2d).",
     checked=(TUBE_RATIO, SEAT_DIAMETER),
-    assumed="as of the contact pressure",
+    assumed="as for the contact pressure",
     source="Lamé",
 )
 def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: Tube) -> float:
@@ -102,11 +102,11 @@ def inner_ring_stress(interference: float, diameter: float, shaft: Tube, ring: T
     shown="um",
     signs="δ",
     where=(
-        "An inner ring grows outside, an outer one shrinks inside, by the same formula. On a solid shaft of the "
-        "ring's steel that is q·δ."
+        "By this formula an inner ring's raceway grows and an outer ring's shrinks. On a solid shaft of the ring's "
+        "steel the change is q·δ."
     ),
     checked=(TUBE_RATIO,),
-    assumed="as of the contact pressure",
+    assumed="as for the contact pressure",
     source="Lamé",
 )
 def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
@@ -124,7 +124,7 @@ def raceway_change(pressure: float, diameter: float, ring: Tube) -> float:
     "2p/(1−q²)",
     "Pa",
     checked=(TUBE_RATIO, SEAT_DIAMETER),
-    assumed="as of the contact pressure",
+    assumed="as for the contact pressure",
     source="Lamé",
 )
 def outer_ring_stress(interference: float, diameter: float, ring: Tube, housing: Tube) -> float:

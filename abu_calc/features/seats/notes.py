@@ -29,7 +29,7 @@ SHOCK_FACTOR: Final = 1.8
     "P_R = k₁·k₂·k₃·F_r/b_s",
     "N/m",
     shown="kN_per_m",
-    where=("Unverified advice."),
+    where="The tolerance class that follows from it is unverified advice.",
     checked=(SEAT_LENGTH,),
     source="handbooks as quoted by Afanasiev 2015",
 )
@@ -84,16 +84,17 @@ class Group(NamedTuple):
 
 
 @formula(
-    "The fewest equal groups that bring every pair into the asked band, none when no number does",
+    "Fewest equal groups that bring every pair into the required range of interference; none if no number does",
     signs="n_g T₁ T₂ ei es EI ES",
     where=(
-        "Both fields are cut into n_g equal groups and matched by number. Group k then has ei − EI + k·(T₁−T₂)/n_g − "
-        "T₂/n_g at least and T₁/n_g + T₂/n_g more at most, so that over all groups least = min(ei − EI, es − ES) − "
-        "min(T₁, T₂)/n_g, most = max(ei − EI, es − ES) + min(T₁, T₂)/n_g and n_g ≥ min(T₁, T₂)/(min(…) − asked "
-        "least), n_g ≥ min(T₁, T₂)/(asked most − max(…)). However fine the groups, the spread stays above |T₁ − T₂|: "
-        "a narrower band, or one beside those middles, cannot be reached by sorting."
+        "Both tolerance zones are cut into n_g equal groups and matched by number. The least interference of group k "
+        "is ei − EI + k·(T₁−T₂)/n_g − T₂/n_g, and its range is T₁/n_g + T₂/n_g wide. Over all groups the least is "
+        "min(ei − EI, es − ES) − min(T₁, T₂)/n_g. The largest is max(ei − EI, es − ES) + min(T₁, T₂)/n_g. Hence n_g ≥ "
+        "min(T₁, T₂)/(min(…) − required least) and n_g ≥ min(T₁, T₂)/(required most − max(…)). The range stays wider "
+        "than |T₁ − T₂|, however fine the groups are. Sorting cannot reach a narrower range, or one beside those "
+        "middles."
     ),
-    assumed="limits about one nominal size",
+    assumed="both limits refer to one nominal size",
     source="derived from the limits of size",
 )
 def selective_groups(male: DeviationLimits, female: DeviationLimits, asked: Interval) -> Selection | None:

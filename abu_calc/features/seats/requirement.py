@@ -14,12 +14,12 @@ SERIES_FACTORS: Final[dict[Series, float]] = {"light": 2.8, "medium": 2.3, "heav
 
 @formula(
     "Least interference that keeps a ring under a rotating load from creeping",
-    "δ_min = 13·F_r·k_B/b_s",
+    "δ_min = 13·(F_r/1000)·k_B/b_s",
     "µm",
-    where="With δ_min in µm, F_r in kN, b_s in mm; computed in SI.",
+    where="δ_min is in µm, F_r in N, b_s in mm. The program computes in SI.",
     checked=(RADIAL_LOAD, SEAT_LENGTH),
     source="Afanasiev 2015",
-    printed="13·F_r·k_B/(10⁶·b_s) with F_r in kN and b_s in m, which gives millimetres, labelled µm",
+    published="13·F_r·k_B/(10⁶·b_s) with F_r in kN and b_s in m, which gives millimetres, labelled µm",
     own_units=True,
 )
 def creep_interference(load: float, seat_length: float, factor: float) -> float:
@@ -31,14 +31,14 @@ def creep_interference(load: float, seat_length: float, factor: float) -> float:
 
 
 @formula(
-    "Interference that a radial load takes from a seat",
+    "Interference lost under a radial load",
     "0.08·√(d·F_r/B)",
     "µm",
-    where="In µm, with F_r in N, d and B in one unit; computed in SI.",
+    where="The loss is in µm, with F_r in N, d and B in one unit. The program computes in SI.",
     checked=(RADIAL_LOAD, SEAT_DIAMETER, SEAT_LENGTH),
     assumed=(
-        "F_r up to a quarter of the static load rating (catalogues go over to 0.02·F_r/B beyond), inner rings on solid "
-        "shafts; used alike for outer rings"
+        "F_r up to a quarter of the static load rating (beyond it catalogues use 0.02·F_r/B); inner rings on solid "
+        "shafts; applied to outer rings, too"
     ),
     source="bearing makers' catalogues",
     own_units=True,
@@ -52,7 +52,7 @@ def load_loss(load: float, diameter: float, width: float) -> float:
 
 
 @formula(
-    "Interference lost by the smoothing of one surface",
+    "Interference lost as one surface becomes smooth",
     "0.4·Rz",
     "m",
     shown="um",
@@ -69,13 +69,13 @@ def smoothing_loss(roughness: float) -> float:
 
 
 @formula(
-    "Interference lost by smoothing as catalogues take it, beside the smoothing loss",
+    "Interference lost by smoothing, according to catalogues",
     "δ·2/(d + 2), d in mm",
     "m",
     shown="um",
     where=(
-        "They leave d/(d + 2) of the apparent interference of a ground shaft, d/(d + 3) of a turned one. A clearance "
-        "loses nothing; unverified, never counted."
+        "Catalogues leave d/(d + 2) of the apparent interference of a ground shaft, and d/(d + 3) of a turned one. A "
+        "clearance loses nothing. This loss is unverified, shown beside the smoothing loss, and counts nowhere."
     ),
     checked=(SEAT_DIAMETER,),
     source="bearing makers' catalogues",
@@ -90,14 +90,14 @@ def catalogue_smoothing_loss(interference: float, diameter: float) -> float:
 
 
 @formula(
-    "Interference that warmth takes from a seat",
+    "Interference lost by thermal expansion",
     "d·(α₂·ΔT₂ − α₁·ΔT₁)",
     "m",
     shown="um",
     where=(
-        "Of equal α it is α·d·ΔT of the difference. Negative where the seat grows tighter. Where only the bearing's "
-        "excess over its surroundings is known, catalogues take an eighth of it for the inner ring's over its shaft "
-        "(their 0.0015·d·ΔT µm, d in mm)."
+        "If both coefficients are α, the loss is α·d times the difference of the temperature rises. It is negative if "
+        "the seat becomes tighter. If only the temperature rise of the bearing is known, catalogues take an eighth "
+        "of it as the rise of the inner ring over its shaft (their 0.0015·d·ΔT µm, d in mm)."
     ),
     checked=(SEAT_DIAMETER,),
     assumed="uniform temperature of each part",
@@ -118,11 +118,11 @@ def temperature_loss(diameter: float, around: tuple[float, float], inside: tuple
     "m",
     shown="um",
     where=(
-        "ρ, E and ν of the material of both. The difference of the free growths of two annular discs at their common "
-        "diameter: the terms (1−ν) of both cancel."
+        "Ring and shaft have the same ρ, E and ν. The loss is the difference between the free growths of two annular "
+        "discs at their common diameter. The terms (1−ν) of both cancel."
     ),
     checked=(RING_SPEED,),
-    assumed="plane stress, elastic, the load of rollers or balls left out",
+    assumed="plane stress, elastic; the load of rollers or balls left out",
     source="rotating disc (Timoshenko)",
 )
 def centrifugal_loss(

@@ -18,12 +18,12 @@ ADDED: Final = 0.7
 
 
 @formula(
-    "Drag of oil at a temperature over that at 40 °C",
+    "Viscous drag rate in oil at a temperature, relative to that at 40 °C",
     "ν_o(T_o)/ν_o(40 °C), lg lg(ν_o + 0.7) = A_o − B_o·lg T_o",
     "1",
-    where="ν_o in mm²/s; A_o and B_o from 46 at 40 °C and 6.8 at 100 °C (VG 46).",
+    where="The equation takes ν_o in mm²/s. A_o and B_o follow from 46 at 40 °C and 6.8 at 100 °C (VG 46).",
     checked=(TEMPERATURE,),
-    assumed="a mineral oil of viscosity index 100; drag proportional to viscosity (Stokes)",
+    assumed="a mineral oil of viscosity index 100; drag rate proportional to viscosity (Stokes)",
     source="ASTM D341 (Walther 1931); ISO 3448 for the grade",
 )
 def drag_ratio(temperature: float) -> float:

@@ -10,7 +10,7 @@ from abu_calc.features.balancing.formulas import (
     displacement,
     imbalances,
     influence,
-    printed_answer,
+    published_answer,
 )
 from tests.features.balancing.rig import Workshop, shown
 from tests.features.balancing.test_two_planes import OMEGA, QUANTITIES, RADII, ROLL, run_of
@@ -28,17 +28,17 @@ def test_the_printed_formula_taken_at_its_word_doubles_the_vibration() -> None:
     shop = Workshop(quantity="acceleration")
     run = run_of(shop)
     worse = shop
-    for plane, (mass, angle) in enumerate(printed_answer(ROLL, OMEGA, run.readings, RADII)):
+    for plane, (mass, angle) in enumerate(published_answer(ROLL, OMEGA, run.readings, RADII)):
         worse = worse.put_on(plane, -1e3 * mass / OMEGA**2, math.degrees(angle))
     assert np.abs(worse.motion()) == pytest.approx(2 * np.abs(shop.motion()), rel=1e-9)
 
 
 def test_the_printed_arctan_loses_the_quadrant() -> None:
     shop = Workshop(masses=(10.0, 7.0), angles=(200.0, 90.0))
-    (mass, angle), (_, other) = printed_answer(ROLL, OMEGA, run_of(shop).readings, RADII)
+    (mass, angle), (_, other) = published_answer(ROLL, OMEGA, run_of(shop).readings, RADII)
     assert (1e3 * mass, math.degrees(angle)) == pytest.approx((-10.0, 20.0), rel=1e-9)
     assert abs(math.degrees(other)) == pytest.approx(90.0, abs=1e-6)
-    (_, none), _ = printed_answer(ROLL, OMEGA, (0j, 0j), RADII)
+    (_, none), _ = published_answer(ROLL, OMEGA, (0j, 0j), RADII)
     assert math.isnan(none)
 
 

@@ -17,7 +17,7 @@ def test_explain_puts_the_numbers_in() -> None:
         once("size", "swing-arm-grinder", "--explain").out,
     )
     assert note.startswith(plain[:500]) and len(note) > 2 * len(plain)
-    assert "→ m₀e + M·ε" in note and "Printed: Kladiev 1996, (7)" in note and not re.search(r"\{[a-z]+_", note)
+    assert "→ m₀e + M·ε" in note and "As published: Kladiev 1996, (7)" in note and not re.search(r"\{[a-z]+_", note)
     for step in ("frequency", "capacity", "balls", "track", "swing-arm", "simulation", "seats", "mass"):
         seen = abu("explain", step)
         assert seen.status == 0 and "Source:" in seen.out

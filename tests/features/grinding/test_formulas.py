@@ -19,7 +19,7 @@ from abu_calc.features.grinding.formulas import (
     hodograph_limit,
     largest_factor,
     loaded_stiffness,
-    printed_resultant,
+    published_resultant,
     runout_rate,
     stiffness_regions,
 )
@@ -102,7 +102,7 @@ def test_a_face_leaves_the_machine_idling():
 
 # What is printed.
 def test_printed_places_are_those_without_friction():
-    V = printed_resultant(M, OWN, E, 80.0, W)
+    V = published_resultant(M, OWN, E, 80.0, W)
     assert pytest.approx(contact().balancing_imbalance(E) - OWN, rel=1e-12) == V
 
 
@@ -115,7 +115,7 @@ def test_printed_places_are_wrong_by_friction(friction, wrong):
         return [cmath.phase(V) + sign * half for sign in (-1, 1)]
 
     true = places(contact(friction).balancing_imbalance(E) - OWN)
-    printed = places(printed_resultant(M, OWN, E, 80.0, W))
+    printed = places(published_resultant(M, OWN, E, 80.0, W))
     off = [abs(math.remainder(math.degrees(a - b), 360)) for a, b in zip(true, printed, strict=True)]
     assert max(off) == pytest.approx(wrong, abs=0.6)
 
@@ -124,8 +124,8 @@ def test_printed_arctan_loses_the_quadrant():
     """φ₀ = 2.9 and Mε > m₀e: exactly opposite, 2|V| left."""
     runout = cmath.rect(EPS, 2.9)
     V = contact().balancing_imbalance(runout) - OWN
-    assert printed_resultant(M, OWN, runout, 80.0, W) == pytest.approx(-V, rel=1e-9)
-    assert abs(printed_resultant(M, OWN, runout, 80.0, W) - V) / abs(V) == pytest.approx(2.0)
+    assert published_resultant(M, OWN, runout, 80.0, W) == pytest.approx(-V, rel=1e-9)
+    assert abs(published_resultant(M, OWN, runout, 80.0, W) - V) / abs(V) == pytest.approx(2.0)
 
 
 def test_axis_with_fixed_balls_moves_along_too():

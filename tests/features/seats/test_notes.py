@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from abu_calc.features.seats.creep import friction_torque
+from abu_calc.features.seats.creep import slip_torque
 from abu_calc.features.seats.interference import Interval
 from abu_calc.features.seats.notes import selective_groups
 from abu_calc.features.seats.seats import seat_bearing
@@ -60,7 +60,7 @@ def test_friction_torque_of_the_example():
     pressure = 206e9 * 11e-6 * (1 - (80 / 96.8) ** 2) / 0.160
     strips = sum(0.12 * pressure * (0.040 * math.tau / 360) * 0.029 * 0.040 for _ in range(360))
     assert shaft.creep.least_torque == pytest.approx(strips, rel=1e-9)
-    assert friction_torque(0.12, pressure, 0.080, 0.029) == pytest.approx(strips, rel=1e-9)
+    assert slip_torque(0.12, pressure, 0.080, 0.029) == pytest.approx(strips, rel=1e-9)
     assert shaft.creep.probable_torque > shaft.creep.least_torque
     assert shaft.creep.holds_at_start is True
 
