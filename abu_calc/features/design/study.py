@@ -122,7 +122,7 @@ class SizeResult(Result):
     idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
     required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
-    required_capacity_limit_g_mm: Annotated[float, Quantity("limit published by Kladiev 1996", "m₀e + Mε")]
+    required_capacity_limit_g_mm: Annotated[float, Quantity("limit as published", "m₀e + Mε")]
     required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
     autobalancer: AutobalancerRecord
     section: Section
