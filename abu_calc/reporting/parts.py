@@ -15,6 +15,8 @@ from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Paragraph, le
 from abu_calc.simulation.result import Provenance, Result
 from abu_calc.simulation.vibration_records import InstrumentReadings, MeasuredAfterRecord
 
+NOISE: Final = 1e-9
+"""Values below which no digits are printed beside a limit of zero."""
 BOUND: Final = {"most": "at most", "least": "at least"}
 WORD: Final[dict[Grade, str]] = {"pass": "pass", "warn": "WARN", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 """Word before a check of each grade: no grade is shown by its colour alone."""
@@ -185,6 +187,8 @@ def _value(check: Check) -> str:
         return f"{check.value:g} {COUNTED}"
     if check.unit == "dB":
         return level_text(check.value, _digits(check))
+    if check.limit == 0 and 0 < check.value < NOISE:
+        return f"< {NOISE:g} {check.unit or ''}".rstrip()
     return with_unit(check.value, check.unit or "", _digits(check))
 
 

@@ -1,5 +1,6 @@
 """Parts that reports share: checks with their reasons, defaults, and where a result comes from."""
 
+from dataclasses import replace
 from typing import Any
 
 from abu_calc.foundation.checks import Check, Grade
@@ -12,6 +13,7 @@ from abu_calc.reporting.parts import (
     provenance_blocks,
     reasons,
     unlike,
+    value_and_limit,
     warning_blocks,
     written,
 )
@@ -50,6 +52,12 @@ def test_limits_say_whether_more_or_less_is_permitted() -> None:
     assert limit_of(check("ABU201", "not-done")) == ""
     assert limit_in_file(check("ABU401", "pass", limit=109.0, unit="dB")) == "at most 109 dB"
     assert limit_in_file(None) == ""
+
+
+def test_a_value_of_rounding_beside_a_limit_of_zero_has_no_digits() -> None:
+    growth = Check("ABU103", "stable speed range", "fail", "it grows", 3.052e-15, 0.0, "1/s")
+    assert value_and_limit(growth) == " (< 1e-09 1/s, at most 0)"
+    assert value_and_limit(replace(growth, value=0.5)).startswith(" (0.5")
 
 
 def test_values_stand_as_a_file_would_have_them() -> None:

@@ -82,7 +82,7 @@ def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
         Heading(f"Arm with its imbalance, nothing balanced{where}: motion of the wheel"),
         Grid(header, rows, frozenset({1, 2, 3})),
         Paragraph(_rates(motion)),
-        Heading(f"Where it grows: joint damping against speed about 2ω₀{where}"),
+        Heading(f"Instability region: pivot damping against speed about 2ω₀{where}"),
         Picture(tuple(tongue_lines(motion)), _legend(motion), indent=2) if motion.tongue else Paragraph(TOO_NARROW),
     ]
 
