@@ -351,18 +351,18 @@ def _front(sound: list[Candidate]) -> list[Candidate]:
 def _why_not(case: Case, candidate: Candidate, best: Candidate) -> str:
     if not enough(case, candidate):
         return (
-            f"carries {candidate.capacity_ratio:.2f} times the required capacity, "
-            f"{case.autobalancer.capacity_margin:g} times is asked for"
+            f"capacity {candidate.capacity_ratio:.2f} times the required one; the margin is "
+            f"{case.autobalancer.capacity_margin:g} times"
         )
     if not candidate.strength.enough:
-        return "stress above the permitted one"
+        return "stress above the limit"
     if not candidate.stays_round:
-        return "its race would become oval"
+        return "two-lobe ovality of the race too large"
     if not candidate.budget.within:
-        return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the permitted one"
+        return f"expected residual {from_si(candidate.budget.residual, 'um'):.1f} µm, above the limit"
     if not light(case, candidate):
         return f"weighs {100 * candidate.mass_fraction:.1f} % of the machine"
     heavier = from_si(candidate.mass - best.mass, "g")
     finer = from_si(best.budget.residual - candidate.budget.residual, "um")
-    gain = f", though it rests {finer:.1f} µm nearer" if finer > 0.05 else ""
+    gain = f"; residual {finer:.1f} µm less" if finer > 0.05 else ""
     return f"{heavier:.1f} g heavier{gain}" if heavier > 0.05 else "equally heavy, with larger balls"

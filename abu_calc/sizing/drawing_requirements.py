@@ -69,12 +69,14 @@ def _race(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequir
     arm = case.friction_arm or SOFT_ARM
     race = f"R {from_si(candidate.race_radius, 'mm'):.2f} ± {_mm(RACE_TOLERANCE)} mm"
     return (
-        DrawingRequirement("race", f"{race} at the bottom (capacity only)", 0.0),
-        DrawingRequirement("groove", f"{_across(track.groove_radius)} (shakes out friction, no level of its own)", 0.0),
+        DrawingRequirement("race", f"{race} at the bottom (affects the capacity only)", 0.0),
         DrawingRequirement(
-            "race to bore, all in",
-            f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm) with bore "
-            "clearance and spindle; grind bore and race in one set-up",
+            "groove", f"{_across(track.groove_radius)} (helps to shake out friction; no effect on the level)", 0.0
+        ),
+        DrawingRequirement(
+            "race to bore, total",
+            f"eccentricity {eccentricity:.0f} µm (TIR {2 * eccentricity:.0f} µm), bore "
+            "clearance and spindle included; grind bore and race in one set-up",
             _cost(others, case.race_eccentricity),
         ),
         DrawingRequirement(
@@ -87,7 +89,7 @@ def _race(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingRequir
         ),
         DrawingRequirement(
             "race surface",
-            f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: one of {_um(DENT)} µm depth holds a ball",
+            f"Ra ≤ {_um(ROUGHNESS)} µm, no dents: a dent {_um(DENT)} µm deep holds a ball",
             _cost(budget.residual, DENT * candidate.pitch_radius / _dent_half_width(candidate)),
         ),
         DrawingRequirement(
@@ -111,14 +113,14 @@ def _across(groove: float | None) -> str:
 def _seat_and_balls(case: Case, candidate: Candidate) -> tuple[DrawingRequirement, ...]:
     clearance = _bore_clearance(to_si(case.autobalancer.bore_diameter_mm, "mm"))
     rest = math.hypot(candidate.budget.rolling_friction, candidate.budget.race_ovality, candidate.budget.plane_offset)
-    play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at worst"
+    play = "" if clearance is None else f"; {from_si(clearance / 2, 'um'):.0f} µm of the eccentricity above at most"
     cost = None if clearance is None else _cost(rest, clearance / 2)
     return (
         DrawingRequirement("bore and spindle", f"bore {BORE}, spindle {SPINDLE}{play}", cost),
-        DrawingRequirement("balls", "of one lot, grade 20 (ISO 3290): 0.5 µm of diameter, which they balance", 0.0),
         DrawingRequirement(
-            "housing without balls", "balanced to G6.3 (ISO 21940-11), the rest is balanced by the balls", 0.0
+            "balls", "of one lot, grade 20 (ISO 3290); the balls balance the 0.5 µm of their diameters", 0.0
         ),
+        DrawingRequirement("housing without balls", "balanced to G6.3 (ISO 21940-11); the balls balance the rest", 0.0),
     )
 
 
@@ -128,8 +130,8 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
     return (
         DrawingRequirement(
             "oil",
-            f"so that the drag is about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
-            "to 50 by slip, more when cold; state grade and volume",
+            f"for a viscous drag rate of about {case.autobalancer.rolling_drag_per_s:g} 1/s{optimum}; VG 46 gives 3 "
+            "to 50 1/s, depending on slip, more when cold; specify grade and volume",
         ),
         DrawingRequirement(
             "web and cover",
@@ -137,7 +139,7 @@ def _running(case: Case, candidate: Candidate, track: Track) -> tuple[DrawingReq
             f"{_um(ovality_residual(oval.lobes))} µm, with one web alone {_um(ovality_residual(oval.unaided))} µm; "
             f"the diameter of a free ring would grow by {_um(oval.free_ring)} µm",
         ),
-        DrawingRequirement("proof", "cover, seal, and overspeed test at 1.2 × the highest speed"),
+        DrawingRequirement("proof", "cover and seal; overspeed test at 1.2 × the highest speed"),
     )
 
 

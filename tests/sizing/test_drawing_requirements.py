@@ -12,7 +12,7 @@ from tests.sizing.machines import machine
 def test_costs_of_the_drawing_add_up_to_the_budget() -> None:
     """What the eccentricity costs is the budget with it against the budget without it."""
     design = size(machine(autobalancer__race_eccentricity_mm=0.02))
-    line = next(each for each in design.drawing if each.feature == "race to bore, all in")
+    line = next(each for each in design.drawing if each.feature == "race to bore, total")
     budget = design.autobalancer.budget
     others = math.hypot(budget.rolling_friction, budget.race_ovality)
     assert line.cost_db == pytest.approx(20 * math.log10(budget.residual / others))
@@ -36,5 +36,5 @@ def test_what_costs_without_bound_has_no_number() -> None:
     """Without friction and eccentricity, the oval race is all; eccentricity costs nothing beside it."""
     design = size(machine(autobalancer__race_eccentricity_mm=0.0, autobalancer__rolling_friction_mm=0.0))
     costs = {each.feature: each.cost_db for each in design.drawing}
-    assert costs["race to bore, all in"] == 0.0 and costs["rolling friction"] == 0.0
+    assert costs["race to bore, total"] == 0.0 and costs["rolling friction"] == 0.0
     assert costs["oil"] is None

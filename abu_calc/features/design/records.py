@@ -55,12 +55,12 @@ class Frequency(Record):
     finite_mass_gap: Annotated[float, Quantity("finite-mass gap", "(2m/JM)^⅓", 3)]
     stable: Annotated[
         bool | None,
-        Quantity("stable at idle", "", 4, "by its eigenvalues, at the rated speed, in the worst arrangement"),
+        Quantity("stable at idle", "", 4, "by eigenvalues, at the rated speed, in the least stable arrangement"),
     ]
     stability_boundaries_rpm: tuple[StabilityBoundary, ...] | None
     modes: tuple[Mode, ...]
     hanging_drag_per_s: Annotated[
-        float | None, Quantity("drag above which no balls hang", "", 4, "null: no drag is enough")
+        float | None, Quantity("drag rate above which no ball stalls", "", 4, "null: no drag rate is enough")
     ]
 
     @classmethod
@@ -89,7 +89,7 @@ class AutobalancerRecord(Record):
     pitch_radius_mm: Annotated[float, Quantity("pitch radius", "R − r")]
     groove_radius_mm: Annotated[float | None, Quantity("groove radius (± 0.2)", "R_g")]
     capacity_g_mm: Annotated[float, Quantity("capacity, balls touching", "mR_p·sin nβ/sin β")]
-    capacity_ratio: Annotated[float | None, Quantity("capacity / need", "", 3)]
+    capacity_ratio: Annotated[float | None, Quantity("capacity over required capacity", "", 3)]
     outer_diameter_mm: Annotated[float, Quantity("outer diameter")]
     width_mm: Annotated[float, Quantity("width")]
     mass_g: Annotated[float, Quantity("mass with balls")]
@@ -97,9 +97,9 @@ class AutobalancerRecord(Record):
     ball_force_N: Annotated[float, Quantity("force of one ball at top speed", "F", 3)]
     contact_pressure_MPa: Annotated[float, Quantity("Hertz pressure", "p₀")]
     hoop_stress_MPa: Annotated[float, Quantity("hoop stress", "ρ(ΩR_o)²", 3)]
-    optimum_drag_per_s: Annotated[float | None, Quantity("optimum rolling drag", "2√(Jκ_s)", 3)]
-    slowest_decay_per_s: Annotated[float, Quantity("slowest decay of the balls' way", "", 3, "at the drag given")]
-    carry_over_rpm: Annotated[float, Quantity("least speed that carries balls over", "√(g/R_p)", 3)]
+    optimum_drag_per_s: Annotated[float | None, Quantity("optimum viscous drag rate", "2√(Jκ_s)", 3)]
+    slowest_decay_per_s: Annotated[float, Quantity("slowest decay rate of the balls", "", 3, "at the given drag rate")]
+    carry_over_rpm: Annotated[float, Quantity("carry-over speed of the balls", "√(g/R_p)", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
     corrector: Annotated[str, Quantity("kind of corrector")]
     ball_material: Annotated[str, Quantity("material of the balls")]
@@ -133,20 +133,18 @@ class AccuracyBudget(Record):
     optional: ClassVar[frozenset[str]] = frozenset({"rolling_friction_reached_um"})
 
     race_eccentricity_um: Annotated[float | None, Quantity("race eccentricity", "Δ", 3)]
-    speed_rpm: Annotated[float, Quantity("at its worst speed", "Ω", 6)]
-    rolling_friction_um: Annotated[float | None, Quantity("dry friction, typical (fan)", "w_f/cos(γ_g/2)", 3)]
+    speed_rpm: Annotated[float, Quantity("at the least favourable speed", "Ω", 6)]
+    rolling_friction_um: Annotated[float | None, Quantity("dry friction, balls evenly spread", "w_f/cos(γ_g/2)", 3)]
     rolling_friction_worst_um: Annotated[
-        float | None, Quantity("dry friction, worst", "", 3, "at the worst arrangement of the balls")
+        float | None, Quantity("dry friction, worst friction case", "", 3, "over all arrangements of the balls")
     ]
-    race_ovality_um: Annotated[float | None, Quantity("oval race (two lobes)", "2a_k", 3)]
-    plane_offset_um: Annotated[float | None, Quantity("race plane off the wheel's", "", 3)]
+    race_ovality_um: Annotated[float | None, Quantity("two-lobe ovality of the race", "2a_k", 3)]
+    plane_offset_um: Annotated[float | None, Quantity("race off the wheel's plane", "", 3)]
     capacity_shortfall_um: Annotated[float | None, Quantity("imbalance beyond the capacity", "", 3)]
     residual_um: Annotated[float | None, Quantity("expected residual (root of squares)", "", 3)]
-    worst_um: Annotated[float | None, Quantity("worst residual (plain sum)", "", 3)]
+    worst_um: Annotated[float | None, Quantity("largest residual (plain sum)", "", 3)]
     permitted_um: Annotated[float | None, Quantity("permitted by the limit", "", 3)]
-    rolling_friction_reached_um: Annotated[float | None, Quantity("friction band where balls came to rest", "", 3)] = (
-        None
-    )
+    rolling_friction_reached_um: Annotated[float | None, Quantity("friction band of simulated balls", "", 3)] = None
 
     @classmethod
     def of(cls, design: Design, reached: tuple[float, ...] | None) -> Self:

@@ -190,7 +190,7 @@ def _rate(motions: Sequence[LinearMotion], speed: float) -> float:
 def _stable(design: Design, speeds: SpeedRange) -> Check:
     low, high = design.case.speed_range
     where = f", slowest at {_rpm(speeds.worst_speed)}" if low < high else f" at {_rpm(speeds.worst_speed)}"
-    message = f"Every small disturbance dies out{where}. Judged is the worst arrangement of the balls that balances"
+    message = f"Every small disturbance dies out{where}, in the least stable balanced arrangement of the balls"
     return coded("ABU103", "pass", message, speeds.growth, 0.0, "1/s")
 
 
@@ -198,7 +198,8 @@ def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accura
     """A failure, or a warning where dry friction holds the balls in every start that was simulated."""
     low, high = design.case.speed_range
     sentences = [
-        f"A small disturbance grows at {_rpm(speeds.worst_speed)}, in the worst arrangement of the balls that balances"
+        f"A small disturbance grows at {_rpm(speeds.worst_speed)}, "
+        "in the least stable balanced arrangement of the balls"
     ]
     nearest = sorted(speeds.boundaries, key=lambda limit: abs(limit.speed - speeds.worst_speed))[:NAMED]
     if nearest:
@@ -206,7 +207,7 @@ def _unstable(design: Design, speeds: SpeedRange, hanging: HangingBounds, accura
         sentences.append(f"Stability changes at {', '.join(named)}")
     held = StuckBalls(0, 0)
     if low < high:
-        sentences.append("Start cases prove nothing for a range of speeds")
+        sentences.append("Start cases at single speeds prove nothing for a range of speeds")
     else:
         held = stuck_balls(design, hanging.largest or 0.0, accuracy)
         sentences.append(held.words)

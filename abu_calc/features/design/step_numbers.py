@@ -19,14 +19,14 @@ def _n(value: float | None) -> str:
 
 
 def frequency(result: "SizeResult") -> Lines:
-    """The finite-mass gap, where the speed lies, and the drag above which no balls hang."""
+    """The finite-mass gap, the region of the speed, and the drag rate above which no ball stalls."""
     frequency, design, model = result.frequency, result.autobalancer, result.model
     natural = ", ".join(map(_n, frequency.natural_frequencies_hz))
     return (
         f"(2m/(J·M))^(1/3) = (2 · {_n(design.ball_mass_g)} g / ({_n(model.inertia_factor)} · "
         f"{_n(result.effective_mass_kg)} kg))^(1/3) = {_n(frequency.finite_mass_gap)}",
         f"Ω/2π = {_n(frequency.speed_hz)} Hz, ω/2π = {natural} Hz: {frequency.region}",
-        f"no balls hang above h₀ = {_n(frequency.hanging_drag_per_s)} 1/s; given {_n(model.drag_per_s)} 1/s",
+        f"no ball stalls above h₀ = {_n(frequency.hanging_drag_per_s)} 1/s; given {_n(model.drag_per_s)} 1/s",
     )
 
 
@@ -37,23 +37,23 @@ def imbalance(result: "SizeResult") -> Lines:
 
 def mass(result: "SizeResult") -> Lines:
     """Mass of the whole system, and the effective mass at the wheel."""
-    return (f"M = {_n(result.system_mass_kg)} kg, felt at the wheel: {_n(result.effective_mass_kg)} kg",)
+    return (f"M = {_n(result.system_mass_kg)} kg, effective mass at the wheel {_n(result.effective_mass_kg)} kg",)
 
 
 def capacity(result: "SizeResult") -> Lines:
-    """The sum, the printed limit, the compliant contact."""
+    """The sum, the published limit, the capacity for a compliant contact."""
     model = result.model
     return (
         f"m₀e + M·ε·√{{…}} + M·Δ = {_n(result.imbalance_g_mm)} + {_n(model.runout_part_g_mm)} + "
         f"{_n(model.eccentricity_part_g_mm)} = {_n(result.required_capacity_g_mm)} g·mm, with √{{…}} = "
-        f"{_n(model.runout_factor)} and the ratio of the planes {_n(model.plane_ratio)}",
-        f"as printed, m₀e + Mε = {_n(result.required_capacity_limit_g_mm)} g·mm",
+        f"{_n(model.runout_factor)} and the plane ratio {_n(model.plane_ratio)}",
+        f"published limit: m₀e + Mε = {_n(result.required_capacity_limit_g_mm)} g·mm",
         f"compliant contact: {_n(result.required_capacity_compliant_g_mm)} g·mm",
     )
 
 
 def budget(result: "SizeResult") -> Lines:
-    """The root of squares, and what is permitted."""
+    """The root of the sum of squares, and the permitted displacement."""
     budget = result.accuracy_budget
     parts = budget.race_eccentricity_um, budget.rolling_friction_um, budget.race_ovality_um, budget.plane_offset_um
     squares = " + ".join(f"{_n(part)}²" for part in parts)
@@ -65,13 +65,13 @@ def balls(result: "SizeResult") -> Lines:
     design, model, pitch = result.autobalancer, result.model, _n(result.autobalancer.pitch_radius_mm)
     return (
         f"sin β = r/(R−r) = {_n(model.ball_radius_mm)}/{pitch}; {_n(design.ball_mass_g)} g · {pitch} mm · "
-        f"sin({design.ball_count}β)/sin β = {_n(design.capacity_g_mm)} g·mm = {_n(design.capacity_ratio)} × need",
+        f"sin({design.ball_count}β)/sin β = {_n(design.capacity_g_mm)} g·mm = {_n(design.capacity_ratio)} × required",
         f"{model.candidates} diameters and counts were examined",
     )
 
 
 def track(result: "SizeResult") -> Lines:
-    """The groove, and what presses on it."""
+    """The radius of the groove, and force and pressure on the race."""
     design, model = result.autobalancer, result.model
     return (
         f"R_g = r + (5/7)(R−r) = {_n(model.ball_radius_mm)} + (5/7)·{_n(design.pitch_radius_mm)} = "
@@ -82,8 +82,9 @@ def track(result: "SizeResult") -> Lines:
 
 
 def vibration(result: "SizeResult") -> Lines:
-    """Level before and after."""
-    return (f"{_n(result.vibration.level_before_db)} dB → {_n(result.vibration.level_after_db)} dB",)
+    """Levels without and with the autobalancer."""
+    before, after = result.vibration.level_before_db, result.vibration.level_after_db
+    return (f"without autobalancer {_n(before)} dB, with it {_n(after)} dB",)
 
 
 def seats(result: "SizeResult") -> Lines | None:
@@ -99,10 +100,10 @@ def swing_arm(result: "SizeResult") -> Lines | None:
     return (
         f"c_n < {_n(arm.contact_stiffness_limit_N_per_m)} N/m (series), "
         f"{_n(arm.contact_stiffness_limit_exact_N_per_m)} N/m (exact, at Z* = {_n(arm.worst_contact_angle_deg)}°)",
-        f"h_sh > {_n(arm.damping_limit_N_s_per_m)} N·s/m; at Ω = 2ω₀* = 2 · {_n(arm.resonance_rpm)} rpm the arm grows "
-        f"at {_n(arm.parametric_growth_rate_per_s)} 1/s",
-        f"off the work {_n(arm.idle_frequency_rpm)} rpm, at work {_n(arm.cutting_frequency_rpm)} rpm; the joint alone "
-        f"makes it stand at every contact angle above c_sh = {_n(arm.joint_stiffness_standing_N_per_m)} N/m",
+        f"h_sh > {_n(arm.damping_limit_N_s_per_m)} N·s/m; at Ω = 2ω₀* = 2 · {_n(arm.resonance_rpm)} rpm the motion "
+        f"of the arm grows at {_n(arm.parametric_growth_rate_per_s)} 1/s",
+        f"off the workpiece {_n(arm.idle_frequency_rpm)} rpm, on it {_n(arm.cutting_frequency_rpm)} rpm; the pivot "
+        f"alone makes the arm stand at every contact angle above c_sh = {_n(arm.joint_stiffness_standing_N_per_m)} N/m",
         f"T_a = {_n(arm.pressing_moment_N_m)} > {_n(arm.least_pressing_moment_N_m)} N·m; N = {_n(arm.press_force_N)} N",
     )
 

@@ -117,13 +117,13 @@ class SizeResult(Result):
 
     model: SizeModel
     system_mass_kg: Annotated[float, Quantity("mass with wheel and autobalancer", "M")]
-    effective_mass_kg: Annotated[float, Quantity("mass felt at the wheel", "m_eff")]
+    effective_mass_kg: Annotated[float, Quantity("effective mass at the wheel", "m_eff")]
     frequency: Frequency
     idle_speed_rpm: Annotated[float | None, Quantity("idle speed of the motor", "Ω", 6, "None without [motor]")]
     imbalance_g_mm: Annotated[float, Quantity("imbalance", "m₀e")]
     required_capacity_g_mm: Annotated[float, Quantity("required capacity", "m₀e + Mε√{…} + MΔ")]
-    required_capacity_limit_g_mm: Annotated[float, Quantity("as printed in the source", "m₀e + Mε")]
-    required_capacity_compliant_g_mm: Annotated[float | None, Quantity("for the compliant contact")]
+    required_capacity_limit_g_mm: Annotated[float, Quantity("limit as published", "m₀e + Mε")]
+    required_capacity_compliant_g_mm: Annotated[float | None, Quantity("required by the compliant contact")]
     autobalancer: AutobalancerRecord
     section: Section
     alternatives: tuple[AutobalancerRecord, ...]

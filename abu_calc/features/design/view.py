@@ -36,11 +36,12 @@ START = (
 WAYS = (
     "Bunched: the balls start together, 20° ahead of the imbalance. Behind: together, 20° behind it. Spread: evenly "
     "spread. Standstill: not turning with the race. Run-up: the machine starts from standstill.",
-    "Drag rates from a third to three times of the file's are those of hot and cold oil. Settling times count from "
-    "full speed. Each is that of the slower side of the race: its centre at 0° from the imbalance, or, at the given "
-    "drag rate, at 180°.",
-    "Below the optimum drag rate small disturbances decay by h₀/2J for all balls. Above it heavier balls settle "
-    "faster. From standstill they take up the speed by h₀/J. The groove's radius has no influence in the plane.",
+    "A third of the given drag rate stands for hot oil, three times of it for cold oil. Settling times count from full "
+    "speed. Each is that of the slower side of the race. Its centre is at 0° from the imbalance, and at the given drag "
+    "rate also at 180°.",
+    "Below the optimum drag rate small disturbances decay at h₀/(2J), whatever the mass of the balls. Above it heavier "
+    "balls settle faster. From standstill the balls take up the speed at h₀/J. The radius of the groove has no "
+    "influence in the plane.",
     "`abu simulate FILE --start spread --race-centre 0` repeats one start case.",
 )
 GAPS = (
@@ -125,10 +126,10 @@ def _ensemble(result: SizeResult) -> list[Block]:
     )
     rows = tuple((name, _or_never(spread.typical), _or_never(spread.worst), unit) for name, spread, unit in spreads)
     return [
-        Heading("Many starts", "many-starts"),
+        Heading("Start cases", "many-starts"),
         facts(many, "members", "balanced", "hanging"),
-        Grid(("", "median, rated speed", "worst start case", ""), rows, frozenset({1, 2})),
-        Heading("Settling time in s, by start and drag rate, slower side of the race"),
+        Grid(("", "median at rated speed", "largest of all", ""), rows, frozenset({1, 2})),
+        Heading("Settling time in s, by start case and drag rate, slower side of the race"),
         _ways(many.settling_by_start),
         *map(Paragraph, WAYS),
     ]
@@ -152,7 +153,7 @@ def _ways(settling_times: Sequence[SettlingOfStart]) -> Grid:
 
 
 def _or_never(value: float | None) -> str:
-    return "never" if value is None else number(value)
+    return "never" if value is None else number(value, 3)
 
 
 def _need(result: SizeResult) -> list[Block]:
@@ -167,7 +168,7 @@ def _need(result: SizeResult) -> list[Block]:
         Paragraph(_hanging(result)),
         facts(result, "imbalance_g_mm", "required_capacity_g_mm", "required_capacity_limit_g_mm",
               "required_capacity_compliant_g_mm"),
-        Heading("Accuracy budget, displacements at the wheel", "accuracy-budget"),
+        Heading("Residual-displacement budget at the wheel", "accuracy-budget"),
         facts(budget, *(name for name in budget.entries() if name not in silent)),
     ]  # fmt: skip
 
@@ -176,26 +177,28 @@ def _stability(frequency: Frequency) -> str:
     """Stability by the eigenvalues, stated beside the simple rule."""
     stable, limits = frequency.stable, frequency.stability_boundaries_rpm
     if stable is None or limits is None:
-        return "Whether the balanced state is stable at idle is not known."
+        return "The stability of the balanced state at idle is not known."
     word = "stable" if stable else "not stable"
     changes = ", ".join(f"{number(boundary.speed_rpm, 4)} rpm ({_above(boundary)} above)" for boundary in limits)
     modes = (f"{number(mode.frequency_hz, 3)} Hz (ζ {number(mode.damping_ratio, 2)})" for mode in frequency.modes)
     return (
-        f"Balanced state at idle, by its eigenvalues, in the worst arrangement: {word} at the rated speed. Changes at "
-        f"{changes or 'no speed'}. The machine swings at {', '.join(dict.fromkeys(modes)) or 'no frequency'}."
+        f"The balanced state at idle is {word} at the rated speed, by the eigenvalues of its least stable arrangement. "
+        f"Its stability changes at {changes or 'no speed'}. The machine's free oscillations are at "
+        f"{', '.join(dict.fromkeys(modes)) or 'no frequency'}."
     )
 
 
 def _hanging(result: SizeResult) -> str:
-    """The closed bound, with the margin of the drag."""
+    """The closed bound on the drag rate, and the given rate."""
     bound, drag = result.frequency.hanging_drag_per_s, result.model.drag_per_s
     if bound is None:
-        return "Balls may hang at a resonance whatever their drag: nothing damps it."
+        return "Balls may stall at a resonance at any drag rate, because nothing damps the resonance."
     if drag > bound:
-        return f"No balls hang above a drag of {number(bound, 3)} 1/s: {number(drag / bound, 3)} times that is given."
+        times = number(drag / bound, 3)
+        return f"No ball stalls above a drag rate of {number(bound, 3)} 1/s. The given rate is {times} times that."
     return (
-        f"Balls may hang, going round at a resonance or not at all, below a drag of {number(bound, 3)} 1/s; "
-        f"{number(drag, 3)} is given. That is a bound, no verdict: a slow run-up tells."
+        f"Below a drag rate of {number(bound, 3)} 1/s balls may stall, at a resonance or at standstill; the given rate "
+        f"is {number(drag, 3)} 1/s. This is a bound, not a verdict: a simulated slow run-up decides."
     )
 
 
@@ -211,7 +214,7 @@ def _vibration(result: SizeResult) -> list[Block]:
         for state, vibration in states if vibration
         for place in vibration.handles
     ]  # fmt: skip
-    header: tuple[str, ...] = "", "place", "before, dB", "after, dB", "at once", "reduction", "felt mass, kg"
+    header: tuple[str, ...] = "", "place", "without, dB", "with, dB", "at once", "reduction", "effective mass, kg"
     loaded = result.vibration_loaded
     if loaded is None or loaded.level_at_once_db is None:
         header, *rows = (row[:4] + row[5:] for row in (header, *rows))
@@ -226,20 +229,20 @@ def _vibration(result: SizeResult) -> list[Block]:
         (f"{place.name}, {state}{when}", readings)
         for state, vibration in states if vibration
         for place in vibration.handles
-        for when, readings in ((", before", place.shown_before), (", after", place.shown_after)) if readings
+        for when, readings in ((", without", place.shown_before), (", with", place.shown_after)) if readings
     ]  # fmt: skip
     return [*blocks, *shown_blocks(shown), *measured_after_blocks(result.measured_after)]
 
 
 def _under_load(loaded: Vibration) -> Iterator[str]:
     """Explanation of the levels under load."""
-    yield "Under load is information, not a check: it rests on the contact's stiffness."
+    yield "Levels under load are information, not a check: they depend on the contact stiffness."
     if loaded.level_at_once_db is not None:
-        stays = "; then wheel and work go on bouncing, another state that stays" if loaded.at_once_stays else ""
-        yield f"After: pressed to the work when the balls have settled; at once: pressed before{stays}."
+        stays = " Wheel and workpiece then go on bouncing." if loaded.at_once_stays else ""
+        yield f"With: pressed to the workpiece after the balls have settled. At once: pressed before that.{stays}"
     if loaded.steady_level_after_db is not None:
         steady = f"the {_tenths(loaded.steady_level_after_db)} dB of steady contact are not valid"
-        yield f"Wheel and work part: the level after is simulated; {steady}."
+        yield f"Wheel and workpiece lose contact. The level with the autobalancer is simulated; {steady}."
 
 
 def _tenths(value: float | None) -> str:
@@ -275,7 +278,7 @@ def _scene(scene: SimulatedScene, case: str) -> list[Block]:
             *facts(scene, "residual_imbalance_g_mm", "axis_amplitude_mm", "level_db", "error_estimate").rows,
         )),
         Paragraph(f"Scene {scene.scene}: the balls end at {angles} from the imbalance."),
-        Paragraph(f"Effects in: {_in(scene)}. Left out: {_out(scene)}."),
+        Paragraph(f"Effects in scene {scene.scene}: {_in(scene)}. Left out: {_out(scene)}."),
         Paragraph(f"Cost: {work}, {cost.wall_s:.2f} s."),
     ]  # fmt: skip
 
@@ -289,7 +292,7 @@ def _out(scene: SimulatedScene) -> str:
 
 
 def _weight(weight: float | None) -> str:
-    return "weight not known" if weight is None else f"weight {number(weight, 2)}"
+    return "influence not known" if weight is None else f"estimated influence {number(weight, 2)}"
 
 
 def _alternatives(others: Sequence[AutobalancerRecord]) -> list[Block]:
@@ -297,7 +300,7 @@ def _alternatives(others: Sequence[AutobalancerRecord]) -> list[Block]:
         return []
     names = ("race_radius_mm", "mass_g", "capacity_ratio", "residual_um", "slowest_decay_per_s")
     rows = tuple((balls(other), *(_bare(other, name) for name in names), other.why_not or "") for other in others)
-    header = ("balls", "R, mm", "mass, g", "cap./need", "rest, µm", "decay, 1/s", "why not")
+    header = ("balls", "R, mm", "mass, g", "capacity ratio", "residual, µm", "decay, 1/s", "why not")
     return [Heading("Runners-up", "runners-up"), Grid(header, rows, frozenset({1, 2, 3, 4, 5}))]
 
 
@@ -328,7 +331,7 @@ def _drawing(result: SizeResult) -> list[Block]:
         for line in result.drawing
     )
     note = (
-        "The cost is what the level rises by when the tolerance is used up, the rest of the budget standing. "
+        "The cost is the rise of the level if this tolerance is used up and all others stay. "
         "Requirements are engineering practice (assumed)."
     )
     return [

@@ -40,5 +40,5 @@ def test_parts_and_balls_of_the_report_add_up_to_the_mass() -> None:
 def test_a_machine_without_arm_seats_or_starts_has_no_such_chapters() -> None:
     bare = as_text(size_blocks(replace(whole(), ensemble=None, alternatives=())), 80)
     full = as_text(size_blocks(whole()), 80)
-    assert "Many starts" in full and "Many starts" not in bare
+    assert "Start cases\n" in full and "Start cases\n" not in bare
     assert "Swing arm" not in full

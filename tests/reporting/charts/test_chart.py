@@ -52,7 +52,7 @@ def test_planes_show_what_to_do_where_it_is_done() -> None:
         assert away == pytest.approx((clockwise * RADIUS * math.sin(angle), RADIUS * math.cos(angle)))
     words = [one.text for one in drawing.shapes if isinstance(one, Text)]
     assert "− 12.00 g at 205.0°" in words
-    assert "take off 12.00 g at 205.0°" in drawing.description
+    assert "remove 12.00 g at 205.0°" in drawing.description
 
 
 def test_growth_over_speeds_is_that_of_each_speed() -> None:
