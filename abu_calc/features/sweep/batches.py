@@ -86,7 +86,7 @@ class RenewableExecutor:
         Raises NotTrustworthyError if the executor belongs to the caller.
         """
         if not self.own:
-            raise NotTrustworthyError("the executor is broken, so no more members can be computed")
+            raise NotTrustworthyError("the executor is broken, so no more samples can be computed")
         self.close()
 
     def look(self) -> bool:
@@ -98,7 +98,7 @@ class RenewableExecutor:
         self._seen = now if math.isinf(self._seen) else self._seen
         if now - self._seen >= self.patience:
             gone = f"the cluster has had no scheduler or no worker for {self.patience:g} s"
-            raise NotTrustworthyError(f"{gone}; no more members are computed")
+            raise NotTrustworthyError(f"{gone}; no more samples are computed")
         return False
 
     def close(self, *, at_once: bool = False) -> None:
@@ -201,8 +201,8 @@ def _error(future: Future[Any]) -> BaseException | None:
 
 def _unloadable(error: ImportError) -> NotTrustworthyError:
     return NotTrustworthyError(
-        f"a library cannot be loaded where members are computed: {error}\n"
-        "  Install abu-calc of this version there, and go on. The members under way are not recorded."
+        f"a library cannot be loaded where samples are computed: {error}\n"
+        "  Install abu-calc of this version there, and resume. The samples under way are not recorded."
     )
 
 
@@ -210,7 +210,7 @@ def _await(workers: RenewableExecutor, member: int, tries: Counter[int]) -> None
     """Wait until any worker is there, before a batch that came back uncomputed is handed out again."""
     tries[member] += 1
     if tries[member] > TRIES:
-        raise NotTrustworthyError("the executor cancels what it is given, so no more members are computed")
+        raise NotTrustworthyError("the executor cancels what it is given, so no more samples are computed")
     while not workers.look():
         time.sleep(LOOK_S / 4)
 

@@ -60,10 +60,10 @@ def described(workers: int | None, executor: Executor | None) -> str:
 
 def compute(study: SweepStudy, store: Store, hands: Workers, progress: Progress) -> None:
     """Put the missing members into the store as they come."""
-    counted = _Counted(store.put, store.done, store.runs, progress, "sweep: {} of {} members")
+    counted = _Counted(store.put, store.done, store.runs, progress, "sweep: {} of {} samples")
     _computed(study, store.missing(), counted, hands)
     if (there := store.ask("SELECT COUNT(*) FROM members")[0][0]) != store.runs:
-        text = f"it has {there} members and not {store.runs}: another program took some out"
+        text = f"it has {there} samples and not {store.runs}: another program removed some"
         raise fault(store.path, text, "Go on with --resume.")
 
 

@@ -39,7 +39,7 @@ ROUGH: Final = 256
 FEW: Final = 0.05
 """Share of members without numbers beyond which the others speak for too few."""
 
-MORE: Final = "Allow more seconds; a store computes those members when it is gone on with: --resume."
+MORE: Final = "Raise --patience. A store computes those samples with --resume."
 
 
 @checked
@@ -109,7 +109,7 @@ def sweep(
         return _answered(plan, ask, database, machine, members, path, again)
     except BaseException as ended:
         with suppress(AbuError):  # of a store that cannot even be asked
-            ended.add_note(f"{database.done} of {database.runs} members")
+            ended.add_note(f"{database.done} of {database.runs} samples")
         raise
     finally:
         database.close()
@@ -210,7 +210,7 @@ def _answered(
         or not store.ask(f"SELECT COUNT(*) FROM members WHERE {answers.there(store)}")[0][0]
     ):
         reason = failed.reasons[0].reason
-        raise NotTrustworthyError(f"none of {store.runs} members gave a number that can be trusted: {reason}")
+        raise NotTrustworthyError(f"none of {store.runs} samples gave a number that can be trusted: {reason}")
     met = answers.meets(store, study.what)
     by_name, unexplained = answers.sensitivities(store, sample, study.what)
     first = next(iter(by_name), None)
@@ -251,39 +251,39 @@ def _unless(late: int, check: Check) -> Check:
     """The check of a share; not done where members were left out for patience."""
     if not late:
         return check
-    message = f"{late} members were not computed within --patience; of the others: {check.message}"
+    message = f"{late} samples were not computed within --patience; of the others: {check.message}"
     return replace(check, status="not-done", message=message, remedy=MORE)
 
 
 def _numbers(failed: Failed, late: int, runs: int) -> Check:
     share = failed.members / runs
     if late:
-        message = f"{late} of {runs} members were not computed within --patience"
+        message = f"{late} of {runs} samples were not computed within --patience"
         return coded("ABU821", "not-done", message, 100 * share, 100 * FEW, "%", MORE)
-    message = "every member gave numbers"
+    message = "every sample gave numbers"
     if failed.members:
         failure = failed.reasons[0]
-        message = f"{failed.members} of {runs} members gave none, {failure.members} of them: {failure.reason}"
+        message = f"{failed.members} of {runs} samples gave none, {failure.members} of them: {failure.reason}"
     status = "pass" if not failed.members else "warn" if share <= FEW else "not-done"
-    remedy = "Look at the reasons; narrow distributions that reach values no machine has." if failed.members else None
+    remedy = "Check the reasons. Narrow distributions that reach values no machine has." if failed.members else None
     return coded("ABU821", status, message, 100 * share, 100 * FEW, "%", remedy)  # type: ignore[arg-type]
 
 
 def _share(met: MeetsLimits, least: float | None) -> Check:
     low, high = met.confidence_interval
-    message = f"{met.met} of {met.of} members meet all limits, by 95 % confidence {100 * low:.1f} to {100 * high:.1f} %"
+    message = f"{met.met} of {met.of} samples meet all limits, by 95 % confidence {100 * low:.1f} to {100 * high:.1f} %"
     if least is None:
         message = (
-            "every member meets all limits"
+            "every sample meets all limits"
             if met.met == met.of
-            else (f"{met.of - met.met} of {met.of} members do not; [sweep] least_share says how many must")
+            else (f"{met.of - met.met} of {met.of} samples do not; [sweep] least_share sets how many must")
         )
         return coded("ABU822", "pass" if met.met == met.of else "warn", message, 100 * met.share, None, "%")
     status = "pass" if low >= least else "warn" if met.share >= least else "fail"
     remedy = (
         None
         if status == "pass"
-        else "More members narrow the interval."
+        else "More samples (--runs) narrow the interval."
         if status == "warn"
         else ("Tighten what the report names, or change the design: `abu size FILE` judges it.")
     )
@@ -315,7 +315,5 @@ def _warnings(plan: Plan, store: Store, quantities: Mapping[str, Percentiles]) -
             (store.drawn,),
         )[0][0]
         if never and quantities["settling_time_s"].mean is None:
-            notes.append(
-                f"{never} members never settle: they count as later than all others, and settling has no mean."
-            )
+            notes.append(f"{never} samples never settle: they count as slowest, and the settling time has no mean.")
     return notes

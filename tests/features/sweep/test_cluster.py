@@ -143,4 +143,4 @@ def test_a_cluster_without_workers_is_waited_for_as_long_as_asked(
     executor = Executor(Client({"tcp://a:1": dict(software())}), gone=True)
     with pytest.raises(abu_calc.NotTrustworthyError, match=r"no scheduler or no worker for 0\.2 s") as ended:
         sweeps.run(executor=executor, cluster_wait_s=0.2)
-    assert ended.value.__notes__ == ["0 of 12 members"]
+    assert ended.value.__notes__ == ["0 of 12 samples"]

@@ -42,7 +42,7 @@ def test_who_interrupts_is_told_how_to_go_on(tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr(SweepStudy, "_row", stopped)
     store = tmp_path / "members.sqlite"
     seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "8", *CALM, "--store", str(store))
-    assert seen.status == 130 and f"of 8 members are in {store}. Go on with:" in seen.err and "--resume" in seen.err
+    assert seen.status == 130 and f"of 8 samples are in {store}. Go on with:" in seen.err and "--resume" in seen.err
     kept = abu("sweep", "avtovaz-707-222", "--vary", OFF, *CALM)
     assert kept.status == 130 and "no member is kept" in kept.err
 
@@ -56,7 +56,7 @@ def test_who_interrupts_the_trials_is_told_that_all_members_are_there(
     monkeypatch.setattr("abu_calc.features.sweep.study.loosened", stopped)
     store = tmp_path / "members.sqlite"
     seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "4", *CALM, "--store", str(store))
-    assert seen.status == 130 and f"4 of 4 members are in {store}. Go on with:" in seen.err
+    assert seen.status == 130 and f"4 of 4 samples are in {store}. Go on with:" in seen.err
 
 
 @pytest.mark.parametrize(
@@ -129,7 +129,7 @@ def test_who_lost_a_cluster_is_told_how_to_go_on(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr(SweepStudy, "_row", lost)
     store = tmp_path / "members.sqlite"
     seen = abu("sweep", "avtovaz-707-222", "--vary", OFF, "--runs", "8", *CALM, "--store", str(store))
-    assert seen.status == 3 and f"of 8 members are in {store}. Go on with:" in seen.err and "--resume" in seen.err
+    assert seen.status == 3 and f"of 8 samples are in {store}. Go on with:" in seen.err and "--resume" in seen.err
 
 
 def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:

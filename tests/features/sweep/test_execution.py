@@ -44,7 +44,7 @@ def test_missing_members_are_computed_and_the_others_stay(store: Store, threads:
     with ThreadPoolExecutor(2) as pool:
         compute(Squares(), store, Workers(None, pool, 10.0) if threads else HERE, said.append)  # type: ignore[arg-type]
     assert store.column("level_db").tolist() == [0, 1, 4, 9, 1.5, 25, 36, 49, 64]
-    assert said[-1].startswith("sweep: 9 of 9 members, ") and said[-1].endswith(" 0 s left")
+    assert said[-1].startswith("sweep: 9 of 9 samples, ") and said[-1].endswith(" 0 s left")
     assert {row[0] for row in store.ask("SELECT worker FROM batches")} == {"", worker_name()}
 
 

@@ -38,7 +38,7 @@ def test_a_failed_import_is_no_members_result(sweeps: Sweeps, monkeypatch: pytes
         failing(patch, {seeds[3]: ImportError("numpy._core.multiarray failed to import")})
         with pytest.raises(abu_calc.NotTrustworthyError, match=r"library cannot be loaded.*multiarray") as ended:
             sweeps.run()
-    assert ended.value.__notes__ == ["3 of 12 members"] and reasons(sweeps) == {}
+    assert ended.value.__notes__ == ["3 of 12 samples"] and reasons(sweeps) == {}
     assert (sweeps.run(resume=True).members["level_db"] > 80).all()
 
 

@@ -107,7 +107,7 @@ def test_a_run_whose_store_is_taken_away_fails(
 
 def test_members_that_another_program_takes_out_are_missed(sweeps: Sweeps, monkeypatch: pytest.MonkeyPatch) -> None:
     Meanwhile(monkeypatch, 8, lambda: edited(sweeps.store, "DELETE FROM members WHERE member = 2"))
-    with pytest.raises(abu_calc.OutputError, match="it has 11 members and not 12"):
+    with pytest.raises(abu_calc.OutputError, match="it has 11 samples and not 12"):
         sweeps.run()
     sweeps.run(resume=True)
     assert len(rows(sweeps.store)) == 12

@@ -88,7 +88,7 @@ def test_a_store_goes_on_to_the_same_members(
         return computed(self, member, may_end_process)
 
     monkeypatch.setattr(SweepStudy, "_row", stopped)
-    with pytest.raises(KeyboardInterrupt, match="of 12 members"):
+    with pytest.raises(KeyboardInterrupt, match="of 12 samples"):
         abu_calc.sweep(machine, vary, 12, store=broken)
     assert 0 < len(rows(broken)) < 12
     monkeypatch.setattr(SweepStudy, "_row", computed)
@@ -150,7 +150,7 @@ def test_no_member_with_a_number_is_no_answer(machine: abu_calc.Machine, monkeyp
         raise abu_calc.NotTrustworthyError("no number")
 
     monkeypatch.setattr("abu_calc.features.sweep.samples.Builds.numbers", none)
-    with pytest.raises(abu_calc.NotTrustworthyError, match="none of 3 members"):
+    with pytest.raises(abu_calc.NotTrustworthyError, match="none of 3 samples"):
         abu_calc.sweep(machine, {ECCENTRICITY: [0.004, 0.005, 0.006]})
 
 
