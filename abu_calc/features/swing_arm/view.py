@@ -14,15 +14,13 @@ LEAST: Final = 1e-4
 """Smallest motion [µm] that is stated as a number."""
 MARGIN: Final = 12
 BOTH, FLOQUET, AVERAGED, HERE = "#", "o", ".", "X"
-LEGEND: Final = (
-    f"Below {BOTH} the arm grows ({FLOQUET} by Floquet multipliers alone, {AVERAGED} averaged alone); {HERE} this arm."
-)
+LEGEND: Final = f"Below {BOTH} the motion grows ({FLOQUET} by Floquet multipliers alone, {AVERAGED} averaged alone); {HERE} this arm."
 TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is next to nothing against the arm's inertia."
 NO_TONGUE: Final = (
-    "At ω₀/j the arm is shaken hard, and does not grow: these are forced resonances, though the source calls them "
-    "unstable. It grows about 2ω₀ alone."
+    "At ω₀/j the motion of the arm is large, but does not grow: these are forced resonances, though the source calls "
+    "them unstable. The motion grows only about 2ω₀."
 )
-"""Printed otherwise in Kovalenko 2010."""
+"""Correction of Kovalenko 2010 as published."""
 
 
 def arm_line(advice: str | None) -> list[Block]:
@@ -36,25 +34,25 @@ def arm_bounds(arm: SwingArmRecord) -> Grid:
     """Each number given beside its bound over all contact angles: stiffness first, damping second."""
     stiffness = min(arm.contact_stiffness_limit_N_per_m, arm.contact_stiffness_limit_exact_N_per_m)
     bunched = arm.damping_limit_bunched_N_s_per_m
-    heavy = "" if bunched is None else f", {number(bunched, 3)} while balls are bunched"
-    at_work = "none at work" if arm.cutting_frequency_rpm is None else f"{number(arm.cutting_frequency_rpm)} at work"
+    heavy = "" if bunched is None else f", {number(bunched, 3)} with balls together"
+    at_work = "none on it" if arm.cutting_frequency_rpm is None else f"{number(arm.cutting_frequency_rpm)} on it"
     rows = (
         ("contact stiffness, N/m", bounded(arm.contact_stiffness_N_per_m),
          f"below {number(stiffness)}, worst at {number(arm.worst_contact_angle_deg)}°"),
-        ("joint damping, N·s/m", f"{arm.joint_damping_N_s_per_m:g}",
+        ("pivot damping, N·s/m", f"{arm.joint_damping_N_s_per_m:g}",
          f"above {number(arm.damping_limit_N_s_per_m)}{heavy}"),
         ("contact angle, °", f"{arm.contact_angle_deg:g}", _angles(arm)),
         ("pressing torque, N·m", f"{arm.pressing_moment_N_m:g}",
          f"above {number(arm.least_pressing_moment_N_m)}{_force(arm)}"),
         ("natural frequency, rpm", number(arm.idle_frequency_rpm),
-         f"off the work; {at_work}, {number(arm.resonance_rpm)} at most"),
+         f"off workpiece; {at_work}, {number(arm.resonance_rpm)} at most"),
     )  # fmt: skip
     return Grid(("swing arm", "given", "bound at any contact angle"), rows, frozenset({1}))
 
 
 def _angles(arm: SwingArmRecord) -> str:
     if arm.lifted_contact_angles_deg is None:
-        return "stands at every one"
+        return "stands at every angle"
     low, high = arm.lifted_contact_angles_deg
     return f"not {number(low, 3)} to {number(high, 3)}: friction lifts there"
 
