@@ -4,15 +4,12 @@ A parameter of a command is called like the argument of the study it asks, so th
 option.
 
     SCENES, File, …    types of options that several commands about scenes share
-    asked              the command line that gives a result again
+    settings           the command and its options, which give a result again
     write_files        the files that a command was asked for, written when all is computed
     add_command        a function made a command
 """
 
 import inspect
-import os
-import shlex
-import subprocess
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
 from contextlib import contextmanager
 from dataclasses import replace
@@ -56,28 +53,19 @@ With = Annotated[list[str] | None, typer.Option("--with", metavar="EFFECT", help
 Without = Annotated[list[str] | None, typer.Option("--without", metavar="EFFECT", help="Remove an effect; repeatable.")]
 
 
-def asked(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, Any]) -> str:
-    """The command with its arguments, and those options that are not as they are anyway; quoted for a shell."""
-    words = [
-        "abu",
-        name,
-        *(word for key, parameter in parameters.items() if key != "how" for word in _words(parameter, given[key])),
-    ]
-    return subprocess.list2cmdline(words) if os.name == "nt" else shlex.join(words)
+def settings(name: str, parameters: Mapping[str, Parameter], given: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    """The command with its arguments, and those options that are not as they are anyway, each with its value."""
+    values = [row for key, parameter in parameters.items() if key != "how" for row in _set(parameter, given[key])]
+    return (("command", name), *values)
 
 
-def _words(parameter: Parameter, value: Any) -> Iterator[str]:
-    """Command-line words of one parameter; none if its default is in force."""
+def _set(parameter: Parameter, value: Any) -> Iterator[tuple[str, str]]:
+    """Name and value of one parameter, once for each of several values; none if its default is in force."""
     if value is None or value == parameter.default:
         return
-    option = _option(parameter)
+    label = (_option(parameter) or parameter.name).strip("-_").replace("-", " ").replace("_", " ")
     for each in value if isinstance(value, (list, tuple)) else [value]:
-        if option is None:
-            yield str(each)
-        elif isinstance(each, bool):
-            yield option if each else option.replace("--", "--no-", 1)
-        else:
-            yield from (option, str(each))
+        yield label, {True: "yes", False: "no"}[each] if isinstance(each, bool) else str(each)
 
 
 def _option(parameter: Parameter) -> str | None:
@@ -218,7 +206,7 @@ def add_command(
         wanted = {"how": how} if "how" in own else {}
         with _naming_options(options), limited(given.get("patience")):
             outcome = function(**{key: given[key] for key in own if key != "how"}, **wanted)
-        outcome = replace(outcome, asked=asked(name, own, given), extras=_extras(outcome))
+        outcome = replace(outcome, settings=settings(name, own, given), extras=_extras(outcome))
         status = deliver(outcome, how, wrote=write_files(outcome, how))
         if status:
             raise typer.Exit(status)

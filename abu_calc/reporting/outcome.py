@@ -38,8 +38,8 @@ class Outcome:
     """Function that makes the sheets of a drawing; None if the command has none."""
     extras: "MakesExtras | None" = None
     """Function that makes the figures and the calculation note of a page; None if the command has none."""
-    asked: str = ""
-    """The command line that gives this, files that it writes left out."""
+    settings: tuple[tuple[str, str], ...] = ()
+    """The command with its arguments and options, each with its value; files that it writes are left out."""
     plain: str | None = None
     """Text that stands for itself (a file, a schema): printed and written as it is, instead of the blocks."""
     plain_suffix: str = ".json"

@@ -24,10 +24,10 @@ WIDTH: Final = 58
 HEIGHT: Final = 16
 
 ABOUT: Final = (
-    "Errors are against the reference, with every effect there is data for: amplitude relative to the larger of itself "
-    "and 1 % of that without balls, level likewise of the velocity (0.01 is 0.09 dB), settling time relative, angles "
-    "in rad. Times are those of the integration alone: warm, the median of repeats; cold, the first run with import "
-    "and compilation. They belong to this machine at this moment."
+    "Errors are against the reference, with every effect that has data. Amplitude: relative to the larger of itself "
+    "and 1 % of that without balls. Level: likewise for the velocity (0.01 is 0.09 dB). Settling time: relative. "
+    "Angles: in rad. Times are those of the integration alone on this computer. Warm: the median of repeats. Cold: the "
+    "first run with import and compilation."
 )
 
 
@@ -36,11 +36,12 @@ def accuracy_blocks(result: AccuracyResult) -> tuple[Block, ...]:
     reference = result.reference
     sure = (
         f"Reference: {reference.integrators[0]} at {reference.tolerances[0]:g} and {reference.integrators[1]} at "
-        f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}; {reference.wall_s:.1f} s."
+        f"{reference.tolerances[1]:g} differ by {number(reference.disagreement, 2)}, computed in "
+        f"{reference.wall_s:.1f} s."
     )
     skipped = [Paragraph(f"Not measured in the time allowed (--time-budget): {', '.join(_grouped(result.skipped))}.")]
     return (
-        Heading(f"{result.title}: what accuracy costs, the {result.quantity}{of_scene(result.scene)}"),
+        Heading(f"{result.title}: error and computing time, {result.quantity}{of_scene(result.scene)}"),
         Paragraph(_chosen(result), "fail" if result.chosen is None else "pass"),
         Paragraph(sure),
         Heading("Points", "points"),
@@ -62,7 +63,7 @@ def accuracy_screen(result: AccuracyResult) -> tuple[Block, ...]:
 
 
 def _grouped(names: tuple[str, ...]) -> list[str]:
-    """Rung and integrator once, with all their tolerances."""
+    """Model level and integrator once, with all their tolerances."""
     groups: dict[str, list[str]] = {}
     for name in names:
         method, _, tolerance = name.rpartition(" ") if " " in name else (name, "", "")
@@ -83,10 +84,13 @@ def _not_computed(points: tuple[MeasuredPoint, ...]) -> list[str]:
 def _chosen(result: AccuracyResult) -> str:
     point = result.chosen
     if point is None or point.error is None or point.wall_s is None:
-        return f"Nothing measured reaches an error of {result.accuracy:g}."
+        return f"No method that was measured reaches an error of {result.accuracy:g}."
     tolerance = "" if point.tolerance is None else f" at tolerance {point.tolerance:g}"
     method = point.rung if point.integrator is None else f"{point.rung}, {point.integrator}{tolerance}"
-    return f"For an error of {result.accuracy:g}: {method}; error {number(point.error, 2)}, {_time(point.wall_s)}."
+    return (
+        f"Cheapest method for an error of at most {result.accuracy:g}: {method}. "
+        f"Its error is {number(point.error, 2)}, its computing time {_time(point.wall_s)}."
+    )
 
 
 def _short(integrator: str) -> str:
@@ -102,7 +106,9 @@ def _grid(result: AccuracyResult) -> Grid:
          _time(point.wall_s), _time(point.cold_s))
         for point in result.points
     )  # fmt: skip
-    return Grid(("rung", "by", "tolerance", "error", "evaluations", "warm", "cold"), rows, frozenset({2, 3, 4, 5, 6}))
+    return Grid(
+        ("model level", "by", "tolerance", "error", "evaluations", "warm", "cold"), rows, frozenset({2, 3, 4, 5, 6})
+    )
 
 
 def _time(seconds: float | None) -> str:
@@ -116,7 +122,7 @@ def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
     known = [(math.log10(point.wall_s), math.log10(max(point.error, 1e-16)), _mark(point))
              for point in points if point.wall_s and point.error is not None]  # fmt: skip
     if not known:
-        return ["nothing to draw"]
+        return ["no point has an error"]
     times, errors = [x for x, _, _ in known], [y for _, y, _ in known]
     left, right = math.floor(min(times)), math.ceil(max(times))
     low, high = math.floor(min(errors)), math.ceil(max(errors))
@@ -137,7 +143,10 @@ def picture(points: tuple[MeasuredPoint, ...]) -> list[str]:
 
 
 def _legend() -> str:
-    return ", ".join(f"{mark} {name}" for name, mark in MARKS.items()) + "; small letters: everything."
+    return (
+        ", ".join(f"{mark} {name}" for name, mark in MARKS.items())
+        + "; small letters: full equations with every effect."
+    )
 
 
 def _mark(point: MeasuredPoint) -> str:
@@ -173,8 +182,8 @@ def _precision(result: AccuracyResult) -> Iterator[Figure]:
         marks.append(MarkedPoint(best.wall_s, max(best.error, NOTHING), "chosen"))
     text = "; ".join(f"{line.name}: error {number(y, 2)} in {number(x, 2)} s" for line in lines for x, y in line.points)
     caption = (
-        "Work against precision, both axes in decades, a line for each way to compute over its tolerances: nearer to "
-        "the lower left is better; what lies below the dashed line is accurate enough."
+        "Error against computing time, both axes in decades, a line for each method over its tolerances. Nearer to the "
+        "lower left is better; points below the dashed line are accurate enough."
     )
     limit = (result.accuracy, f"asked for {result.accuracy:g}")
     chart = Plot("Error against time", text, across, up, lines, marks, limit)
@@ -182,7 +191,7 @@ def _precision(result: AccuracyResult) -> Iterator[Figure]:
 
 
 def _name(point: MeasuredPoint) -> str:
-    """Rung and integrator in short."""
+    """Model level and integrator in short."""
     by = (point.integrator or "").removeprefix("scipy-")
     if point.rung == "equations" and by:
         return by

@@ -9,12 +9,14 @@ from abu_calc.features.design.sheet import arm_sheets
 from abu_calc.features.design.starts import StartView
 from abu_calc.features.design.step_numbers import explanation_blocks
 from abu_calc.features.design.study import SizeResult
+from abu_calc.features.design.summary import size_summary
 from abu_calc.features.seats.figures import seat_figures
 from abu_calc.foundation.quantity import quantities
 from abu_calc.foundation.units import from_si
 from abu_calc.reporting.blocks import number
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars, Curve, MarkedPoint, Plot, db, micrometres
-from abu_calc.reporting.charts.figure import Extras, Figure, RotorMotionFigure, caught, level, settling
+from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure, RotorMotionFigure, caught, level, settling
+from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.parts import value_of
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
@@ -26,12 +28,15 @@ SUMS: Final = ("residual_um", "worst_um")
 
 
 def size_extras(result: SizeResult) -> Extras:
-    """Figures, and the calculation note."""
+    """Figures, calculation note and summary of a page; warnings stand in the summary if it has room for all."""
     figures = (
         *_drawings(result), *_levels(result), *_over_speed(result), *_budget(result), *_motion(result),
         *_settling(result), *_over_time(result), *_run_up(result), *_candidates(result), *_costs(result),
     )  # fmt: skip
-    return Extras(figures, explanation_blocks(result)[1:])
+    section = next(figure.shown for figure in figures if figure.section == SUMMARY)
+    summary = size_summary(result, section.size[1] if isinstance(section, Drawing) else 0.0)
+    held = frozenset({"warnings"}) if summary.whole else frozenset()
+    return Extras(figures, explanation_blocks(result)[1:], summary.blocks, held)
 
 
 def size_charts(result: SizeResult) -> tuple[Figure, ...]:
@@ -43,7 +48,7 @@ def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
     scale = next((ratio for ratio in SCALES if ratio * outer <= ROOM), SCALES[-1])
     note = f"drawn to scale {_ratio(scale)}, sizes in mm"
-    yield Figure("section", "section", section_drawing(result, scale), f"Section through the axis, {note}.")
+    yield Figure("section", SUMMARY, section_drawing(result, scale), f"Section through the axis, {note}.")
     face = f"Face with the cover off, {note}; balls evenly spread."
     yield Figure("face", "section", face_drawing(result, scale), face)
     for sheet in arm_sheets(result):

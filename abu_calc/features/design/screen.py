@@ -40,12 +40,12 @@ class Case(NamedTuple):
 
 def size_screen(result: SizeResult) -> tuple[Block, ...]:
     """The report on one screen: tables first, then actions, then notes as far as there is room."""
-    about = [Heading(f"{result.title}{_speed(result)}"), verdict_line(result), *_arm_change(result)]
+    about = [Heading(title_with_speed(result)), verdict_line(result), *arm_change(result)]
     tables = numbers_that_matter(result)
     body = [BLANK, *make(result), *tables, *([BLANK, arm_bounds(result.swing_arm)] if result.swing_arm else [])]
     groups = action_groups(result.checks, marked(tables))
     heads = [group[0] for group in groups]
-    notes = point_mass(result) + _notes(result)
+    notes = point_mass(result) + other_notes(result)
     last = _closing(result, len(notes), len(result.data_gaps))
     room = LINES - height([*about, *last])
     body = cut(body, room - min(MOST_KEPT, 3 + taken_by(heads)) if heads else room)
@@ -69,17 +69,19 @@ def size_screen(result: SizeResult) -> tuple[Block, ...]:
     return (*about, *body, *below, *last)
 
 
-def _speed(result: SizeResult) -> str:
-    return f", {result.model.speed_rad_per_s * 30 / math.pi:.6g} rpm"
+def title_with_speed(result: SizeResult) -> str:
+    """Name of the machine with its rated speed."""
+    return f"{result.title}, {result.model.speed_rad_per_s * 30 / math.pi:.6g} rpm"
 
 
-def _arm_change(result: SizeResult) -> list[Block]:
+def arm_change(result: SizeResult) -> list[Block]:
+    """The line that says what to change on a swing arm; nothing without one."""
     return arm_line(result.swing_arm.advice) if result.swing_arm else []
 
 
 def about(result: SizeResult) -> list[Block]:
     """First lines of the whole report: title, verdict, what to make."""
-    return [Heading(result.title), verdict_line(result), *_arm_change(result), BLANK, *make(result)]
+    return [Heading(result.title), verdict_line(result), *arm_change(result), BLANK, *make(result)]
 
 
 def make(result: SizeResult) -> list[Block]:
@@ -305,12 +307,13 @@ def point_mass(result: SizeResult) -> list[Paragraph]:
     return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA in text]
 
 
-def _notes(result: SizeResult) -> list[Paragraph]:
+def other_notes(result: SizeResult) -> list[Paragraph]:
+    """Warnings beside the missing data."""
     return [Paragraph(f"! {text}", hang=2) for text in result.warnings if INERTIA not in text]
 
 
-def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
-    """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
+def starts_and_defaults(result: SizeResult) -> str:
+    """Start cases that balance, the motor's idle speed and the number of defaults, in sentences."""
     starts, used = result.ensemble, len(result.provenance.defaults)
     sentences = list[str]()
     if starts is not None:
@@ -324,14 +327,18 @@ def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
         sentences.append(f"The motor idles at {result.idle_speed_rpm:.0f} rpm.")
     if used:
         sentences.append(f"{many(used, 'default')} used.")
+    return " ".join(sentences)
+
+
+def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
+    """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
     hidden = [many(count, name) for count, name in ((gaps, "data gap"), (notes, "note")) if count]
-    if hidden:
-        sentences.append(f"{', '.join(hidden)}: --full.")
+    sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
     code = next((check.code for check in sorted(result.checks, key=_rank) if check.status != "pass"), "ABU401")
     commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]
     if result.swing_arm:
         commands[2:2] = [f"`abu stability {file_of(result)} --scene swing-arm-cutting`"]
-    return [BLANK, Paragraph(" ".join(sentences)), Paragraph("More: " + "   ".join(commands))]
+    return [BLANK, Paragraph(" ".join(filter(None, sentences))), Paragraph("More: " + "   ".join(commands))]
 
 
 def _rank(check: Check) -> int:

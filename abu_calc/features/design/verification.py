@@ -195,8 +195,8 @@ share of these that remedies may take in any case."""
 
 
 NOT_SEARCHED = (
-    "Further start cases were not simulated, since each takes long: --patience 300 allows them 300 s. All listed start "
-    "cases pass."
+    "Further start cases were not simulated, since each takes long (--patience 300 allows them 300 s). All listed "
+    "start cases pass."
 )
 
 MOST_SEARCHED = 2_000_000

@@ -5,23 +5,25 @@ from collections.abc import Sequence
 from abu_calc.features.factory.study import FactoryLevel, FactoryResult
 from abu_calc.reporting.blocks import Block, Grid, Heading, Paragraph
 from abu_calc.reporting.parts import provenance_blocks
+from abu_calc.reporting.screen import many
 
 NOTE = (
-    "dB re 5e-8 m/s in the octave, measured beside predicted. Idle, predicted: median of the start cases at the given "
-    "drag rate. Loaded, predicted: pressed to the workpiece after the balls have settled. Diff.: measured − predicted "
-    "with the autobalancer. –: not published, or nothing in the model moves there."
+    "Levels in dB re 5e-8 m/s in the octave: measured without and with autobalancer, each beside the model. Lowered: "
+    "without − with. Diff.: measured − model, with autobalancer. Model, idle: median of the start cases at the given "
+    "drag rate. Model, loaded: pressed to the workpiece after the balls have settled. –: not published, or no motion "
+    "of the model in that octave."
 )
 ONE_SET = (
     "All four presets assume a friction arm of 0.002 mm, a viscous drag rate of 15 1/s, a race eccentricity of 0.010 "
-    "mm, springs of 2.5 Hz and a normal force of 45 N. Some other figures were chosen by published results, see the "
-    "presets."
+    "mm, springs of 2.5 Hz and a normal force of 45 N. Some other figures were chosen to match published results: the "
+    "comments in the presets mark them."
 )
 
 
 def factory_screen(result: FactoryResult) -> tuple[Block, ...]:
     """The one screen."""
     rows = result.rows
-    heading = "", "Hz", "without", "taken", "with", "pred.", "diff.", "lowered", "pred."
+    heading = "machine", "Hz", "without", "model", "with", "model", "diff.", "lowered", "model"
     cells = tuple((f"{k} {row.short}{_state(row)}", *_cells(row)) for k, row in enumerate(rows, 1))
     words = (Paragraph(f"{k} {row.word}{_elsewhere(row)}", hang=2) for k, row in enumerate(rows, 1))
     return (
@@ -50,7 +52,7 @@ def _elsewhere(level: FactoryLevel) -> str:
     if level.louder_octave_hz is None:
         return ""
     return (
-        f" Pressed before the balls have settled the model is loudest at {level.louder_octave_hz:g} Hz, "
+        f" Pressed before the balls have settled, the model is loudest at {level.louder_octave_hz:g} Hz, "
         f"{_one(level.louder_octave_db)} dB."
     )
 
@@ -81,6 +83,6 @@ def _verdict(rows: Sequence[FactoryLevel]) -> str:
     known = [row.outside_db for row in rows if row.outside_db is not None]
     within = sum(1 for off in known if off == 0)
     return (
-        f"Of {len(rows)} measurements the model predicts {len(known)}: {within} within the measured range, the others "
-        f"up to {max(known, default=0.0):.1f} dB outside it."
+        f"The model predicts {len(known)} of {many(len(rows), 'measurement')}: {within} within the measured range, the "
+        f"others up to {max(known, default=0.0):.1f} dB outside it."
     )

@@ -76,17 +76,29 @@ def _lowered(work: Work, remedy: str | None) -> Check:
         sides = {"without": before, "with": after}
         missing = " and ".join(side for side, level in sides.items() if level is None)
         if not missing:
-            why = "with and without the autobalancer are no further apart than runs of chaotic bouncing"
-            return coded("ABU421", "not-done", why, after, before, "dB", remedy or "What keeps the wheel on the work.")
-        usual = 'Give the contact a stiffness, contact = "compliant": then a simulation tells how they part.'
+            why = "levels with and without the autobalancer differ by less than runs of chaotic bouncing do"
+            return coded(
+                "ABU421",
+                "not-done",
+                why,
+                after,
+                before,
+                "dB",
+                remedy or "Keep the wheel on the workpiece: smaller runout, softer contact, larger normal force.",
+            )
+        usual = (
+            'Set grinding.contact = "compliant" and its stiffness: a simulation then gives the level while bouncing.'
+        )
         return coded("ABU421", "not-done", f"the level {missing} the autobalancer is not known", after, before, "dB",
                      remedy or usual)  # fmt: skip
-    message = "with the autobalancer against without, pressed to the work when the balls have settled"
+    message = "level with the autobalancer, pressed after the balls settled, against the level without"
     if work.fitted.scatter or work.without.scatter:
-        message += f"; chaotic bouncing, known to {max(work.fitted.scatter, work.without.scatter):.1f} dB"
+        message += (
+            f"; bouncing is chaotic, so levels are known to {max(work.fitted.scatter, work.without.scatter):.1f} dB"
+        )
     if work.lowered and not work.always:
         hasty = "not known" if work.level_at_once is None else f"{work.level_at_once:.1f} dB"
-        message += f"; pressed at once: {hasty}{', and it stays so' if work.stays_loud else ''}"
+        message += f". Pressed before: {hasty}{', and it stays so' if work.stays_loud else ''}"
     return coded("ABU421", verdict(work.lowered, work.always is True), message, after, before, "dB", remedy)
 
 
@@ -113,14 +125,14 @@ def _lowered_in_all(usual: Check, work: Work, remedy: str | None, loads: Grindin
         return coded("ABU421", "fail", message, after, before, "dB", remedy)
     if settled is None:
         missing = loads.ensemble.without_answer("settled")
-        message = "start cases pressed after the balls settled are no further from the level without than they scatter"
+        message = "start cases pressed after the balls settled differ from the level without by less than they scatter"
         if missing:
-            message = f"{len(missing)} of {loads.count('settled')} start cases gave no answer: {missing[0].reason}"
+            message = f"{len(missing)} of {loads.count('settled')} start cases gave no result: {missing[0].reason}"
         return coded("ABU421", "not-done", message, after, before, "dB",
-                     remedy or "Less accuracy (--accuracy), or more drag.")  # fmt: skip
+                     remedy or "Permit a larger error (--accuracy), or raise the viscous drag rate.")  # fmt: skip
     if early is True:
         return coded("ABU421", usual.status, usual.message, after, before, "dB", remedy)
-    message = f"{usual.message}; {_early_starts(loads)}"
+    message = f"{usual.message}. {_early_starts(loads)}"
     return coded("ABU421", "warn", message, after, before, "dB", remedy)
 
 
@@ -129,20 +141,20 @@ def _early_starts(loads: GrindingOutcomes) -> str:
     louder, count = loads.louder("at once"), loads.count("at once")
     if louder:
         highest = max(outcome.level for outcome in louder)
-        return f"not lower in {len(louder)} of {count} start cases pressed at once, {highest:.1f} dB at most"
+        return f"Not lower in {len(louder)} of {count} start cases pressed before, up to {highest:.1f} dB"
     missing = loads.ensemble.without_answer("at once")
     if missing:
-        return f"{len(missing)} of {count} start cases pressed at once gave no answer"
-    return "start cases pressed at once are no further from it than they scatter"
+        return f"{len(missing)} of {count} start cases pressed before gave no result"
+    return "Start cases pressed before differ from it by less than they scatter"
 
 
 def _carried(work: Work) -> Check:
     balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
     needed = abs(balls.needed) if balls else 0.0
     enough = needed <= autobalancer.capacity
-    return coded("ABU422", verdict(enough), "balls side by side against what this contact asks of them",
+    return coded("ABU422", verdict(enough), "capacity, balls side by side, against the one required by this contact",
                  from_si(autobalancer.capacity, "g_mm"), from_si(needed, "g_mm"), "g·mm",
-                 None if enough else "More or larger balls, a truer or better balanced wheel, a softer contact.",
+                 None if enough else "Specify larger balls, less runout, a better balanced wheel or a softer contact.",
                  "least")  # fmt: skip
 
 
@@ -162,22 +174,22 @@ def _still(work: Work) -> Check:
     if balls is None or limits is None:
         short = balls is not None and balls.places == "short"
         status: Grade = "not-done" if short else "fail"
-        why = "the balls cannot carry what the work asks for" if short else (
+        why = "the capacity is below that required at the workpiece" if short else (
             "at this contact stiffness and speed balls go where they add to the imbalance")  # fmt: skip
         return coded("ABU423", status, why, drag, None, "1/s", None, "least")
     here, cross = limits
     if balls.places == "restless":
-        why = "nothing damps their motion in the race" if drag == 0 else (
-               "cutting friction feeds their flutter, at less drag than the limit" if drag < here else
-               "the machine on its contact has a natural frequency too near the speed for such balls")  # fmt: skip
+        why = "their motion in the race has no damping" if drag == 0 else (
+               "cutting friction feeds their flutter below the limit of the viscous drag rate" if drag < here else
+               "the machine on its contact has a natural frequency too near the speed for these balls")  # fmt: skip
         return coded("ABU423", "fail", f"balls do not stay where they balance: {why}", drag, here, "1/s", None, "least")
     loose = [line for line in _lines(work) if leaving(work.design.case, work.fitted.steady.contact,
                                                       work.design.autobalancer, line)]  # fmt: skip
-    message = "small disturbances die out; drag against the flutter that cutting friction feeds"
+    message = "small disturbances die out; viscous drag rate against flutter fed by cutting friction"
     if drag < cross:
-        message += f"; in a cross, as other wheels may have them, balls need {cross:.3g} 1/s"
+        message += f". Balls in a cross, as with other wheels, require {cross:.3g} 1/s"
     elif loose:
-        message += "; in another arrangement that balances they would not"
+        message += ". In another arrangement that balances they would not die out"
     return coded("ABU423", verdict(True, drag >= cross and not loose), message, drag, here, "1/s", None, "least")
 
 
@@ -194,17 +206,17 @@ def _kept(work: Work, remedy: str | None, loads: GrindingOutcomes | None) -> tup
         return ()
     amplitude, press = None if force is None else abs(force), contact.press_force
     parts = work.fitted.parts
-    message = "variable force of wheel and work against the press force, with the autobalancer"
+    message = "variable part of the normal force against its mean, with the autobalancer"
     if parts:
         apart = work.fitted.run.apart if work.fitted.run and contact.kind == "compliant" else None
-        message += "; they part" + (f", {100 * apart:.0f} % of the time" if apart else "")
+        message += ". Wheel and workpiece lose contact" + (f" {100 * apart:.0f} % of the time" if apart else "")
     elif work.at_once.parts:
-        message += "; they keep bouncing when pressed before the balls have settled"
+        message += ". They keep bouncing if pressed before the balls have settled"
     elif work.without.parts:
-        message += "; without it they part"
+        message += ". Without it they lose contact"
     bouncing = [] if loads is None else [outcome for outcome in loads.ensemble.outcomes if outcome.parts]
     if loads is not None and bouncing:
-        message += f"; in {len(bouncing)} of {loads.ensemble.count} start cases they lose contact"
+        message += f". They bounce in {len(bouncing)} of {loads.ensemble.count} start cases"
     warned = parts or work.at_once.parts or bool(bouncing)
     return (coded("ABU424", "warn" if warned else "pass", message, amplitude, press, "N",
                   remedy if warned else None),)  # fmt: skip
@@ -214,13 +226,17 @@ def _agrees(compared: Agreement | None) -> tuple[Check, ...]:
     if compared is None:
         return ()
     if compared.apart is None:
-        return (coded("ABU425", "not-done", f"no trustworthy simulation: {compared.failure}", None, 100 * AGREES, "%",
-                      "A drag nearer to the optimum, or less accuracy (--accuracy)."),)  # fmt: skip
+        return (coded("ABU425", "not-done", f"no simulation is valid: {compared.failure}", None, 100 * AGREES, "%",
+                      "Set the drag rate nearer to its optimum, or permit a larger error (--accuracy)."),)  # fmt: skip
     near = compared.apart <= AGREES
-    remedy = None if near else "Damp the suspension, or take another drag: something has not died out in the run."
+    remedy = (
+        None
+        if near
+        else "Raise the damping of the suspension, or set another drag rate: a motion of the run lasts too long."
+    )
     message = "simulated contact, ideal race, against the closed form"
     if not compared.from_idle:
-        message += "; balls started there, since from where they stand at idle they do not get there, or not in time"
+        message += "; the balls start at their places, since from those at idle they do not arrive in time"
     return (coded("ABU425", verdict(True, near and compared.from_idle), message,
                   100 * compared.apart, 100 * AGREES, "%", remedy),)  # fmt: skip
 

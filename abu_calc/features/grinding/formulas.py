@@ -191,7 +191,7 @@ def hodograph_limit(displacement: float, runout: complex, friction: float) -> fl
         "the groove may be shaken at any frequency; with 5(R−r) = 7(R_g−r), shaking at Ω across the race is at "
         "resonance"
     ),
-    source="derived; `abu grinding` simulates it for every machine",
+    source="derived; compared with a simulation of every machine",
     published=(
         "according to Kladiev 1996 axial runout alone shakes friction out. The whirl by runout in the plane does so, "
         "too, but slowly"

@@ -72,7 +72,7 @@ class LoadedStart:
         return f"{self.member.name}, race centre {self.member.race_centre_deg:g}°, pressed {WHEN[self.pressed]}"
 
 
-WHEN: Final[dict[str, str]] = {"settled": "after the balls settled", "at once": "at once"}
+WHEN: Final[dict[str, str]] = {"settled": "after the balls settled", "at once": "before the balls settled"}
 
 
 @dataclass(frozen=True)

@@ -13,21 +13,21 @@ def in_words(work: Work, tried: Sequence[Remedy], loads: GrindingOutcomes | None
     """A sentence or two; the level first, then the start cases that are louder than the usual case."""
     before, after = work.levels.before, work.levels.after
     if work.lowered is None or before is None or after is None:
-        return f"Whether the autobalancer helps under load is not known: {_unknown(work)}.{changes(tried)}"
-    levels = f"{_level(after, work.fitted)} dB with it, {_level(before, work.without)} without"
+        return f"It is not known whether the autobalancer helps under load: {_unknown(work)}.{changes(tried)}"
+    levels = f"{_level(after, work.fitted)} dB with it, {_level(before, work.without)} dB without"
     if work.lowered:
         haste = "" if work.always else f" {_haste(work)}"
         starts = starts_in_words(work, loads)
         every = work.always and (loads is None or not (loads.louder("settled") or loads.louder("at once")))
-        prevents = "" if every else changes(tried, "What prevents that") or NOTHING
+        prevents = "" if every else changes(tried) or NOTHING
         helps = f"The autobalancer helps under load: {levels}."
         if loads is not None and (louder := loads.louder("settled")):
             helps = (
                 f"The autobalancer helps under load, but not in {len(louder)} of {loads.count('settled')} start cases: "
-                f"{levels}, at most {louder[-1].level:.1f} dB in these."
+                f"{levels}, up to {louder[-1].level:.1f} dB in these."
             )
         return f"{helps} {_helps(work)}{haste}{starts}{prevents}"
-    return f"The autobalancer makes the loaded machine worse: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
+    return f"The autobalancer makes the loaded machine LOUDER: {levels}. {_worse(work)}{changes(tried) or NOTHING}"
 
 
 def starts_in_words(work: Work, loads: GrindingOutcomes | None) -> str:
@@ -42,12 +42,14 @@ def starts_in_words(work: Work, loads: GrindingOutcomes | None) -> str:
         return ""
     when, hasty = WHEN[loudest.pressed], work.level_at_once or -math.inf
     if not work.always and loudest.pressed == "at once" and abs(loudest.highest - hasty) <= LOUDER:
-        return f" That is so in {loudest.count} of {loudest.total} start cases pressed at once."
+        return (
+            f" So {'does' if loudest.count == 1 else 'do'} {loudest.count} of {loudest.total} start cases pressed then."
+        )
     cases, ends = (
         f"{loudest.count} of {loudest.total} start cases pressed {when}",
         "ends" if loudest.count == 1 else "end",
     )
-    return f" {cases} {ends} {loudest.state}, at most at {loudest.highest:.1f} dB."
+    return f" {cases} {ends} {loudest.state}, at up to {loudest.highest:.1f} dB."
 
 
 def _level(value: float, side: Side) -> str:
@@ -55,57 +57,74 @@ def _level(value: float, side: Side) -> str:
     return f"{value:.1f} ± {max(side.scatter, 0.1):.1f}" if side.scatter else f"{value:.1f}"
 
 
-NOTHING = " Neither a truer wheel, a softer contact nor a harder press was found to change that."
+NOTHING = " No smaller runout, softer contact or larger normal force was found that changes this."
 
 
-def changes(tried: Sequence[Remedy], what: str = "What helps") -> str:
-    """Sentence on the tried changes that help, with the level of each; empty without any."""
+def changes(tried: Sequence[Remedy]) -> str:
+    """Sentence on the changes that help, with the level of each; empty without any."""
     if not tried:
         return ""
-    texts = [f"{_remedy(remedy)} ({remedy.levels.after:.1f} dB against {remedy.levels.before:.1f})" for remedy in tried]
-    return f" {what}, by trial: {', or '.join(texts)}."
+    texts = [f"{_remedy(remedy)} ({_short(remedy)})" for remedy in tried]
+    return f" Each of these changes prevents that in all simulated cases: {'; '.join(texts)}."
+
+
+def _short(remedy: Remedy) -> str:
+    """Loudest level with the change beside the level without autobalancer."""
+    after, before = remedy.levels.after, remedy.levels.before
+    known = "not known" if after is None else f"{after:.1f} dB at most"
+    return known + ("" if before is None else f", {before:.1f} dB without")
+
+
+def _levels(remedy: Remedy) -> str:
+    """Loudest level with the change, and the level without autobalancer beside it."""
+    after, before = remedy.levels.after, remedy.levels.before
+    known = "not known" if after is None else f"{after:.1f} dB"
+    return f"loudest case {known}" + ("" if before is None else f", without autobalancer {before:.1f} dB")
 
 
 def shortest(tried: Sequence[Remedy]) -> str | None:
     """The first remedy alone."""
-    return f"By trial, {_remedy(tried[0])}." if tried else None
+    if not tried:
+        return None
+    text = _remedy(tried[0])
+    return f"{text[0].upper()}{text[1:]}: {_levels(tried[0])} (simulated)."
 
 
 def _remedy(remedy: Remedy) -> str:
     if remedy.what == "runout":
-        return f"a runout of {from_si(remedy.value, 'mm'):g} mm at most"
+        return f"reduce wheel.runout_mm to {from_si(remedy.value, 'mm'):g}"
     if remedy.what == "stiffness":
-        return f"a contact of {_plain(remedy.value)} N/m at most"
-    return f"a press force of {remedy.value:g} N at least"
+        return f"reduce grinding.contact_stiffness_N_per_m to {_plain(remedy.value)}"
+    return f"raise grinding.press_force_N to {remedy.value:g}"
 
 
 def _haste(work: Work) -> str:
     """Sentence on a start case with the balls on the heavy side."""
     start, level, run = "pressed before the balls have settled", work.level_at_once, work.at_once.run
     if level is None:
-        return f"{start[0].upper()}{start[1:]}: not known, {work.at_once.failure or 'no way to compute it holds'}."
+        return f"{start[0].upper()}{start[1:]}: not known, {work.at_once.failure or NO_METHOD}."
     level_text = _level(level, work.at_once)
     if work.stays_loud and run is not None:
-        return f"But {start} wheel and work go on bouncing, at {level_text} dB: so still after {run.duration:.2g} s."
-    return f"But {start} {'they bounce, at' if work.at_once.parts else 'it comes to'} {level_text} dB."
+        return f"But {start}, wheel and workpiece keep bouncing at {level_text} dB, still after {run.duration:.2g} s."
+    return f"But {start}, {'they bounce at' if work.at_once.parts else 'the level is'} {level_text} dB."
 
 
 def _helps(work: Work) -> str:
     contact, case = work.design.case.contact, work.design.case
     if contact is None or contact.kind == "face":
-        return "A face does not press in the plane: balls do as they do at idle."
+        return "A face does not press in the plane of the balls, so they settle as at idle."
     balls, autobalancer = work.fitted.steady.balls, work.design.autobalancer
     if balls is not None and balls.places == "short":
         carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
-        return f"But the balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for."
+        return f"But the capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires."
     if balls is None or balls.places != "balanced":
-        return "But the balls do not stay where they would balance, see ABU423."
+        return "But the balls do not stay where they would balance (ABU423)."
     if not case.runout:
-        return "The wheel runs true: nothing but its imbalance moves the machine."
+        return "The wheel runs true: only its imbalance moves the machine."
     amplitude = work.fitted.steady.amplitude or 0.0
-    share = f"the axis follows {_um(amplitude)} of the {_um(case.runout)} of runout"
+    share = f"the spindle follows {_um(amplitude)} of the {_um(case.runout)} of runout"
     if work.fitted.parts:
-        return "The balls balance the wheel, though it parts from the work now and then."
+        return "The balls balance the wheel, though it loses contact with the workpiece now and then."
     return f"The balls balance the wheel, and {share}."
 
 
@@ -117,36 +136,39 @@ def _worse(work: Work) -> str:
     if balls is not None and balls.places in ("gathered", "turning"):
         return f"At this contact stiffness balls gather where they add to the imbalance; {runout}."
     if balls is not None and balls.places == "restless":
-        return f"The balls do not stay where they would balance, see ABU423; {runout}."
+        return f"The balls do not stay where they would balance (ABU423); {runout}."
     if balls is not None and balls.places == "short":
         carried, needed = (from_si(each, "g_mm") for each in (autobalancer.capacity, abs(balls.needed)))
-        return f"The balls carry {carried:.0f} g·mm of the {needed:.0f} that the work asks for; {runout}."
+        return f"The capacity is {carried:.0f} g·mm of the {needed:.0f} g·mm that the workpiece requires; {runout}."
     if work.fitted.parts and case.contact is not None:
         force = abs(steady.reaction or 0.0)
-        return (f"The machine follows its wheel's runout ({runout}), so that the force, {case.contact.press_force:g} ± "
-                f"{force:.0f} N, lets wheel and work part, and they bounce.")  # fmt: skip
+        return (f"The machine follows the wheel's runout ({runout}). The normal force, {case.contact.press_force:g} ± "
+                f"{force:.0f} N, falls to zero: wheel and workpiece lose contact and bounce.")  # fmt: skip
     if work.rest > (work.without.steady.amplitude or 0.0):
         bare = _um(work.without.steady.amplitude or 0.0)
-        return f"The wheel alone moves it by {bare} only; race and friction leave {_um(work.rest)}."
-    return f"The machine follows its wheel's runout: {runout}."
+        return f"The wheel alone moves the machine by {bare} only; race and friction leave {_um(work.rest)}."
+    return f"The machine follows the wheel's runout: {runout}."
 
 
 def _unknown(work: Work) -> str:
     before, after = work.levels.before, work.levels.after
     if before is not None and after is not None:
-        return (f"{_level(after, work.fitted)} dB with it and {_level(before, work.without)} without are no further "
-                "apart than the runs of chaotic bouncing")  # fmt: skip
+        return (f"{_level(after, work.fitted)} dB with it and {_level(before, work.without)} dB without differ by less "
+                "than runs of chaotic bouncing do")  # fmt: skip
     case, failures = work.design.case, [side.failure for side in (work.without, work.fitted) if side.failure]
     if failures:
-        return f"no trustworthy simulation, {failures[0]}"
+        return f"no simulation can be trusted, {failures[0]}"
     rigid = case.contact is not None and case.contact.kind == "rigid"
     if rigid and case.contact is not None:
         sides = {"without the autobalancer": work.without, "with it": work.fitted}
         pulls = " and ".join(f"{abs(side.steady.reaction or 0):.0f} N {name}" for name, side in sides.items()
                              if side.parts)  # fmt: skip
-        return (f"the contact is taken as rigid, and would have to pull: the force varies by {pulls}, and the press is "
+        return (f"a rigid contact would have to pull: the force varies by {pulls}, and the normal force is "
                 f"{case.contact.press_force:g} N")  # fmt: skip
-    return "no way to compute it holds"
+    return NO_METHOD
+
+
+NO_METHOD = "no method of calculation is valid"
 
 
 def _um(length: float) -> str:

@@ -15,17 +15,19 @@ from abu_calc.reporting.screen import shortened, verdict_line
 RIGHT: Final = frozenset({1, 2, 3, 4, 5})
 MARKS: Final[dict[bool | None, Status]] = {True: "pass", False: "fail", None: "not-done"}
 STEADY: Final = (
-    "Closed forms, of ideal race and balls, as if wheel and work never parted; levels count race and friction."
+    "Spindle amplitudes and forces: closed forms for an ideal race and steady contact. Levels include race and "
+    "friction."
 )
 
 
 def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
     """The whole report."""
     return (
-        Heading(f"{result.title}: at work", "title"),
-        Paragraph(result.verdict, _mark(result)),
+        Heading(f"{result.title}: grinding", "title"),
         verdict_line(result),
+        Paragraph(result.verdict, _mark(result)),
         numbers_that_matter(result),
+        Paragraph(STEADY),
         *measured_after_blocks(result.measured_after),
         *start_blocks(result.starts),
         *wear_blocks(result),
@@ -38,8 +40,6 @@ def grinding_blocks(result: GrindingResult) -> tuple[Block, ...]:
         *_profile(result),
         *check_blocks(result.checks),
         *notices(result),
-        Heading("Model", "model"),
-        Paragraph(STEADY),
         *provenance_blocks(result.provenance),
     )
 
@@ -56,18 +56,18 @@ def numbers_that_matter(result: GrindingResult) -> Grid:
     forces = result.reaction_without, result.reaction_fixed, result.reaction
     after = _db(result.level_after_db, result.simulation)
     rows = [
-        ("level", _db(result.level_before_db, result.simulation_without), "", after),
-        ("pressed at once", "", "", _db(result.level_at_once_db, result.simulation_at_once)),
-        ("axis along the work", *(_um(axis.x_amplitude_mm) for axis in axes)),
-        ("axis normal to it", *(_um(axis.y_amplitude_mm) for axis in axes)),
+        ("level, pressed after settling", _db(result.level_before_db, result.simulation_without), "", after),
+        ("  pressed earlier", "", "", _db(result.level_at_once_db, result.simulation_at_once)),
+        ("spindle along workpiece", *(_um(axis.x_amplitude_mm) for axis in axes)),
+        ("  normal to it", *(_um(axis.y_amplitude_mm) for axis in axes)),
     ]
     if result.contact_stiffness_regions_N_per_m is not None:
         rows += [
-            (f"force, {result.reaction.mean_N:g} N ±", *(_newton(force.amplitude_N, parts=force.separates)
-                                                        for force in forces)),
-            ("largest runout", *(_limit(force.largest_runout_mm) for force in forces)),
+            (f"normal force {result.reaction.mean_N:g} N ±",
+             *(_newton(force.amplitude_N, parts=force.separates) for force in forces)),
+            ("  runout keeping contact", *(_limit(force.largest_runout_mm) for force in forces)),
         ]  # fmt: skip
-    return Grid(("", "without", "balls fixed", "with"), tuple(rows), RIGHT)
+    return Grid(("grinding", "without", "balls fixed", "with"), tuple(rows), RIGHT)
 
 
 def balls_blocks(result: GrindingResult) -> list[Block]:
@@ -75,7 +75,7 @@ def balls_blocks(result: GrindingResult) -> list[Block]:
     places = {
         "balanced": "The balls balance",
         "restless": "The balls do not stay where they would balance",
-        "short": "The balls carry too little and lie side by side",
+        "short": "The capacity of the balls is too small: they lie side by side",
         "gathered": "The balls gather where they add to the imbalance",
         "turning": "The balls come to no rest",
     }[result.balls]
@@ -97,30 +97,37 @@ def balls_blocks(result: GrindingResult) -> list[Block]:
         ))  # fmt: skip
     if result.flutter_drag_limit_per_s is not None and result.flutter_drag_worst_per_s is not None:
         here, worst = (number(each, 3) for each in (result.flutter_drag_limit_per_s, result.flutter_drag_worst_per_s))
-        blocks.append(Paragraph(f"Drag against flutter: {here} 1/s as they stand, {worst} 1/s at the worst."))
+        blocks.append(Paragraph(
+            f"Viscous drag rate required against flutter: {here} 1/s where the balls rest, {worst} 1/s in the worst "
+            "arrangement."
+        ))  # fmt: skip
     return blocks
 
 
 def contact_blocks(result: GrindingResult) -> list[Block]:
     """Regions of stiffness; resonance; power."""
-    power = f"Cutting takes {number(result.cutting_power_W, 3)} W."
+    power = f"Cutting power: {number(result.cutting_power_W, 3)} W."
     if result.contact_stiffness_regions_N_per_m is None:
-        return [Heading("Contact"), Paragraph(f"A face: runout in the plane does not press. {power}")]
+        return [Heading("Contact"), Paragraph(f"A face: runout in the plane causes no variable force. {power}")]
     stiffness, bounds = result.model.contact_stiffness_N_per_m, result.contact_stiffness_regions_N_per_m
     first, second = map(_stiffness, bounds)
     if bounds[0] <= 0:
-        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
+        own = "Rigid" if stiffness is None else f"Stiffness {_stiffness(stiffness)} N/m"
         here = f"{own}. At this speed the suspension is too stiff for balls to balance on any contact"
-        here += f" below {second} N/m" if bounds[1] > 0 else " that gives way"
+        here += f" below {second} N/m" if bounds[1] > 0 else " that is not rigid"
     elif stiffness is not None and stiffness < bounds[0]:
-        here = f"{_stiffness(stiffness)} N/m, below {first}: balls balance, and with them wear centres the wheel"
-        here += f". From there to {second} N/m they would add to the imbalance; above, wear drives the wheel off"
+        here = (
+            f"Stiffness {_stiffness(stiffness)} N/m, below {first} N/m: the balls balance, and wear reduces the runout"
+        )
+        here += f". Between {first} and {second} N/m they would add to the imbalance. Above, wear increases the runout"
     elif stiffness is not None and stiffness < bounds[1]:
-        here = f"{_stiffness(stiffness)} N/m, from {first} to {second}: there balls add to the imbalance"
+        here = (
+            f"Stiffness {_stiffness(stiffness)} N/m, between {first} and {second} N/m: the balls add to the imbalance"
+        )
     else:
-        own = "Rigid" if stiffness is None else f"{_stiffness(stiffness)} N/m"
-        here = f"{own}, above {second} N/m: balls balance, and wear drives the wheel off; below {first} N/m it would "
-        here += "be centred"
+        own = "Rigid" if stiffness is None else f"Stiffness {_stiffness(stiffness)} N/m"
+        here = f"{own}, above {second} N/m: the balls balance, and wear increases the runout. Below {first} N/m it "
+        here += "would reduce the runout"
     resonance = "" if result.resonance_rpm is None else (
         f" Without autobalancer the machine resonates on it at {value_of(result, 'resonance_rpm')}.")  # fmt: skip
     return [Heading("Contact"), Paragraph(f"{here}.{resonance} {power}")]
@@ -131,16 +138,16 @@ def friction_blocks(result: GrindingResult) -> list[Block]:
     band = result.friction
     if band.threshold_um == 0:
         return [Heading("Dry friction of the balls"), Paragraph("None.")]
-    held = f"It holds the axis off by {number(band.typical_um, 3)} µm, typically"
-    held += "." if band.worst_um is None else f", {number(band.worst_um, 3)} µm at the worst."
+    held = f"Dry friction leaves a spindle displacement of {number(band.typical_um, 3)} µm typically"
+    held += "." if band.worst_um is None else f", {number(band.worst_um, 3)} µm in the worst arrangement."
     plane = result.contact_stiffness_regions_N_per_m is not None
-    shaking = "Axial runout of a wheel that is pressed in the plane does not shake the balls"
+    shaking = "Axial runout of a wheel that is pressed in the plane does not shake the balls free"
     if not plane:
         shaking = f"Axial runout of the wheel, {number(band.axial_um, 3)} µm, {_shakes(band.axial_shakes)}"
     if plane and band.whirl_um is not None:
         shaking += f"; the whirl by its runout there, {number(band.whirl_um, 3)} µm, {_shakes(band.whirl_shakes)}"
         shaking += f", slowly, in some {number(band.creep_s, 2)} s" if band.creep_s else ""
-    need = f"It takes more than {number(band.threshold_um, 3)} µm."
+    need = f"More than {number(band.threshold_um, 3)} µm would."
     return [Heading("Dry friction of the balls"), Paragraph(f"{held} {shaking}. {need}{_shaken(band)}")]
 
 
@@ -152,12 +159,12 @@ def _shaken(band: FrictionBand) -> str:
     tried = f"an axial runout of {number(band.simulated_um, 2)} µm, as a trial"
     by, after = "this runout" if band.simulated_given else tried, f"after {band.simulated_s:g} s"
     worse = band.unshaken_um is not None and band.shaken_um is not None and band.shaken_um > band.unshaken_um
-    more = " So much of it throws the balls off their places." if worse else ""
-    return f" Simulated from bunched balls: {left[0]} without, {left[1]} with {by}, {after}.{more}"
+    more = " That runout moves the balls away from their places." if worse else ""
+    return f" Simulated, balls together at the start: {left[0]} without, {left[1]} with {by}, {after}.{more}"
 
 
 def _shakes(does: bool) -> str:
-    return "shakes it out" if does else "does not shake it out"
+    return "shakes the balls free" if does else "does not shake the balls free"
 
 
 def _simulated(result: GrindingResult) -> list[Block]:
@@ -166,7 +173,7 @@ def _simulated(result: GrindingResult) -> list[Block]:
     for simulation, title, section in (
         (result.simulation, "Simulated with the autobalancer", "simulated"),
         (result.simulation_at_once, "Pressed before the balls have settled", "simulated-at-once"),
-        (result.simulation_without, "Without", "simulated-without"),
+        (result.simulation_without, "Simulated without autobalancer", "simulated-without"),
     ):
         if simulation is not None:
             blocks += [Heading(title, section), facts(simulation)]
@@ -179,7 +186,10 @@ def _simulated(result: GrindingResult) -> list[Block]:
 def _hodograph(result: GrindingResult) -> list[Block]:
     rows = tuple((number(row.runout_angle_deg, 4), *_pair(row.without), *_pair(row.fitted)) for row in result.hodograph)
     header = ("runout at, °", "without: x", "y, µm", "with: x", "y, µm")
-    return [Heading("Axis against the angle from imbalance to runout", "angles"), Grid(header, rows, RIGHT)]
+    return [
+        Heading("Spindle amplitude against the angle from imbalance to runout", "angles"),
+        Grid(header, rows, RIGHT),
+    ]
 
 
 def _response(result: GrindingResult) -> list[Block]:
@@ -188,7 +198,7 @@ def _response(result: GrindingResult) -> list[Block]:
          _newton(point.force_with_N), point.balls or "")
         for point in result.response
     )  # fmt: skip
-    header = ("rpm", "axis without", "with", "force without", "with", "balls")
+    header = ("rpm", "spindle without", "with", "force without", "with", "balls")
     return [Heading("Over the speeds", "speeds"), Grid(header, rows, frozenset({0, 1, 2, 3, 4}))]
 
 
@@ -227,7 +237,7 @@ def _um(length_mm: float | None) -> str:
 
 
 def _newton(force: float | None, *, parts: bool = False) -> str:
-    return "" if force is None else f"{number(force, 3)} N{' (parts)' if parts else ''}"
+    return "" if force is None else f"{number(force, 3)} N{' (bounces)' if parts else ''}"
 
 
 def _stiffness(value: float) -> str:
@@ -241,7 +251,7 @@ def _limit(length_mm: float | None) -> str:
 
 LEFT_OUT = (
     *("simulated", "simulated-at-once", "simulated-without", "agreement", "angles", "speeds", "force", "claim"),
-    *("wear-without", "wear-with", "model"),
+    *("wear-without", "wear-with"),
 )
 """Ids of the sections that are left to the whole report."""
 
@@ -264,7 +274,7 @@ def start_blocks(starts: LoadedStarts | None) -> list[Block]:
         )
         for group in starts.outcomes
     )
-    lost = f"; {starts.without_answer} gave no answer" if starts.without_answer else ""
+    lost = f", {starts.without_answer} without a result" if starts.without_answer else ""
     return [
         Heading(f"Start cases under load: {starts.count} simulated{lost}"),
         Grid(("pressed", "share", "motion", "level"), rows, frozenset({1, 3})),
@@ -280,7 +290,7 @@ def _range(group: LoadedOutcomeGroup) -> str:
 ENDS: Final = {
     "halved": "runout halved after",
     "limit": "level above its limit after",
-    "parted": "wheel and work part after",
+    "parted": "wheel loses contact after",
     "settled": "settled after",
     "worn out": "worn out after",
 }
@@ -295,18 +305,18 @@ def wear_blocks(result: GrindingResult) -> list[Block]:
     rows = tuple(_row(name, wear) for wear, name in named if wear is not None)
     if not rows:
         return []
-    header = ("", "dε/ds_w", "wheel is", "what comes first")
+    header = ("", "dε/ds_w", "runout", "first event")
     title = "Wear: change of the runout ε per depth s_w worn off (Archard)"
     return [Heading(title, "wear"), Grid(header, rows, frozenset({1})),
             *_stages(result), *_claim(result)]  # fmt: skip
 
 
 def _row(name: str, wear: WearCourse) -> tuple[str, ...]:
-    turned = "centred" if wear.centres else "driven off"
+    turned = "falls" if wear.centres else "grows"
     if wear.ends is None or wear.depth_um is None:
         return name, f"{wear.runout_rate:+.2f}", turned, ""
     if wear.depth_um == 0:
-        return name, "", "", "wheel and work part already"
+        return name, "", "", "wheel loses contact already"
     time = "" if wear.time_min is None else f" ({_minutes(wear.time_min)})"
     depth = f"{number(wear.depth_um, 3)} µm" if wear.depth_um < 1000 else f"{number(wear.depth_um / 1e3, 3)} mm"
     left = f", at {number(1e3 * wear.stages[-1].runout_mm, 3)} µm" if wear.ends != "halved" else ""
@@ -339,14 +349,14 @@ def _claim(result: GrindingResult) -> list[Block]:
     claim = result.claim
     if claim is None:
         return []
-    power = ("no power of the force up to 50 does that here" if claim.needed_exponent is None
-             else f"wear with the force to the power {number(claim.needed_exponent, 2)}")  # fmt: skip
+    power = ("no power of the force up to 50 gives that here" if claim.needed_exponent is None
+             else f"wear by the force to the power {number(claim.needed_exponent, 2)} would give that")  # fmt: skip
     return [
         Heading("The source's claim", "claim"),
         Paragraph(
-            f"Kladiev 1996 has a wheel last {claim.life_with_min:g} min with an autobalancer, "
-            f"{claim.life_without_min:g} without. By this law both last alike: mean wear goes with the mean force. For "
-            f"the claim it would take {power}; or a mean force of {number(claim.needed_press_N, 3)} N, a calmer "
-            "machine being pressed less; or wheels that are thrown away for their runout."
+            f"Kladiev 1996 gives {claim.life_with_min:g} min for a wheel with an autobalancer, "
+            f"{claim.life_without_min:g} min without. By this law both lives are equal: mean wear follows the mean "
+            f"force. Three assumptions could explain the claim: {power}; a mean force of "
+            f"{number(claim.needed_press_N, 3)} N with the autobalancer; wheels discarded for their runout."
         ),
     ]  # fmt: skip

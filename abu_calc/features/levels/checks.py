@@ -20,7 +20,7 @@ from abu_calc.standards.vibration import (
     largest_total_of_one_axis,
 )
 
-LONGER: Final = "A longer record, or one sampled faster."
+LONGER: Final = "Record for longer, or sample faster."
 
 
 def level_checks(places: Sequence[PlaceLevels], minutes: float | None) -> tuple[Check, ...]:
@@ -52,10 +52,10 @@ def _corrected(places: Sequence[PlaceLevels]) -> Check:
     """A total that lacks octaves is at least so high: it can fail, not pass."""
     limit, total_level = corrected_limit().level, level(largest(place.corrected for place in places))
     if total_level is not None and total_level > limit:
-        return coded("ABU412", "fail", "all octaves, that of 8 Hz at half its velocity", total_level, limit, "dB")
+        return coded("ABU412", "fail", "all octaves together, 8 Hz at half its velocity", total_level, limit, "dB")
     if not all(place.complete for place in places):
-        return coded("ABU412", "not-done", "octaves are missing in it", total_level, limit, "dB", LONGER)
-    return coded("ABU412", "pass", "all octaves, that of 8 Hz at half its velocity", total_level, limit, "dB")
+        return coded("ABU412", "not-done", "octaves are missing", total_level, limit, "dB", LONGER)
+    return coded("ABU412", "pass", "all octaves together, 8 Hz at half its velocity", total_level, limit, "dB")
 
 
 def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
@@ -68,12 +68,15 @@ def _exposure(places: Sequence[PlaceLevels], minutes: float) -> Check:
         return coded("ABU413", "not-done", reason or "not known", None, limit, "m/s²", LONGER)
     exposure = daily_exposure(largest_total, 60 * minutes)
     highest = daily_exposure(max(map(_highest_total, places)), 60 * minutes)
-    message = f"A(8) of {minutes:g} minutes a day; {action:g} m/s² calls for measures"
+    message = f"A(8) of {minutes:g} minutes a day; the action value is {action:g} m/s²"
     if highest > exposure * (1 + 1e-9):
-        message += f"; by axes that were not measured up to {highest:.3g} m/s²"
+        message += f"; axes that were not measured may raise it to {highest:.3g} m/s²"
     passed, safe = exposure <= limit, highest <= action
     reach = min(minutes * (action / exposure) ** 2, 1440.0) if exposure > 0 else 1440.0
-    remedy = None if exposure <= action else f"{reach:.3g} minutes a day of it reach {action:g} m/s²."
+    remedy = None
+    if exposure > action:
+        remedy = f"Limit the use to {reach:.3g} minutes a day: A(8) falls from {exposure:.3g} to {action:g} m/s² "
+        remedy += "(calculated)."
     return coded("ABU413", verdict(passed, safe), message, exposure, limit, "m/s²", remedy)
 
 

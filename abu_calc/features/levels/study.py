@@ -177,7 +177,7 @@ class LevelsResult(Result):
     quantity: Annotated[str, Quantity("quantity")]
     sampling_rate_hz: Annotated[float, Quantity("sampling rate", "", 6)]
     duration_s: Annotated[float, Quantity("duration")]
-    averaged_from_s: Annotated[float, Quantity("averaged from", "", 4, "what comes before lets the filters settle")]
+    averaged_from_s: Annotated[float, Quantity("averaged from", "", 4, "the time before lets the filters settle")]
     minutes: Annotated[float | None, Quantity("minutes a day")]
     loudest_place: Annotated[str, Quantity("loudest place")]
     level_db: Annotated[float | None, Quantity("level", "L", 4, "rms of the louder axis")]
@@ -240,7 +240,7 @@ def _of_recording(recorded: Recording, minutes: float | None, from_s: float | No
             place=Place(recorded.file),
             found=f"{recorded.rate:.4g} samples a second",
             allowed=f"at least {needed_rate(lowest):.3g}",
-            remedy="Is the time in another unit than its name says?",
+            remedy="Check the unit of the time column.",
         )
     start, derivative = _start(recorded, from_s), QUANTITIES.index(recorded.quantity)
     signals = [Signal(values, recorded.rate, 1 - derivative, start, from_s is None) for values in recorded.samples]
@@ -283,7 +283,7 @@ def _remarks(recorded: Recording, signals: Sequence[Signal]) -> Iterator[str]:
         if change is not None and abs(change) > UNSTEADY_DB:
             word = "louder" if change > 0 else "quieter"
             yield (
-                f"{name}: the second half is {abs(change):.1f} dB {word} than the first; --from S leaves the start out."
+                f"{name}: the second half is {abs(change):.1f} dB {word} than the first. --from S leaves the start out."
             )
 
 
@@ -291,8 +291,8 @@ def _unusual(level_db: float | None) -> Iterator[str]:
     """A level that hardly any machine has."""
     if level_db is not None and not USUAL_DB[0] <= level_db <= USUAL_DB[1]:
         yield (
-            f"{level_db:.0f} dB is unusual, {USUAL_DB[0]} … {USUAL_DB[1]} dB is usual: are unit and scale of the file "
-            "what they should be?"
+            f"{level_db:.0f} dB is unusual, {USUAL_DB[0]} … {USUAL_DB[1]} dB is usual. Check unit and scale of "
+            "the file."
         )
 
 
@@ -356,12 +356,11 @@ def _held_remarks(design: Design | None, start: str) -> Iterator[str]:
     yield f"One start case is simulated: {start}. Others may be louder: `abu size FILE` simulates many."
     if design.case.background_level is not None:
         yield (
-            f"The background of {design.case.background_level:g} dB is not in these levels: which octaves hold it is "
-            "not known."
+            f"These levels leave out the background of {design.case.background_level:g} dB: its octaves are not known."
         )
     if design.case.handles and held_loads(design) is None:
         yield (
-            "What each hand carries is not known: that takes two handles on a horizontal spindle, and the rigid body "
+            "The load on each hand is not known. It requires two handles on a horizontal spindle and the rigid body "
             "(machine.transverse_inertia_kg_m2 and machine.center_of_mass_to_wheel_mm)."
         )
 

@@ -12,12 +12,13 @@ from abu_calc.reporting.parts import (
     warning_blocks,
 )
 from abu_calc.reporting.screen import BLANK, one_screen, verdict_line
+from abu_calc.standards.vibration import corrected_limit
 
 CONVENTIONS = (
     "Levels are 20 lg(v / 5e-8 m/s), v rms. Octaves of IEC 61260-1:2014 (base ten), by filters within 0.01 dB over "
-    "three quarters of an octave; an instrument of class 1 may show a tone near an edge up to 3 dB lower. A filter "
-    "settles over 28 periods of its octave, which are in no mean. Limits: GOST 17770-86. Weighted: W_h of ISO "
-    "5349-1:2001, a_hv the vector sum of the axes there are; A(8) = a_hv·√(T/8 h)."
+    "three quarters of an octave. An instrument of class 1 may show a tone near an edge up to 3 dB lower. A filter "
+    "settles over 28 periods of its octave; no mean contains them. Limits: GOST 17770-86. Weighted: W_h of ISO "
+    "5349-1:2001. a_hv is the vector sum of the known axes; A(8) = a_hv·√(T/8 h)."
 )
 LEAST_DB = 20.0
 """Level below which a level says nothing [dB]: 0.5 µm/s."""
@@ -47,7 +48,7 @@ def levels_screen(result: LevelsResult) -> tuple[Block, ...]:
 
 
 def _about(result: LevelsResult) -> list[Block]:
-    """Title, verdict, what it is about."""
+    """Title, verdict, and the level with its place and record."""
     of_scene = f", {result.scene}" if result.scene and result.scene != "scene" else ""
     title = f"{result.title}: levels{of_scene}"
     return [Heading(title), verdict_line(result), Paragraph(_sentence(result))]
@@ -55,10 +56,11 @@ def _about(result: LevelsResult) -> list[Block]:
 
 def _sentence(result: LevelsResult) -> str:
     where = "" if result.source == "recording" else f" at the {_place(result.loudest_place)}"
-    level = "No level is known" if result.level_db is None else f"{_loud(result.level_db)}{where}"
+    level = "Level not known" if result.level_db is None else f"Level {_loud(result.level_db)}{where}"
     kind = f"recorded {result.quantity}" if result.source == "recording" else "simulated motion"
-    last = f"{number(result.duration_s, 3)} s of {kind}, {number(result.sampling_rate_hz, 5)} samples a second"
-    return f"{level}, the louder axis; {last}." if len(result.places[0].axes) > 1 else f"{level}; {last}."
+    axis = ", louder axis" if len(result.places[0].axes) > 1 else ""
+    record = f"from {number(result.duration_s, 3)} s of {kind}, sampled at {number(result.sampling_rate_hz, 4)} Hz"
+    return f"{level}{axis}, {record}."
 
 
 def _loud(level: float) -> str:
@@ -77,23 +79,26 @@ def _octaves(places: Sequence[PlaceLevel]) -> list[Block]:
     for index, octave in enumerate(places[0].octaves):
         levels = [place.octaves[index].level_db for place in places]
         word = "FAIL" if any(level is not None and level > octave.limit_db for level in levels) else ""
-        word = word or ("NOT EVALUATED" if octave.why_not else "")
+        word = word or ("NOT EVALUATED" if octave.why_not else "pass")
         rows.append((f"{octave.nominal_hz:g}", *map(_tenths, levels), f"{octave.limit_db:g}", word))
-    corrected = [place.corrected_level_db for place in places]
-    rows.append(("corrected", *map(_tenths, corrected), "112", ""))
+    weighted, limit = [place.corrected_level_db for place in places], corrected_limit().level
+    above = any(level is not None and level > limit for level in weighted)
+    missing = any(octave.why_not for octave in places[0].octaves)
+    word = "FAIL" if above else "NOT EVALUATED" if missing else "pass"
+    rows.append(("weighted overall", *map(_tenths, weighted), f"{limit:g}", word))
     return [Heading("Octaves"), Grid(header, tuple(rows), frozenset(range(1, len(places) + 2)))]
 
 
 def _tenths(value: float | None) -> str:
-    """Levels of nothing but rounding are not told."""
+    """A level; one that holds only rounding has the bound alone."""
     return "–" if value is None else f"{value:.1f}" if value >= LEAST_DB else f"<{LEAST_DB:g}"
 
 
 def _totals(result: LevelsResult) -> list[Block]:
     """Per place: level, velocity, weighted acceleration, exposure, load of the hand, as far as they are known."""
     columns: list[tuple[str, Callable[[PlaceLevel], str]]] = [
-        ("before, dB", lambda place: _tenths(place.level_before_db)),
-        ("dB", lambda place: _tenths(place.level_db)),
+        ("without, dB", lambda place: _tenths(place.level_before_db)),
+        ("level, dB", lambda place: _tenths(place.level_db)),
         ("mm/s", lambda place: _short(place.velocity_rms_mm_per_s)),
         ("µm", lambda place: _short(place.displacement_rms_um)),
         ("m/s²", lambda place: _short(place.acceleration_m_per_s2)),
@@ -110,9 +115,13 @@ def _totals(result: LevelsResult) -> list[Block]:
         if place.static_load_N is not None
     ]
     if loads:
-        blocks.append(Paragraph(f"Held still in the air, the hands carry: {', '.join(loads)}."))
+        blocks.append(Paragraph(f"Load on each hand, machine held still in the air: {', '.join(loads)}."))
+    legend = "Values are rms, a_h and a_hv weighted by W_h, in m/s²."
+    if any(place.level_before_db is not None for place in result.places):
+        legend = f"Without: idle, without autobalancer. {legend}"
     if result.minutes is None:
-        blocks.append(Paragraph("For the daily exposure A(8) give --minutes M, of work a day."))
+        legend += " For the daily exposure A(8), add --minutes with the minutes of use a day."
+    blocks.append(Paragraph(legend))
     return blocks
 
 

@@ -31,13 +31,13 @@ from abu_calc.simulation.records import Audit, Cost, EffectEntry, End
 from abu_calc.simulation.rotor_view import RotorView
 
 CONVENTIONS = (
-    "Amplitudes are 0–peak over the last twentieth of the run, about the mean place; velocities rms, in the larger of "
-    "x and y; levels 20 lg(v / 5e-8 m/s). Ball angles are measured in the rotor from its zero mark (of a machine: the "
-    "imbalance) in the sense of rotation, ball speeds relative to the race. Settled: the imbalance left stays near its "
-    "final value. The settling time counts from full speed."
+    "Amplitudes are 0–peak over the last twentieth of the run, about the mean place. Velocities are rms, the larger of "
+    "x and y; levels are 20 lg(v / 5e-8 m/s). Ball angles count in the rotor from its zero mark (of a machine: the "
+    "imbalance) in the sense of rotation; ball speeds are relative to the race. Settled: the remaining imbalance stays "
+    "near its final value. The settling time counts from full speed."
 )
-UNJUDGED: Final = "The accuracy is reached; there are no limits for this scene"
-UNDER_LOAD: Final = "Under load the level is information, not a check: the limit of the file is for idling."
+UNJUDGED: Final = "NO LIMITS for this scene: only the accuracy is checked, and it is reached"
+UNDER_LOAD: Final = "Under load the level is not checked: the limit of the file is for idling."
 
 MOTION = (
     *(
@@ -107,7 +107,7 @@ def _numbers(result: SimulateResult) -> Grid:
     bearings, held = result.bearing_amplitudes_mm is not None, [f"level, {hand.name}" for hand in result.handles or ()]
     before = value_of(result, "unbalanced_amplitude_mm")
     rows = (
-        ("axis amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
+        ("spindle amplitude", before, value_of(result, "axis_amplitude_mm"), ""),
         *([("at the bearings", "", value_of(result, "bearing_amplitudes_mm"), "")] if bearings else []),
         *((place, "", level, limits.get("ABU401", "") if place in held else "") for place, _, level in _levels(result)),
         (*_settling(result), limits.get("ABU702", "")),
@@ -115,13 +115,13 @@ def _numbers(result: SimulateResult) -> Grid:
     )  # fmt: skip
     if _pressed(result):
         return Grid(("", "with balls", "limit"), tuple((name, *others) for name, _, *others in rows), frozenset({1}))
-    return Grid(("", "without balls", "with", "limit"), rows, frozenset({1, 2}))
+    return Grid(("", "without balls", "with balls", "limit"), rows, frozenset({1, 2}))
 
 
 def _settling(result: SimulateResult) -> tuple[str, str, str]:
     """The settling time, from full speed if that is reached later than at the start."""
     label = "settling time" if result.full_speed_s is None else "settling, from full speed"
-    return (label, "", "none" if result.settling_time_s is None else value_of(result, "settling_time_s"))
+    return (label, "", "not settled" if result.settling_time_s is None else value_of(result, "settling_time_s"))
 
 
 def _about(result: SimulateResult) -> list[Block]:
@@ -140,8 +140,8 @@ def _sentence(result: SimulateResult) -> str:
     elif settled:
         when = f"settled in {value_of(result, 'settling_time_s')}"
     before, after = (value_of(result, name) for name in ("unbalanced_amplitude_mm", "axis_amplitude_mm"))
-    bare = "without balls and off the work" if _pressed(result) else "without balls"
-    return f"The axis moves {after} in the end, {before} {bare}; {when}."
+    bare = "without balls off the workpiece" if _pressed(result) else "without balls"
+    return f"Spindle amplitude at the end {after}, {before} {bare}; {when}."
 
 
 def _pressed(result: SimulateResult) -> bool:
@@ -186,10 +186,11 @@ def _audit(audit: Audit | None) -> list[Block]:
     if audit is None:
         return []
     if not audit.effects:
-        return [Heading("Audit"), Paragraph("Every effect was in already.")]
+        return [Heading("Audit"), Paragraph("No effect was left out.")]
     text = (
-        f"With {', '.join(audit.effects)} in as well, the results differ by {number(audit.difference, 2)}; "
-        f"{number(audit.promise, 2)} were estimated. It took {audit.evaluations} evaluations, {audit.wall_s:.2f} s."
+        f"With {', '.join(audit.effects)} simulated too, the results differ by {number(audit.difference, 2)}; "
+        f"the estimated influence was {number(audit.promise, 2)}. Cost: {audit.evaluations} evaluations, "
+        f"{audit.wall_s:.2f} s."
     )
     return [Heading("Audit"), Paragraph(text)]
 
@@ -197,8 +198,8 @@ def _audit(audit: Audit | None) -> list[Block]:
 def _rung(result: SimulateResult) -> str:
     """Model level that was used, and the reason for not using the one below."""
     if result.rung == "envelope":
-        return "Averaged slow motion, for its error is small enough."
-    return f"Equations of motion; the averaged ones will not do: {result.envelope.why}."
+        return "Model level: envelope (averaged slow motion), whose estimated error is small enough."
+    return f"Model level: full equations. The envelope is not accurate enough: {result.envelope.why}."
 
 
 def _cost(cost: Cost) -> str:
@@ -245,7 +246,7 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
         seen = "The run" if whole else "The beginning of the run"
         caption = (
             f"{seen}, seen in the rotor, which turns anticlockwise: balls and imbalance (red); beside them how the "
-            "axis goes round, drift taken off. Space plays, arrows move in time."
+            "spindle moves, drift removed. The space bar plays, arrow keys step in time."
         )
         yield Figure("motion", SECTION, RotorMotionFigure(view), caption)
         limit = limits.get("ABU701")
@@ -259,7 +260,7 @@ def _figures(result: SimulateResult, view: RotorView) -> Iterator[Figure]:
     caption += "" if measured is None else " Lozenge: as measured with the autobalancer."
     yield Figure("level", SECTION, level(view, limit, measured), caption)
     if view.speed_rpm is not None:
-        caption = "Speed of the rotor: the balls settle when it is up."
+        caption = "Speed of the rotor: the balls settle at full speed."
         yield Figure("run-up", SECTION, run_up(view, view.speed_rpm), caption)
 
 
@@ -268,7 +269,7 @@ def _final_numbers(result: SimulateResult) -> tuple[str, ...]:
     settled = result.settling_time_s
     since = "" if result.full_speed_s is None else f", from full speed at {number(result.full_speed_s)} s"
     return (
-        f"settling time{since}: {'none' if settled is None else f'{number(settled)} s'}, imbalance left "
+        f"settling time{since}: {'none' if settled is None else f'{number(settled)} s'}, remaining imbalance "
         f"{number(result.residual_imbalance_g_mm)} g·mm",
         f"error estimate {number(result.error_estimate, 2)}, by {result.cost.integrator} at tolerance "
         f"{result.cost.tolerance:g}",

@@ -32,20 +32,20 @@ STATES = ("at a resonance", "above a heavily damped resonance", "at rest under g
 
 @record
 class HangingBound(Record):
-    """A drag above which balls do not hang in one of three ways; null where no drag is enough."""
+    """Viscous drag rate above which balls do not stall in one of three ways; null if no drag rate suffices."""
 
-    state: Annotated[str, Quantity("balls hang")]
-    drag_per_s: Annotated[float | None, Quantity("not above a drag of")]
-    margin: Annotated[float | None, Quantity("the drag over it")]
+    state: Annotated[str, Quantity("balls can stall")]
+    drag_per_s: Annotated[float | None, Quantity("up to a drag rate of")]
+    margin: Annotated[float | None, Quantity("drag rate over the bound")]
 
 
 @record
 class Hanging(Record):
     """Closed bounds at the scene's speed: they suffice and are not necessary."""
 
-    drag_per_s: Annotated[float, Quantity("drag of the race", "h₀")]
-    hanging_drag_per_s: Annotated[float | None, Quantity("drag above which no balls hang")]
-    doubt: Annotated[bool, Quantity("balls may hang")]
+    drag_per_s: Annotated[float, Quantity("viscous drag rate of the race", "h₀")]
+    hanging_drag_per_s: Annotated[float | None, Quantity("drag rate above which no ball stalls")]
+    doubt: Annotated[bool, Quantity("balls may stall")]
     bounds: tuple[HangingBound, ...]
 
     @classmethod
@@ -309,9 +309,7 @@ def grinds(scene: Scene) -> bool:
 
 def not_judged(scene: Scene) -> Stability:
     """The answer for a scene that grinds."""
-    reason = (
-        "the scene presses the wheel to its work, and the idle balanced state is another one: no verdict is given on it"
-    )
+    reason = "the scene presses the wheel to its workpiece, where the balanced state differs from that at idle"
     left_out = tuple(effect.name for effect in scene.effects)
     return Stability(scene.speed, None, None, None, None, None, None, reason, left_out)
 
@@ -323,25 +321,25 @@ def _pairs(values: tuple[complex, ...] | None) -> Pairs | None:
 def _check(judgement: Stability, way: Arrangement, *, pressed: bool) -> Check:
     name = ("ABU802", "stability of the balanced state")
     if judgement.reason is not None:
-        remedy = "A second race in another plane, or bearings alike along x and y." if way != "start" else None
+        remedy = "Specify a second race in another plane, or bearings alike along x and y." if way != "start" else None
         if pressed:
             remedy = (
-                "`abu simulate FILE` shows it on the workpiece; without grinding_contact in its file the idle state is "
-                "judged."
+                "`abu simulate FILE` shows the motion on the workpiece. Remove grinding_contact from the file to judge "
+                "the idle state."
             )
         return Check(*name, "not-done", judgement.reason, unit="1/s", remedy=remedy)
     if judgement.angles is None:
         return Check(
             *name, "fail", "there is no balanced state: the balls cannot carry the imbalance", unit="1/s",
-            remedy="Heavier or more balls, a larger race, or a better balanced rotor.",
+            remedy="Specify heavier or more balls, a larger race, or a better balanced rotor.",
         )  # fmt: skip
     message = "every small disturbance of the balanced state dies out"
     if not judgement.stable:
-        message = "not every small disturbance dies out, although the balls could balance here"
+        message = "a small disturbance of the balanced state grows, although the balls could balance here"
     remedy = (
         None
         if judgement.stable
-        else "Leave the forbidden speeds (--speeds finds them, Python: speeds_rpm=), or change drag and damping."
+        else "Avoid the unstable speeds (--speeds finds them, Python: speeds_rpm=), or change drag rate and damping."
     )
     return Check(*name, verdict(bool(judgement.stable)), message, finite(judgement.growth_rate), 0.0, "1/s", remedy)
 
@@ -355,8 +353,8 @@ def stability_warnings(judgement: Stability, scene: Scene, way: Arrangement) -> 
     yield from _state_judged(judgement, scene)
     if judgement.multipliers is not None:
         yield (
-            "What is felt of the support changes as the rotor turns: Floquet multipliers of one revolution stand in "
-            "place of eigenvalues."
+            "The support acts differently as the rotor turns: Floquet multipliers of one revolution replace the "
+            "eigenvalues."
         )
     if judgement.angles is not None:
         yield from _arrangements(judgement, scene, way)
@@ -373,12 +371,12 @@ def _state_judged(judgement: Stability, scene: Scene) -> Iterator[str]:
         yield "No eigenvalues: there is no balanced state at this speed."
     if judgement.state == "race still":
         yield (
-            "The race is not in the plane of the imbalance: its balls hold the race itself still, the axis keeps "
-            "moving elsewhere. That state is judged."
+            "The race is not in the plane of the imbalance. Its balls hold the race still; the spindle keeps moving "
+            "elsewhere. That state is judged."
         )
     if judgement.state == "arm alone":
         why = "the balls cannot carry the imbalance" if scene.ball_masses else "there are no balls"
-        yield f"Judged is the forced motion of the arm alone with its imbalance: {why}."
+        yield f"The forced motion of the arm alone with its imbalance is judged: {why}."
 
 
 def _arrangements(judgement: Stability, scene: Scene, way: Arrangement) -> Iterator[str]:
@@ -388,22 +386,22 @@ def _arrangements(judgement: Stability, scene: Scene, way: Arrangement) -> Itera
     if most <= 2:
         return
     phrase = {
-        "fan": "the one spread about the light side with even gaps between equal balls: others may be less stable",
-        "start": "the one to which balls go from their start angles, heavily damped and without size",
-        "worst": f"the least stable of {judgement.arrangements} that stand for all, the even fan among them",
+        "fan": "the one spread evenly about the light side; others may be less stable",
+        "start": "the one that point-like, heavily damped balls reach from their start angles",
+        "worst": f"the least stable of {judgement.arrangements} that represent all, the evenly spread one among them",
     }[way]
     if way == "worst" and judgement.multipliers is not None and judgement.state == "balanced":
         phrase = f"the least stable that a search found, {judgement.arrangements} of them compared"
     if way == "worst" and judgement.state == "race still":
-        phrase = "the one with even gaps: others are not known where the axis moves"
+        phrase = "the one with even gaps; others are not known if the spindle moves"
     yield (
-        f"{most} balls of a race can balance in many arrangements; judged is {phrase}. The neutral motions from one to "
-        "another do not count."
+        f"{most} balls of a race can balance in many arrangements. The verdict is for {phrase}. Neutral motions from "
+        "one to another do not count."
     )
     if way == "worst" and (
         sum(count > 2 for count in counts) > 1 or any(len(set(r.ball_masses)) > 1 for r in scene.races)
     ):
         yield (
-            "Not all arrangements were looked at: several races change together, from even to less even, and unequal "
+            "Not all arrangements are compared: several races change together, from even to less even, and unequal "
             "balls keep the order of the file."
         )

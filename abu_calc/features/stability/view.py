@@ -18,11 +18,11 @@ from abu_calc.reporting.screen import shortened
 from abu_calc.simulation.records import StabilityBoundary
 
 FORBIDDEN = (
-    "A speed above the natural frequencies is necessary, not sufficient: balls of finite mass lose the balanced state "
-    "well above them, and light damping opens further gaps."
+    "A speed above the natural frequencies is necessary, not sufficient. Balls of finite mass lose the balanced state "
+    "well above them, and light damping opens further instability regions."
 )
 ONE_STATE = (
-    "This speaks of one state, the balanced one, and of small disturbances. A start far away, or a run-up, may end "
+    "The verdict holds for the balanced state and small disturbances. A start far from it, or a run-up, may end "
     "elsewhere."
 )
 WHAT_TELLS = (
@@ -30,14 +30,14 @@ WHAT_TELLS = (
     "[scene.effects.run_up]."
 )
 ON_A_GRID = (
-    "They were looked for on a grid of speeds, refined where the growth rate bends or comes near zero, at up to some "
-    "five hundred speeds: a gap far narrower than a hundredth of its speed may be missed."
+    "The search uses a grid of up to about five hundred speeds, refined where the growth rate bends or nears zero. It "
+    "may miss an instability region far narrower than a hundredth of its speed."
 )
 
 
 def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
     """The whole report."""
-    word, check = {True: "STABLE", False: "NOT STABLE", None: "NOT JUDGED"}[result.stable], result.checks[0]
+    word, check = {True: "STABLE", False: "NOT STABLE", None: "NOT EVALUATED"}[result.stable], result.checks[0]
     rest = ("resting_angles_deg",) if result.resting_angles_deg else ()
     return (
         Heading(f"{result.title}: stability of the balanced state"),
@@ -64,9 +64,11 @@ def stability_blocks(result: StabilityResult) -> tuple[Block, ...]:
 
 def hanging_word(stall: Hanging) -> str:
     """Verdict on stalling: balls may stall, or none does."""
-    drag = f"the drag, {number(stall.drag_per_s, 3)} 1/s, is"
+    drag = f"the viscous drag rate, {number(stall.drag_per_s, 3)} 1/s, is"
     return (
-        f"Balls may hang: {drag} not above every bound." if stall.doubt else f"No balls hang: {drag} above every bound."
+        f"Balls may stall: {drag} not above every bound."
+        if stall.doubt
+        else f"No ball stalls: {drag} above every bound."
     )
 
 
@@ -80,7 +82,7 @@ def _hanging(stall: Hanging | None) -> list[Block]:
         for bound in stall.bounds
     )  # fmt: skip
     word = hanging_word(stall) + (f" {WHAT_TELLS}" if stall.doubt else "")
-    header = ("balls hang", "below, 1/s", "the drag over it")
+    header = ("balls can stall", "at drag rates below, 1/s", "drag rate / bound")
     table: list[Block] = [Grid(header, rows, frozenset({1, 2}))] if rows else []
     return [Heading("Beside the balanced state", "beside"), Paragraph(ONE_STATE), Paragraph(word), *table]
 
@@ -90,8 +92,8 @@ def _crossings(crossings: Sequence[Crossing] | None) -> list[Block]:
     if crossings is None:
         return []
     rows = tuple((number(row.speed_rpm, 6), f"{row.growing_below}", f"{row.growing_above}") for row in crossings)
-    header = ("rpm", "growing below", "growing above")
-    title = Heading("Crossings of eigenvalues, of the arrangement judged")
+    header = ("rpm", "growing eigenvalues below", "above")
+    title = Heading("Speeds where an eigenvalue crosses, judged arrangement")
     return [title, Grid(header, rows, frozenset({0, 1, 2})) if rows else Paragraph("None.")]
 
 
@@ -105,7 +107,7 @@ def _values(heading: Heading, values: Sequence[tuple[float, float]] | None) -> l
 
 def _boundaries(result: StabilityResult) -> list[Block]:
     if result.boundaries_rpm is None:
-        return [Paragraph("Not asked for: --speeds LOW:HIGH finds them.")]
+        return [Paragraph("Not searched. `--speeds LOW:HIGH` finds them.")]
     searched = "{:g} to {:g}".format(*result.searched_rpm or ())
     block = _grid(result.boundaries_rpm) if result.boundaries_rpm else Paragraph(f"None from {searched} rpm.")
     solved_for = result.state == "balanced" and result.eigenvalues
@@ -173,8 +175,8 @@ def _over_speeds(result: StabilityResult) -> Iterator[Figure]:
     summary = f"From {points[0][1]:.3g} 1/s at {points[0][0]:.0f} rpm to {points[-1][1]:.3g} 1/s at "
     summary += f"{points[-1][0]:.0f} rpm; stability changes at {changes}"
     caption = (
-        "Growth rate of the slowest-dying disturbance of the balanced state: below zero the balls come back to it, the "
-        "deeper the faster; squares: where stability changes. Stay clear of shaded speeds."
+        "Growth rate of the slowest-dying disturbance of the balanced state: below zero the balls return to it, the "
+        "lower the faster. Squares mark speeds where stability changes. Avoid shaded speeds."
     )
     chart = Plot(
         "Growth rate against speed", summary, across, up, (Curve(points),), marks, (0.0, "edge of stability"), bands
@@ -239,7 +241,7 @@ def _numbers(result: StabilityResult) -> tuple[str, ...]:
     lines = [f"max Re λ = {growth} at {result.speed_rpm:.6g} rpm; stable below −1e-9·Ω"]
     if result.hanging is not None:
         lines += [
-            f"{bound.state}: no balls hang above h₀ = {number(bound.drag_per_s, 3)} 1/s; given "
+            f"{bound.state}: no ball stalls above h₀ = {number(bound.drag_per_s, 3)} 1/s; given "
             f"{number(result.hanging.drag_per_s, 3)} 1/s"
             for bound in result.hanging.bounds
             if bound.drag_per_s is not None

@@ -14,13 +14,15 @@ LEAST: Final = 1e-4
 """Smallest motion [µm] that is stated as a number."""
 MARGIN: Final = 12
 BOTH, FLOQUET, AVERAGED, HERE = "#", "o", ".", "X"
-LEGEND: Final = f"Below {BOTH} the motion grows ({FLOQUET} by Floquet multipliers alone, {AVERAGED} averaged alone); {HERE} this arm."
-TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is next to nothing against the arm's inertia."
-NO_TONGUE: Final = (
-    "At ω₀/j the motion of the arm is large, but does not grow: these are forced resonances, though the source calls "
-    "them unstable. The motion grows only about 2ω₀."
+LEGEND: Final = (
+    f"Below {BOTH} the motion grows ({FLOQUET} by Floquet multipliers only, {AVERAGED} averaged only); {HERE} this arm."
 )
-"""Correction of Kovalenko 2010 as published."""
+TOO_NARROW: Final = "Too narrow to be drawn: the imbalance is negligible against the arm's inertia."
+FORCED_ONLY: Final = (
+    "At ω₀/j the motion of the arm is large but does not grow: these are forced resonances, though Kovalenko 2010 "
+    "calls them unstable. Motion grows only about 2ω₀."
+)
+"""Published otherwise in Kovalenko 2010."""
 
 
 def arm_line(advice: str | None) -> list[Block]:
@@ -45,7 +47,7 @@ def arm_bounds(arm: SwingArmRecord) -> Grid:
         ("pressing torque, N·m", f"{arm.pressing_moment_N_m:g}",
          f"above {number(arm.least_pressing_moment_N_m)}{_force(arm)}"),
         ("natural frequency, rpm", number(arm.idle_frequency_rpm),
-         f"off workpiece; {at_work}, {number(arm.resonance_rpm)} at most"),
+         f"off the workpiece; {at_work}, {number(arm.resonance_rpm)} at most"),
     )  # fmt: skip
     return Grid(("swing arm", "given", "bound at any contact angle"), rows, frozenset({1}))
 
@@ -54,13 +56,13 @@ def _angles(arm: SwingArmRecord) -> str:
     if arm.lifted_contact_angles_deg is None:
         return "stands at every angle"
     low, high = arm.lifted_contact_angles_deg
-    return f"not {number(low, 3)} to {number(high, 3)}: friction lifts there"
+    return f"not {number(low, 3)} to {number(high, 3)}: friction lifts the arm"
 
 
 def _force(arm: SwingArmRecord) -> str:
     if arm.press_force_N is None or arm.press_force_N <= 0:
         return ""
-    return f"; presses with {number(arm.press_force_N, 3)} N"
+    return f"; normal force {number(arm.press_force_N, 3)} N"
 
 
 def arm_facts(arm: SwingArmRecord) -> list[Block]:
@@ -70,7 +72,7 @@ def arm_facts(arm: SwingArmRecord) -> list[Block]:
 
 
 def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
-    """The forced motion by perturbation beside that by simulation, the rates, and the tongue."""
+    """The forced motion by perturbation beside that by simulation, the rates, and the instability region."""
     rows = tuple(
         (f"{row.order}", number(row.resonance_rpm, 5), _or_none(row.perturbation_um), _or_none(row.simulation_um))
         for row in motion.harmonics
@@ -87,7 +89,7 @@ def motion_blocks(motion: ArmMotion, where: str = "") -> list[Block]:
 
 def printed_otherwise() -> list[Block]:
     """Paragraph on the error of the source."""
-    return [Paragraph(NO_TONGUE)]
+    return [Paragraph(FORCED_ONLY)]
 
 
 def _or_none(value: float | None) -> str:
@@ -100,17 +102,17 @@ def _rates(motion: ArmMotion) -> str:
     """Averaged and simulated."""
     high, low = (number(rate) for rate in motion.parametric_rates_per_s)
     simulated = motion.simulated_rates_per_s
-    simulation = "no periodic motion was found" if simulated is None else f"simulated {number(simulated[0])}"
+    simulation = "no periodic motion found" if simulated is None else f"simulated {number(simulated[0])}"
     if simulated is not None and simulated[0] != simulated[1]:
         simulation += f" and {number(simulated[1])}"
     return (
-        f"A free motion goes with e^(λt): λ = {number(motion.rate_per_s)} 1/s by averaging, {simulation} at "
+        f"A free motion varies as e^(λt): λ = {number(motion.rate_per_s)} 1/s by averaging, {simulation} at "
         f"{number(motion.speed_rpm, 6)} rpm; {high} and {low} at 2ω₀."
     )
 
 
 def tongue_lines(motion: ArmMotion) -> list[str]:
-    """The tongue in characters: damping upward, speed to the right, two columns a speed."""
+    """The instability region in characters: damping upward, speed to the right, two columns a speed."""
     edges = motion.tongue
     top = 1.1 * max(max(point.averaged_N_s_per_m, point.floquet_N_s_per_m) for point in edges)
     cells = [[" "] * (2 * len(edges)) for _ in range(ROWS)]

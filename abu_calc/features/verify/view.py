@@ -10,6 +10,8 @@ from abu_calc.reporting.text import height
 
 MOST_NAMES: Final = 30
 """Files as expected that a screen names."""
+LEAST: Final = 1e-6
+"""Least relative deviation that is shown with digits."""
 
 
 def verify_blocks(result: VerifyResult) -> tuple[Block, ...]:
@@ -24,7 +26,9 @@ def verify_screen(result: VerifyResult) -> tuple[Block, ...]:
     title = f"{len(same)} of {many(len(result.files), 'file')} as expected"
     verdict = Paragraph(f"{'FAIL' if differ else 'PASS'}: {title}", result.status)
     names = [Paragraph(f"As expected: {', '.join(same[:MOST_NAMES])}{', …' if len(same) > MOST_NAMES else ''}.")]
-    last: list[Block] = [Paragraph("More: --full, every file; --update writes what is meant.")] if differ else []
+    last: list[Block] = (
+        [Paragraph("More: --full, every file. --update writes the computed values into [expected].")] if differ else []
+    )
     head: list[Block] = [verdict, *(names if same else [])]
     last = [*warning_blocks(result.warnings), *last]
     return (*head, *cut(_blocks(result, set(differ)), LINES - height([*head, *last])), *last)
@@ -38,16 +42,21 @@ def _blocks(result: VerifyResult, shown: set[str]) -> list[Block]:
             blocks.append(Paragraph(f"{WORD[check.status]} {file.file}: {check.message}", check.status))
         if file.failed:
             rows = tuple(map(_row, file.failed))
-            blocks.append(Grid(("path", "expected", "found", "deviation", "allowed"), rows))
+            blocks.append(Grid(("path", "expected", "computed", "deviation", "allowed"), rows))
     return blocks
 
 
 def _row(entry: ComparedValue) -> tuple[str, ...]:
-    deviation = "" if entry.deviation is None else f"{entry.deviation:.2e}"
-    return entry.path, _value(entry.expected), _value(entry.found), deviation, f"{entry.tolerance:.0e}"
+    deviation = "" if entry.deviation is None else _percent(entry.deviation)
+    return entry.path, _value(entry.expected), _value(entry.found), deviation, _percent(entry.tolerance)
+
+
+def _percent(ratio: float) -> str:
+    """A relative deviation; one that shows only rounding has the bound alone."""
+    return f"{number(100 * ratio, 3)} %" if ratio == 0 or ratio >= LEAST else f"< {100 * LEAST:g} %"
 
 
 def _value(value: Any) -> str:
     if isinstance(value, float):
         return number(value, 6)
-    return "nothing" if value is None else str(value)
+    return "none" if value is None else str(value)

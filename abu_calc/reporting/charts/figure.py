@@ -120,6 +120,9 @@ def _course(view: "RotorView", values: "Array", form: Callable[[float], str]) ->
     return course, f"From {first} at the start to {last} at {course[-1][0]:.3g} s"
 
 
+SUMMARY: Final = "summary"
+"""Section of figures that stand in the summary of a page."""
+
 Shown = Plot | Bars | Cells | Drawing | RotorMotionFigure
 
 
@@ -137,10 +140,17 @@ class Figure(NamedTuple):
 
 
 class Extras(NamedTuple):
-    """Parts of a page beyond the blocks of a report: figures, and the formulas with numbers put in."""
+    """Parts of a page beyond the blocks of a report: figures, formulas with numbers put in, and the summary.
+
+    `summary`: begins with the title; it stands on sheets of its own, before the details, and takes the place of the
+    report's first section. Figures of the section `SUMMARY` belong to it. `held`: ids of sections of the report whose
+    contents it holds.
+    """
 
     figures: tuple[Figure, ...] = ()
     note: tuple[Block, ...] = ()
+    summary: tuple[Block, ...] = ()
+    held: frozenset[str] = frozenset()
 
 
 MakesExtras = Callable[[], Extras]

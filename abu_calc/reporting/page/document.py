@@ -1,14 +1,15 @@
-"""The page of a result: verdict, design and checks first, then the reasons, at the end the data to repeat it."""
+"""The page of a result: a summary that prints alone, details with figures and formulas, and the data to repeat it."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from itertools import chain
 from typing import TYPE_CHECKING, Final
 
-from abu_calc.reporting.blocks import Block, Heading, Picture
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.blocks import Block, Facts, Grid, Heading, Picture
+from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure
 from abu_calc.reporting.page.assets import beside, text
 from abu_calc.reporting.page.elements import elements, figure, paragraph
+from abu_calc.reporting.page.handover import extras_handed_over, handed_over
 from abu_calc.reporting.screen import section_id, sections
 
 if TYPE_CHECKING:
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
 LAST: Final = frozenset({"conventions", "defaults"})
 """Ids of the sections that stand at the end, behind the calculation note."""
 SOURCE: Final = "provenance"
-"""Id of the section whose blocks stand below "To repeat it"."""
+"""Id of the section whose blocks stand below `REPEAT`."""
+REPEAT: Final = "Origin of this page"
+MAIN: Final = '<main id="main" tabindex="-1">'
 SAFE: Final = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 """Security policy of the page: it never asks a network, not even by mistake."""
 WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
@@ -25,33 +28,57 @@ WORDS: Final = {"pass": "PASS", "fail": "FAIL", "not-done": "NOT EVALUATED"}
 
 def page(outcome: "Outcome") -> str:
     """The text of a file in HTML."""
-    extras = outcome.extras() if outcome.extras else Extras()
-    parts = sections(outcome.blocks)
-    title = _heading(parts[0]) or f"abu {outcome.command}"
-    head, *others = parts
+    extras = extras_handed_over(outcome.extras()) if outcome.extras else Extras()
+    head, *others = (_for_reader(part) for part in sections(outcome.blocks))
+    title = _heading(extras.summary[:1] or head) or outcome.command.capitalize()
+    others = [part for part in others if part and section_id(part) not in extras.held]
     front = [part for part in others if section_id(part) not in LAST | {SOURCE}]
     back = [part for part in others if section_id(part) in LAST]
     source = [part for part in others if section_id(part) == SOURCE]
-    drawn = [illustration for part in (head, *front) for illustration in figures_of(part, extras.figures)]
+    above = figures_of([Heading("", SUMMARY)], extras.figures) if extras.summary else figures_of(head, extras.figures)
+    drawn = [*above, *(illustration for part in front for illustration in figures_of(part, extras.figures))]
     rest = tuple(illustration for illustration in extras.figures if illustration not in drawn)
-    repeat = _repeat(outcome)
     named = [_heading(part) for part in front]
     named += ["Figures"] * bool(rest) + ["Calculation note"] * bool(extras.note)
-    named += [_heading(part) for part in back] + ["To repeat it"]
+    named += [_heading(part) for part in back] + [REPEAT]
+    contents = _contents(named)
+    if extras.summary:
+        opening: Iterable[str] = chain(_summary(title, extras.summary, above), (contents, MAIN))
+    else:
+        opening = chain(
+            (f"<header><h1>{text(title)}</h1>",),
+            elements(_below(head), title),
+            ("</header>", contents, MAIN, "<section>", *map(figure, above), "</section>"),
+        )
     body = chain(
-        (f"<header><h1>{text(title)}</h1>",),
-        elements(_below(head), title),
-        ("</header>", _contents(named), '<main id="main" tabindex="-1">'),
-        ("<section>", *map(figure, figures_of(head, extras.figures)), "</section>"),
+        opening,
         _sections(front, extras.figures),
         (_opened("Figures"), *map(figure, rest), "</section>") if rest else (),
         _note(extras.note),
         _sections(back, ()),
-        (_opened("To repeat it"), *repeat),
-        chain.from_iterable(elements(_below(part), "To repeat it") for part in source),
+        (_opened(REPEAT), *_repeat(outcome)),
+        chain.from_iterable(elements(_below(part), REPEAT) for part in source),
         ("</section>", "</main>"),
     )
     return _framed(f"{WORDS[outcome.status]}: {title}", body)
+
+
+def _for_reader(part: Sequence[Block]) -> Sequence[Block]:
+    """A section without commands, nothing if all of it are commands; entries of the file stay as they are."""
+    if section_id(part) in {SOURCE, "defaults"}:
+        return part
+    shown = handed_over(part)
+    return shown if len(shown) > 1 or len(part) == len(shown) else []
+
+
+def _summary(title: str, blocks: Sequence[Block], figures: Sequence[Figure]) -> Iterator[str]:
+    """Sheets of their own: title with the verdict, figures, then the rest."""
+    head = next((k for k, block in enumerate(blocks) if isinstance(block, Grid)), len(blocks))
+    yield f'<header class="summary"><h1>{text(title)}</h1>'
+    yield from elements(blocks[1:head], title)
+    yield from map(figure, figures)
+    yield from elements(blocks[head:], title)
+    yield "</header>"
 
 
 def _framed(title: str, body: Iterable[str]) -> str:
@@ -97,9 +124,8 @@ def _note(blocks: Sequence[Block]) -> Iterator[str]:
 
 
 def _repeat(outcome: "Outcome") -> Iterator[str]:
-    """The command, the whole hash: what the lines of a terminal have no room for."""
-    if outcome.asked:
-        yield f'{paragraph("The command:")}<pre class="command" tabindex="0">{text(outcome.asked)}</pre>'
+    """Command with its options, and the whole hash of the file, which a terminal has no room for."""
+    yield from elements([Facts(tuple((label, "", value) for label, value in outcome.settings))], REPEAT)
     source = outcome.provenance
     if source.sha256:
         yield f'<p>{text(source.file or "")}, SHA-256:</p><pre class="command" tabindex="0">{text(source.sha256)}</pre>'

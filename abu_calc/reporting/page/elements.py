@@ -14,6 +14,7 @@ from abu_calc.reporting.drawings.shapes import Drawing
 from abu_calc.reporting.drawings.svg import svg_figure
 from abu_calc.reporting.page.assets import script, text
 from abu_calc.reporting.page.chart_svg import bars, cells, plot
+from abu_calc.reporting.page.handover import ENTRIES
 from abu_calc.reporting.text import BEFORE_UNIT, STYLES, TIE, grade_of
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 WIDEST: Final = 92
 """Letters that stand side by side on paper."""
+POINT: Final = "! "
+"""Beginning of a warning in a terminal; on a page it is a point of a list."""
 CODE = re.compile(r"`([^`]+)`")
 
 
@@ -49,6 +52,10 @@ def elements(blocks: Iterable[Block], title: str, level: int = 2) -> Iterator[st
 
 def paragraph(words: str, mark: str | None = None) -> str:
     """Running text; what is a command stands as code."""
+    if mark == ENTRIES:
+        return f'<p class="{ENTRIES}"><code>{text(words)}</code></p>'
+    if words.startswith(POINT):
+        return f'<p class="point">{_coded(_tied(words.removeprefix(POINT)))}</p>'
     kind = f' class="{text(mark)}"' if mark in STYLES else ""
     return f"<p{kind}>{_coded(_tied(words))}</p>"
 
@@ -66,7 +73,7 @@ def _grid(grid: Grid, title: str) -> str:
     names = "".join(f'<th scope="col"{kind}>{text(name)}</th>' for name, kind in zip(grid.header, kinds, strict=True))
     head = f"<thead><tr>{names}</tr></thead>\n" if any(grid.header) else ""
     rows = (
-        "".join(f"<td{_graded(cell) or kind}>{_cell(cell)}</td>" for cell, kind in zip(row, kinds, strict=False))
+        "".join(f"<td{_kind(cell) or kind}>{_cell(cell)}</td>" for cell, kind in zip(row, kinds, strict=False))
         for row in grid.rows
     )
     return _table(title, head + "<tbody>\n" + "".join(f"<tr>{row}</tr>\n" for row in rows) + "</tbody>")
@@ -85,9 +92,10 @@ def _cell(words: str) -> str:
     return text(_tied(words))
 
 
-def _graded(cell: str) -> str:
+def _kind(cell: str) -> str:
+    """Class of a cell by its grade, or by its indentation."""
     grade = grade_of(cell)
-    return f' class="{grade}"' if grade in STYLES else ""
+    return f' class="{grade}"' if grade in STYLES else ' class="inner"' if cell.startswith(" ") else ""
 
 
 def _table(title: str, rows: str, kind: str = "") -> str:

@@ -21,7 +21,7 @@ def test_each_decade_stands_once_in_the_picture():
 
 def test_a_picture_of_nothing():
     nothing = MeasuredPoint.read(PricePoint("closed-form", None, None, None, 0, 0, None, None))
-    assert picture((nothing,)) == ["nothing to draw"]
+    assert picture((nothing,)) == ["no point has an error"]
 
 
 def point(integrator: str, error: float | None, wall_s: float | None, rung: str = "equations") -> MeasuredPoint:
@@ -51,7 +51,10 @@ def test_the_report_says_what_was_chosen_and_what_was_not_measured() -> None:
     points = (point("scipy-dop853", 5e-3, 0.0125), point("scipy-bdf", None, None))
     skipped = ("scipy-radau 1e-3", "scipy-radau 1e-4", "envelope")
     text = " ".join(as_text(accuracy_blocks(result(*points, skipped=skipped)), 80).split())
-    assert "For an error of 0.01: equations, scipy-dop853 at tolerance 0.001; error 0.005" in text and "12.5 ms" in text
+    assert (
+        "an error of at most 0.01: equations, scipy-dop853 at tolerance 0.001. Its error is 0.005" in text
+        and "12.5 ms" in text
+    )
     assert "Not computed by bdf: stiff." in text
     assert "Not measured in the time allowed (--time-budget): radau 1e-3/1e-4, envelope." in text
 

@@ -148,14 +148,14 @@ def test_nothing_judged_is_no_pass(tmp_path: Path) -> None:
     file.write_text(SCENE, encoding="utf-8")
     for arguments in ((str(file), "--duration", "20"), ("avtovaz-707-222", "--scene", "grinding")):
         seen = once("simulate", *arguments)
-        assert seen.status == 0 and "PASS" not in seen.out and "no limits for this scene" in seen.out
+        assert seen.status == 0 and "PASS" not in seen.out and "NO LIMITS for this scene" in seen.out
     assert "PASS" in once("simulate", "avtovaz-707-222").out.splitlines()[1]
 
 
 def test_amplitude_without_balls_is_told_to_be_off_the_work() -> None:
     """It is of the imbalance alone; that of the wheel pressed, 41.5 µm by `abu grinding`, is another."""
     seen = " ".join(once("simulate", "avtovaz-707-222", "--scene", "grinding").out.split())
-    assert "0.0402 mm without balls and off the work;" in seen and seen.count("without balls") == 1
+    assert "0.0402 mm without balls off the workpiece;" in seen and seen.count("without balls") == 1
     assert "off the work" not in once("simulate", "avtovaz-707-222").out
 
 

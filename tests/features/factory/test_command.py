@@ -10,7 +10,7 @@ def test_the_command_prints_and_writes_what_the_study_returns(monkeypatch: pytes
     monkeypatch.setattr("abu_calc.features.factory.study.factory_rows", lambda: ())
     shown, written = abu("factory"), abu("factory", "--json")
     assert shown.status == written.status == 0
-    assert "Of 0 measurements the model predicts 0" in " ".join(shown.out.split())
+    assert "The model predicts 0 of 0 measurements" in " ".join(shown.out.split())
     assert written.document["abu"]["command"] == "factory" and written.document["result"]["rows"] == []
 
 

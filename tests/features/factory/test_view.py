@@ -42,7 +42,7 @@ def test_the_verdict_counts_what_the_model_speaks_of() -> None:
     rows = [level(outside_db=off) for off in (0.0, None, 2.5, 0.0)]
     text = " ".join(as_text(factory_screen(table(*rows)), 80).split())
     assert (
-        "Of 4 measurements the model predicts 3: 2 within the measured range, the others up to 2.5 dB outside it."
+        "The model predicts 3 of 4 measurements: 2 within the measured range, the others up to 2.5 dB outside it."
         in text
     )
 
@@ -50,5 +50,5 @@ def test_the_verdict_counts_what_the_model_speaks_of() -> None:
 def test_a_louder_octave_of_the_model_is_told_with_its_row() -> None:
     result = table(level(louder_octave_hz=250.0, louder_octave_db=115.06))
     text = " ".join(as_text(factory_blocks(result), 80).split())
-    assert "1 A word. Pressed before the balls have settled the model is loudest at 250 Hz, 115.1 dB." in text
+    assert "1 A word. Pressed before the balls have settled, the model is loudest at 250 Hz, 115.1 dB." in text
     assert "Source: A paper." in text and result.status == "pass"

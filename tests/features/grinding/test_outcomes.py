@@ -100,7 +100,7 @@ def test_the_worst_start_case_decides() -> None:
     status, value, _ = _status(work, _ensemble(work, [low] * 4))
     assert status == "pass" and value == pytest.approx(after)
     status, value, message = _status(work, _ensemble(work, [low] * 4, [low, low, high, low]))
-    assert status == "warn" and value == pytest.approx(after) and "1 of 4 start cases pressed at once" in message
+    assert status == "warn" and value == pytest.approx(after) and "1 of 4 start cases pressed before" in message
     status, value, message = _status(work, _ensemble(work, [low, low, high, low]))
     assert status == "fail" and value == pytest.approx(high) and "1 of 4 start cases" in message
 
@@ -147,8 +147,9 @@ def test_the_verdict_names_the_start_cases_that_are_louder() -> None:
     work, loads = with_starts(work, _ensemble(work, [after, after, before + 1], [after]))
     assert "but not in 1 of 3 start cases" in in_words(work, (), loads)
     work, loads = with_starts(work, _ensemble(work, [after], [after, before + 1]))
-    assert f"1 of 2 start cases pressed at once ends bouncing, at most at {before + 1:.1f} dB" in in_words(
-        work, (), loads
+    assert (
+        f"1 of 2 start cases pressed before the balls settled ends bouncing, at up to {before + 1:.1f} dB"
+        in in_words(work, (), loads)
     )
 
 

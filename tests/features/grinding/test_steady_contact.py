@@ -164,7 +164,7 @@ def test_what_leads_elsewhere_from_idle_is_told() -> None:
     found = agreement(work, 1e-3)
     assert found is not None and not found.from_idle and found.apart is not None and found.apart < 0.005
     (told,) = [one for one in work_checks(work, None, found) if one.code == "ABU425"]
-    assert told.status == "warn" and "do not get there" in told.message
+    assert told.status == "warn" and "do not arrive in time" in told.message
 
 
 # A second derivation.

@@ -137,7 +137,7 @@ def test_where_statics_does_not_tell_no_load_is_given(changes: dict[str, object]
     rigid = RIGID if changes else {}
     found = abu_calc.levels(abu_calc.read("avtovaz-707-222").changed({"machine.handle": HANDLES, **rigid, **changes}))
     assert all(place.static_load_N is None for place in found.places)
-    assert any("hand carries" in one for one in found.warnings)
+    assert any("load on each hand is not known" in one for one in found.warnings)
 
 
 def test_a_background_is_not_in_the_octaves_and_that_is_said() -> None:

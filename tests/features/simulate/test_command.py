@@ -261,7 +261,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
     checks = {check["code"]: check for check in document["checks"]}
     assert checks["ABU803"]["status"] == "pass" and checks["ABU803"]["value"] == audit["difference"]
     seen = abu("simulate", file, *fast, "--with", "gravity", "--audit", "--full")
-    assert seen.status == 0 and "Every effect was in already" in seen.out
+    assert seen.status == 0 and "No effect was left out" in seen.out
     seen = abu("simulate", file, "--without", "gravity", "--duration", "60", "--audit", "--json")
     assert seen.status == 1 and seen.document["checks"][1]["remedy"]  # at 19 rpm gravity is all there is
 
@@ -269,7 +269,7 @@ def test_an_audit_tells_what_was_left_out(tmp_path: Path) -> None:
 def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     """Light balls are slow: their averages do for two per cent, and the equations are taken for less."""
     heavy = " ".join(abu("simulate", scene, "--duration", "50", "--full").out.split())
-    assert "the averaged ones will not do: the balls' own rate" in heavy
+    assert "The envelope is not accurate enough: the balls' own rate" in heavy
     light = written(tmp_path, SCENE.replace("[50.0, 50.0]", "[0.2, 0.2]").replace("10000.0", "100.0"))
     options = ("--set", "scene.damping_N_s_per_m=[0.6, 0.6]", "--set", "scene.race[0].rolling_drag_per_s=0.04",
                "--duration", "600", "--json")  # fmt: skip
@@ -282,7 +282,7 @@ def test_the_rung_is_told(scene: str, tmp_path: Path) -> None:
     one, other = (document["result"]["final"]["ball_angles_deg"] for document in (slow, full))
     assert one == pytest.approx(other, abs=math.degrees(0.05))
     text = abu("simulate", light, *options[:-1], "--accuracy", "0.05", "--full")
-    assert text.status == 0 and "Averaged slow motion" in text.out
+    assert text.status == 0 and "envelope (averaged slow motion)" in text.out
 
 
 def test_integrators_agree(scene: str) -> None:

@@ -59,7 +59,7 @@ def test_many_balls_are_named_as_far_as_there_is_room(result: SimulateResult) ->
 
 def test_a_run_that_does_not_settle_has_no_settling_time(result: SimulateResult) -> None:
     text = " ".join(as_text(simulate_screen(replace(result, settling_time_s=None)), 80).split())
-    assert "not settled by the end" in text and "settling time none" in text
+    assert "not settled by the end" in text and "settling time not settled" in text
     later = replace(result, settling_time_s=2.5, full_speed_s=3.0)
     text = " ".join(as_text(simulate_screen(later), 80).split())
     assert "after full speed, which is reached at 3" in text and "settling, from full speed" in text
@@ -67,7 +67,7 @@ def test_a_run_that_does_not_settle_has_no_settling_time(result: SimulateResult)
 
 def test_a_scene_without_limits_is_no_verdict_on_limits(result: SimulateResult) -> None:
     text = " ".join(as_text(simulate_screen(result), 80).split())
-    assert "there are no limits for this scene" in text
+    assert "NO LIMITS for this scene" in text
 
 
 def test_figures_need_the_way_and_balls(result: SimulateResult) -> None:

@@ -68,7 +68,9 @@ def test_eigenvalues_are_drawn_beside_the_edge_of_stability(result: StabilityRes
     assert all(x**2 + y**2 == pytest.approx(1.0) for x, y in circle.shown.lines[0].points)
 
 
-@pytest.mark.parametrize(("stable", "word"), [(True, "STABLE at"), (False, "NOT STABLE at"), (None, "NOT JUDGED at")])
+@pytest.mark.parametrize(
+    ("stable", "word"), [(True, "STABLE at"), (False, "NOT STABLE at"), (None, "NOT EVALUATED at")]
+)
 def test_the_verdict_comes_first(result: StabilityResult, stable: bool | None, word: str) -> None:
     lines = as_text(stability_screen(replace(result, stable=stable)), 80).splitlines()
     assert lines[1].strip().startswith(word) and len(lines) <= 48
@@ -78,7 +80,7 @@ def test_boundaries_are_listed_or_said_to_be_none(result: StabilityResult) -> No
     def text(**changes: object) -> str:
         return " ".join(as_text(stability_blocks(replace(result, **changes)), 80).split())  # type: ignore[arg-type]
 
-    assert "Not asked for: --speeds LOW:HIGH finds them." in text()
+    assert "Not searched. `--speeds LOW:HIGH` finds them." in text()
     assert "None from 5 to 50 rpm." in text(boundaries_rpm=(), searched_rpm=(5.0, 50.0))
     both = text(boundaries_rpm=edges((9.0, True), (12.0, False)), searched_rpm=(5.0, 50.0))
     assert "9.00000 stable 12.0000 not stable" in both
@@ -87,5 +89,7 @@ def test_boundaries_are_listed_or_said_to_be_none(result: StabilityResult) -> No
 def test_balls_may_hang_where_a_bound_is_not_passed() -> None:
     bound = HangingBound(state="at a resonance", drag_per_s=20.0, margin=0.5)
     doubt = Hanging(drag_per_s=10.0, hanging_drag_per_s=20.0, doubt=True, bounds=(bound,))
-    assert hanging_word(doubt).startswith("Balls may hang: the drag, 10.0 1/s, is not above")
-    assert hanging_word(replace(doubt, doubt=False)).startswith("No balls hang: the drag, 10.0 1/s, is above")
+    assert hanging_word(doubt).startswith("Balls may stall: the viscous drag rate, 10.0 1/s, is not above")
+    assert hanging_word(replace(doubt, doubt=False)).startswith(
+        "No ball stalls: the viscous drag rate, 10.0 1/s, is above"
+    )

@@ -20,7 +20,7 @@ def test_only_values_that_differ_stand_in_the_table() -> None:
     """1.25 expected, 1.0 there: off by 0.25/1.25."""
     mixed = result({"a": 1.25, "b": "k6", "c": 3.0})
     (grid,) = [block for block in verify_blocks(mixed) if isinstance(block, Grid)]
-    assert grid.rows == (("a", "1.25000", "1.00000", "2.00e-01", "1e-03"), ("c", "3.00000", "nothing", "", "1e-03"))
+    assert grid.rows == (("a", "1.25000", "1.00000", "20.0 %", "0.100 %"), ("c", "3.00000", "none", "", "0.100 %"))
     assert mixed.status == "fail" and "3 values, 2 differ" in as_text(verify_screen(mixed), 80)
 
 

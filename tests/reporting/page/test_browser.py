@@ -71,6 +71,18 @@ def test_paper_has_pages_of_a4(name: str, written: Any, browser: Browser) -> Non
     assert b"/MediaBox [0 0 594.95996 841.91998]" in pdf or b"/MediaBox [0 0 595" in pdf
 
 
+@pytest.mark.parametrize("name", ["size", "arm-size"])
+def test_summary_takes_two_sheets_of_its_own(name: str, written: Any, browser: Browser) -> None:
+    """The details begin on a new sheet; without them the paper has at most two."""
+    browser.load(written(name).file)
+    browser.seen(PAPER, paper=True)
+    assert browser.value("getComputedStyle(document.querySelector('header.summary')).breakAfter") == "page"
+    whole = browser.pdf().count(b"/Type /Page\n")
+    browser.value("document.getElementById('main').remove()")
+    summary = browser.pdf().count(b"/Type /Page\n")
+    assert 1 <= summary <= 2 < whole
+
+
 @pytest.mark.parametrize("name", MOVES)
 def test_motion_moves_and_stops_by_keys(name: str, written: Any, browser: Browser) -> None:
     browser.load(written(name).file)

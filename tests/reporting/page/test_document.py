@@ -3,7 +3,6 @@
 import json
 import math
 import re
-import shlex
 from collections.abc import Iterator
 from itertools import chain, pairwise
 from pathlib import Path
@@ -11,13 +10,14 @@ from typing import Any
 
 import pytest
 
+from abu_calc.cli.app import COMMANDS as CALLED
 from abu_calc.features.grinding.view import LEFT_OUT as GRINDING_LEFT_OUT
 from abu_calc.features.stability.view import FOR_THE_ARM, LEFT_OUT
 from abu_calc.reporting.blocks import Block, Heading, Paragraph
 from abu_calc.reporting.charts.chart import Axis, Bar, Bars
-from abu_calc.reporting.charts.figure import Extras, Figure
+from abu_calc.reporting.charts.figure import SUMMARY, Extras, Figure
 from abu_calc.reporting.outcome import Outcome
-from abu_calc.reporting.page.document import LAST
+from abu_calc.reporting.page.document import LAST, REPEAT
 from abu_calc.reporting.page.document import page as page_of
 from abu_calc.reporting.screen import ELSEWHERE
 from tests.cli.runner import abu, again, once
@@ -137,13 +137,74 @@ def test_calculation_note_and_what_is_needed_to_repeat_it(written: Any) -> None:
 
 
 @pytest.mark.parametrize("name", ["size", "simulate", "stability", "check-fit"])
-def test_command_on_the_page_gives_the_same_result(name: str, written: Any) -> None:
+def test_settings_on_the_page_give_the_same_result(name: str, written: Any) -> None:
+    """The command and its options stand there as labels and values, which no reader takes for advice."""
     text, document, _ = written(name)
-    command = next(words for tag, words in read(text).texts if tag == "pre" and words.startswith("abu "))
-    again = shlex.split(command)
-    assert again == ["abu", *COMMANDS[name]]
-    if name == "check-fit":
-        assert abu(*again[1:], "--json").document["result"] == document["result"]
+    command, machine, *options = COMMANDS[name]
+    rows = dict(_settings(text))
+    assert (rows["command"], rows[next(label for label in rows if label != "command")]) == (command, machine)
+    values = [word for word in options if not word.startswith("--")]
+    assert all(value in rows.values() for value in values)
+    assert len(rows) == 2 + sum(word.startswith("--") for word in options)
+    assert document["input"]["sha256"] in text
+
+
+def _settings(text: str) -> list[tuple[str, str]]:
+    """Rows of the table below the last heading."""
+    cells = read(text.partition(f"<h2>{REPEAT}</h2>")[2].partition("</table>")[0]).cells
+    return list(zip(cells[::3], cells[2::3], strict=True))
+
+
+ADVICE = re.compile(rf"(?<![-\w])--[a-z]|`|\babu (?:{'|'.join(CALLED)})\b|\bPython: ")
+"""Options and commands, which a reader without the program cannot follow."""
+
+
+def _said(text: str) -> list[str]:
+    return [words for tag, words in read(text).texts if tag not in ("script", "style")]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_pages_advise_no_commands_and_no_options(name: str, written: Any) -> None:
+    assert [words for words in _said(written(name).text) if ADVICE.search(words)] == []
+
+
+ALSO_WRITTEN = (
+    *(("size", preset) for preset in ("avtovaz-707-305", "avtovaz-707-370", "msh-230")),
+    *((command, preset) for command in ("effects", "levels") for preset in ("avtovaz-707-222", "swing-arm-grinder")),
+    ("stability", "swing-arm-grinder", "--scene", "swing-arm-cutting"),
+    ("simulate", "swing-arm-grinder", "--scene", "swing-arm-cutting"),
+    ("check-fit", "--designation", "6203"),
+    ("explain", "ABU702"), ("explain", "capacity"), ("effects",), ("presets",), ("validate", "msh-230"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("words", ALSO_WRITTEN, ids=" ".join)
+def test_further_pages_advise_no_commands_and_no_options(words: tuple[str, ...], tmp_path: Path) -> None:
+    target = tmp_path / "page.html"
+    assert again(*words, "--output", str(target), "--quiet").status in (0, 1)
+    assert [said for said in _said(target.read_text("utf-8")) if ADVICE.search(said)] == []
+
+
+def test_summary_stands_first_with_the_numbers_of_the_screen(written: Any) -> None:
+    text, document, _ = written("size")
+    summary, _, details = text.partition("</header>")
+    words = [said for _, said in read(summary.partition("<body>")[2]).texts]
+    joined = " ".join(words)
+    assert "5800 rpm" in words[1] and "checks pass" in joined and "Section through the axis" in joined
+    order = [joined.index(part) for part in ("checks pass", "Section through", "Make", "Idle, without", "Median of")]
+    assert order == sorted(order)
+    for level in (document["result"]["vibration"][key] for key in ("level_before_db",)):
+        assert f"{level:.1f}" in words
+    assert "<h2>Actions</h2>" in summary and "<h2>Notes</h2>" in summary
+    assert "<nav" in details and "<h2>Checks</h2>" in details and "<h2>Warnings</h2>" not in details
+    assert "Idle, without autobalancer" not in details
+
+
+def test_actions_on_the_page_give_entries_of_the_file(written: Any) -> None:
+    text, document, _ = written("size")
+    entries = re.findall(r'<p class="entries"><code>(.*?)</code></p>', text)
+    overrides = [entry for check in document["checks"] for entry in check["overrides"]]
+    assert overrides and {entry.replace("=", " = ", 1) for entry in overrides} == set(entries)
 
 
 GRINDERS = ("avtovaz-707-222", "avtovaz-707-305", "avtovaz-707-370", "msh-230")
@@ -184,7 +245,7 @@ def test_each_figure_of_a_report_has_the_id_of_one_heading(name: str, monkeypatc
     ids = _ids(outcome)
     figures = outcome.extras().figures if outcome.extras else ()
     assert len(ids) == len(set(ids)) and "provenance" in ids
-    assert [(figure.name, figure.section) for figure in figures if figure.section not in {"", *ids}] == []
+    assert [(figure.name, figure.section) for figure in figures if figure.section not in {"", SUMMARY, *ids}] == []
     assert {figure.name for figure in figures if not figure.section} <= AT_THE_END.get(outcome.command, set())
     assert figures or name == "compare-seats"
 
@@ -242,8 +303,10 @@ def test_options_of_a_command_stand_on_its_page(tmp_path: Path) -> None:
     target = tmp_path / "my page.html"
     asked = ("stability", "avtovaz-707-222", "--speeds", "1000:6000", "--crossings")
     assert abu(*asked, "-o", str(target), "--quiet", "--no-color").status in (0, 1)
-    command = next(words for tag, words in read(target.read_text("utf-8")).texts if tag == "pre")
-    assert shlex.split(command) == ["abu", *asked]
+    command, (_, file), *options = _settings(target.read_text("utf-8"))
+    assert (command, file, options) == (
+        ("command", "stability"), "avtovaz-707-222", [("speeds", "1000:6000"), ("crossings", "yes")],
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, 23.2), (98.0, 111.0), (-3e-7, 5e-7), (1.0, 1e6), (0.0, 1.0)])

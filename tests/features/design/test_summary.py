@@ -1,0 +1,46 @@
+"""The summary of the page: the tables of the screen, and never more than two sheets."""
+
+from dataclasses import replace
+
+import pytest
+
+from abu_calc.features.design.screen import make, numbers_that_matter
+from abu_calc.features.design.summary import SHEETS_MM, first_that_fit, height_mm, size_summary
+from abu_calc.foundation.checks import Check
+from abu_calc.reporting.blocks import Grid, Heading, Paragraph
+from tests.reporting.drawings.samples import whole
+
+
+def test_tables_are_those_of_the_screen() -> None:
+    result = whole()
+    blocks, complete = size_summary(result, 120.0)
+    assert complete
+    wanted = [block for block in (*make(result), *numbers_that_matter(result)) if isinstance(block, Grid)]
+    assert [block for block in blocks if isinstance(block, Grid)][: len(wanted)] == wanted
+    assert [block.text for block in blocks if isinstance(block, Heading)][1:] == ["Actions", "Notes"]
+
+
+@pytest.mark.parametrize("count", [0, 5, 60])
+def test_what_has_no_room_is_named(count: int) -> None:
+    """60 failed checks and warnings take more than two sheets: the rest is counted, and stands in the details."""
+    checks = tuple(
+        Check(code="ABU401", name="level", status="fail", message=f"reason {k} {'long ' * 40}", remedy=f"action {k}")
+        for k in range(count)
+    )
+    warnings = tuple(f"Warning {k}. {'It is long. ' * 9}" for k in range(count))
+    blocks, complete = size_summary(replace(whole(), checks=checks, warnings=warnings), 120.0)
+    assert 120.0 + sum(map(height_mm, blocks)) < SHEETS_MM
+    texts = [block.text for block in blocks if isinstance(block, Paragraph)]
+    told = sum(text.startswith("! Warning") for text in texts)
+    assert complete == (told == count) == (count < 60)
+    assert any(text == f"See Warnings for {count - told} more notes." for text in texts) == (count == 60)
+    assert any(text.startswith("More actions, see Checks: ABU401") for text in texts) == (count == 60)
+
+
+def test_heights_on_paper() -> None:
+    assert height_mm(Paragraph("")) == 0.0
+    assert height_mm(Paragraph("--set a.b=1 --set c.d=2", indent=4)) == pytest.approx(2 * height_mm(Paragraph("a")) - 2)
+    assert height_mm(Grid(("a",), (("b",),) * 3)) > height_mm(Grid(("a",), (("b",),)))
+    lines = [[Paragraph("a" * 92)], [Paragraph("b")], [Paragraph("c")]]
+    assert first_that_fit(lines, 2.5 * height_mm(lines[0][0])) == lines[:2]
+    assert first_that_fit(lines, 0.0) == []
