@@ -9,12 +9,16 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from command_output import FOLDER, run
 from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Row = Sequence[object]
 
@@ -29,6 +33,27 @@ BOUNDARIES = {10.0: (1.4006,), 30.0: (1.6933,), 50.0: (1.0295, 1.0932, 1.8820)}
 
 BALLS_G = {4.76: 0.440, 8.0: 2.091, 10.0: 4.084, 12.7: 8.366, 16.0: 16.728, 19.84: 31.895}
 """Masses of steel balls at 7.8e-3 g/mm³ by diameter in mm."""
+
+EIGENVALUES = (-0.004087 + 0.744047j, -0.004952 + 0.068382j, -0.009185 + 2.956028j, -0.011363 + 1.006468j)
+"""Of two balls at (Ω, μ, δ, ζ, β) = (2, .05, .01, .01, .01): Green, Champneys and Lieven 2006."""
+
+SHARES = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Imbalance over the capacity of two balls."""
+
+MASSES_G = (5, 10, 15, 20, 25, 30, 33, 36, 40, 45, 50, 60)
+"""Masses of a ball for the curve of the speeds at which stability changes."""
+
+ARM = {5.0: (12.0, None), 2.0: (12.0, None), 0.75: (4.0, 2.3), 0.5: (4.0, 2.5)}
+"""Ω/ω₀, duration of the run [s], and amplitude over that without balls (Kovalenko 2010); None: balanced, ± 131.8°."""
+
+SEATS = {"K7": (-30, 28, 0.554), "M7": (-18, 40, 0.066), "H7": (-58, 0, 0.99996)}
+"""Housing Ø140: interference [µm] from and to, probability of clearance (Afanasiev 2015)."""
+
+BETWEEN = {200: False, 460: True, 620: False, 1000: True}
+"""Speeds [rad/s] of a support with natural frequencies of 300 and 700 rad/s: whether published simulations balance."""
+
+MERGED = ((0.5, 1e4, 1, 0.02), (0.7, 2e4, 1, 0.02), (2.0, 12e4, -1, 0.2), (3.0, 15e4, -1, 0.2))
+"""Speed, imbalance [g·mm], side on which the balls stand, damping [N·s/m]: Green, Champneys and Lieven 2006."""
 
 W_H = {6.3: 0.727, 8: 0.873, 16: 0.896, 31.5: 0.519, 63: 0.256, 125: 0.127, 250: 0.0634, 500: 0.0314, 1000: 0.0135}
 """Weights W_h of ISO 5349-1:2001, table A.2, by frequency in Hz."""
@@ -52,29 +77,184 @@ def transient(folder: Path) -> tuple[Row, list[Row]]:
 
 
 def _draw(motion: Sequence[tuple[float, ...]], file: Path) -> None:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7, 3.2), layout="constrained")
-    axes = figure.subplots()
+    axes = _axes("time t·ω_n", "spindle displacement / pitch radius")
     axes.plot([t for t, *_ in motion], [math.hypot(x, y) / 1000 for _, x, y in motion], lw=0.5, label="abu-calc")
     for (low, high), published in TRANSIENT.items():
         axes.plot([low, high], [published, published], "k", lw=1.5, label="published, largest per window" * (low == 0))
-    axes.set(xlabel="time t·ω_n", ylabel="spindle displacement / pitch radius", xlim=(0, 700), ylim=0)
-    axes.legend(frameon=False)
-    figure.savefig(file)
+    axes.set(xlim=(0, 700), ylim=0)
+    _save(axes, file)
 
 
 def boundaries(folder: Path) -> tuple[Row, list[Row]]:
     """Speeds at which stability changes."""
     rows: list[Row] = []
+    curve = {mass: _changes(mass) for mass in MASSES_G}
     for mass, published in BOUNDARIES.items():
-        command = f"stability two-balls.toml --speeds 9.6:24 --set scene.race[0].ball_masses_g=[{mass},{mass}] --json"
-        ours = [boundary["speed_rpm"] / RPM for boundary in json.loads(run(command).stdout)["result"]["boundaries_rpm"]]
-        ours = [speed for speed in ours if speed > 1.01]
+        ours = _changes(mass)
         for k, value in enumerate(published):
             found = min(ours, key=lambda speed: abs(speed - value))
             rows.append((f"{mass / 1000:g}" if k == 0 else "", value, f"{found:.4f}", f"{found - value:+.4f}"))
+    axes = _axes("ball mass / rotor mass", "speed Ω/ω_n at which stability changes")
+    points = [(mass / 1000, speed) for mass, speeds in curve.items() for speed in speeds]
+    axes.plot(*zip(*points, strict=True), "o", ms=4, mfc="none", label="abu-calc")
+    points = [(mass / 1000, speed) for mass, speeds in BOUNDARIES.items() for speed in speeds]
+    axes.plot(*zip(*points, strict=True), "kx", ms=7, label="published")
+    _save(axes, folder / "boundaries.svg")
     return ("ball mass / rotor mass", "Ω/ω_n, published", "abu-calc", "difference"), rows
+
+
+def _changes(mass: float) -> list[float]:
+    """Speeds over the natural frequency at which stability changes, for balls of a mass [g]."""
+    command = f"stability two-balls.toml --speeds 9.6:24 --set scene.race[0].ball_masses_g=[{mass},{mass}] --json"
+    changes = json.loads(run(command).stdout)["result"]["boundaries_rpm"]
+    return [speed for change in changes if (speed := change["speed_rpm"] / RPM) > 1.01]
+
+
+def eigenvalues(folder: Path) -> tuple[Row, list[Row]]:
+    """The four pairs of two balls."""
+    result = json.loads(run("stability two-balls.toml --json").stdout)["result"]
+    ours = [complex(*value) for value in result["eigenvalues"] if value[1] > 0]
+    rows: list[Row] = []
+    for published in EIGENVALUES:
+        found = min(ours, key=lambda value: abs(value - published))
+        rows.append((_complex(published), _complex(found), f"{abs(found - published):.0e}"))
+    axes = _axes("real part", "imaginary part")
+    axes.plot([value.real for value in ours], [value.imag for value in ours], "o", mfc="none", label="abu-calc")
+    axes.plot([value.real for value in EIGENVALUES], [value.imag for value in EIGENVALUES], "kx", label="published")
+    _save(axes, folder / "eigenvalues.svg")
+    return ("published", "abu-calc", "distance"), rows
+
+
+def _complex(value: complex) -> str:
+    return f"{value.real:.6f} ± {value.imag:.6f}i"
+
+
+def rest(folder: Path) -> tuple[Row, list[Row]]:
+    """Places at which two balls come to rest."""
+    settles = "scene.damping_N_s_per_m=[0.2,0.2] scene.race[0].rolling_drag_per_s=0.3 scene.duration_s=300"
+    rows: list[Row] = []
+    for share in SHARES:
+        changes = f"{settles} scene.imbalance_g_mm={1e5 * share}".split()
+        command = f"simulate two-balls.toml --json {' '.join(f'--set {change}' for change in changes)}"
+        angles = sorted(json.loads(run(command).stdout)["result"]["final"]["ball_angles_deg"])
+        want = math.degrees(math.acos(-share))
+        rows.append((share, f"± {want:.2f}°", f"{angles[0]:.2f}°, {angles[1]:.2f}°", f"{angles[1] - want:+.3f}°"))
+    axes = _axes("imbalance / capacity", "angle of a ball, °")
+    line = [k / 50 for k in range(51)]
+    axes.plot(line, [math.degrees(math.acos(-share)) for share in line], "k", lw=1, label="published law")
+    axes.plot(SHARES, [float(str(row[2]).split(", ")[1][:-1]) for row in rows], "o", mfc="none", label="abu-calc")
+    _save(axes, folder / "rest.svg")
+    return ("imbalance / capacity", "published law", "abu-calc", "difference"), rows
+
+
+def arm(folder: Path) -> tuple[Row, list[Row]]:
+    """Two balls on a swing arm, above and below its natural frequency."""
+    rows, grown = list[Row](), dict[float, float]()
+    for ratio, (duration, published) in ARM.items():
+        natural = 300 / ratio
+        changes = (
+            f"scene.duration_s={duration}", f"scene.swing_arm.joint_stiffness_N_per_m={0.45 * natural**2 / 0.09}",
+            f"scene.swing_arm.joint_damping_N_s_per_m={0.2 * natural * 0.45 / 0.09}",
+        )  # fmt: skip
+        command = f"simulate swing-arm.toml --json {' '.join(f'--set {change}' for change in changes)}"
+        result = json.loads(run(command).stdout)["result"]
+        angles = ", ".join(f"{angle:.1f}°" for angle in sorted(result["final"]["ball_angles_deg"]))
+        grown[ratio] = result["axis_amplitude_mm"] / result["unbalanced_amplitude_mm"]
+        want = "balanced, balls at ± 131.8°" if published is None else f"× {published}, balls together"
+        ours = f"× {grown[ratio]:.2g}" if grown[ratio] > 0.001 else "× < 0.001"
+        rows.append((f"{ratio:g}", want, f"{ours}, balls at {angles}"))
+    axes = _axes("speed / natural frequency of the arm", "amplitude with / without balls")
+    axes.plot(list(grown), list(grown.values()), "o", mfc="none", label="abu-calc")
+    points = [(ratio, 0.0 if value is None else value) for ratio, (_, value) in ARM.items()]
+    axes.plot(*zip(*points, strict=True), "kx", label="published")
+    axes.axhline(1, color="0.7", lw=0.8)
+    _save(axes, folder / "arm.svg")
+    return ("Ω/ω₀", "published", "abu-calc"), rows
+
+
+def between(folder: Path) -> tuple[Row, list[Row]]:
+    """Stability between and beside the natural frequencies of an anisotropic support."""
+    changes = (
+        f"scene.mass_kg=5 scene.stiffness_N_per_m=[{5 * 300**2},{5 * 700**2}] scene.damping_N_s_per_m=[150,350] "
+        "scene.imbalance_g_mm=100 scene.race[0].pitch_radius_mm=24 scene.race[0].ball_masses_g=[4,4] "
+        "scene.race[0].rolling_drag_per_s=30"
+    ).split()
+    rows: list[Row] = []
+    for speed, published in BETWEEN.items():
+        sets = " ".join(f"--set {change}" for change in (*changes, f"scene.speed_rpm={speed * RPM}"))
+        stable = json.loads(run(f"stability two-balls.toml --json {sets}").stdout)["result"]["stable"]
+        words = {True: "balances", False: "does not balance"}
+        rows.append((speed, words[published], words[stable]))
+    return ("speed, rad/s", "published simulation", "abu-calc"), rows
+
+
+def merged(folder: Path) -> tuple[Row, list[Row]]:
+    """Amplitudes of balls that cannot balance and stand together: law and simulation."""
+    rows: list[Row] = []
+    for speed, imbalance, side, damping in MERGED:
+        changes = (
+            f"scene.speed_rpm={speed * RPM}", f"scene.imbalance_g_mm={imbalance}", "scene.duration_s=1500",
+            f"scene.damping_N_s_per_m=[{damping},{damping}]", "scene.race[0].rolling_drag_per_s=0.3",
+        )  # fmt: skip
+        sets = " ".join(f"--set {change}" for change in changes)
+        ours = json.loads(run(f"simulate two-balls.toml --json {sets}").stdout)["result"]["axis_amplitude_mm"]
+        law = (imbalance + side * 1e5) * speed**2 / abs(1 - 1.1 * speed**2) / 1000
+        where = "heavy side" if side > 0 else "opposite, too little capacity"
+        rows.append((f"{speed:g}", where, f"{abs(law):.2f}", f"{ours:.2f}", f"{100 * (ours / abs(law) - 1):+.1f} %"))
+    return ("Ω/ω_n", "balls", "undamped law, mm", "abu-calc, mm", "difference"), rows
+
+
+def seats(folder: Path) -> tuple[Row, list[Row]]:
+    """Interference and probability of clearance of a housing."""
+    rows: list[Row] = []
+    for fit, (low, high, probability) in SEATS.items():
+        command = (
+            "check-fit --bore 80 --outer 140 --width 33 --bearing-type ball --radial-load-kN 3 --shaft k6 "
+            f"--housing {fit} --json"
+        )
+        housing = json.loads(run(command).stdout)["result"][1]
+        ours = housing["interference_um"]
+        chance = housing["clearance_probability"]
+        rows.append(
+            (f"Ø140 {fit}", f"{low} … {high}", f"{ours[0]:g} … {ours[1]:g}", f"{probability:g}", f"{chance:.5g}")
+        )
+    return (
+        "housing",
+        "interference, µm, published",
+        "abu-calc",
+        "probability of clearance, published",
+        "abu-calc",
+    ), rows
+
+
+def levels(folder: Path) -> tuple[Row, list[Row]]:
+    """Levels with the autobalancer that a factory measured, and those predicted."""
+    result = json.loads(run("factory --json").stdout)["result"]
+    rows, labels = list[Row](), list[str]()
+    axes = _axes("", "level with autobalancer, dB re 5e-8 m/s")
+    for k, row in enumerate(row for row in result["rows"] if row["with_measured_db"]):
+        (low, high), ours = row["with_measured_db"], row["with_predicted_db"]
+        labels.append(f"{row['short']}\n{row['state']}")
+        axes.plot([k, k], [low, high], "k", lw=6, solid_capstyle="butt", label="measured" * (k == 0))
+        axes.plot([k], [ours], "o", mfc="none", label="abu-calc" * (k == 0))
+        outside = min(ours - low, 0) or max(ours - high, 0)
+        rows.append((f"{row['short']}, {row['state']}", f"{low:g} … {high:g}", f"{ours:.1f}", f"{outside:+.1f}"))
+    axes.set_xticks(range(len(labels)), labels)
+    _save(axes, folder / "levels.svg")
+    return ("machine", "measured, dB", "abu-calc, dB", "outside by, dB"), rows
+
+
+def _axes(x: str, y: str) -> "Axes":
+    from matplotlib.figure import Figure
+
+    axes = Figure(figsize=(7, 3.2), layout="constrained").subplots()
+    axes.set(xlabel=x, ylabel=y)
+    return axes
+
+
+def _save(axes: "Axes", file: Path) -> None:
+    axes.legend(frameon=False)
+    axes.figure.savefig(file)
 
 
 def disc(folder: Path) -> tuple[Row, list[Row]]:
@@ -119,6 +299,13 @@ def machines(folder: Path) -> tuple[Row, list[Row]]:
 CASES: dict[str, Callable[[Path], tuple[Row, list[Row]]]] = {
     "transient": transient,
     "boundaries": boundaries,
+    "eigenvalues": eigenvalues,
+    "rest": rest,
+    "arm": arm,
+    "between": between,
+    "merged": merged,
+    "seats": seats,
+    "levels": levels,
     "disc": disc,
     "facts": facts,
     "machines": machines,

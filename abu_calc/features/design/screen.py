@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from abu_calc.features.design.data_gaps import DataGap
 from abu_calc.features.design.records import AutobalancerRecord, Vibration
 from abu_calc.features.design.section_drawing import legend, section_lines
-from abu_calc.features.design.starts import SettlingOfStart
+from abu_calc.features.design.starts import FurtherStarts, SettlingOfStart
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.swing_arm.view import arm_bounds, arm_line
 from abu_calc.foundation.checks import Check
@@ -57,15 +57,16 @@ def size_screen(result: SizeResult) -> tuple[Block, ...]:
         shown = actions if 2 + taken_by(actions) <= room else fitted(heads, codes, room - 2)
         below += [Heading("Actions", "actions"), *shown]
     room = LINES - height([*about, *body, *below, *last])
-    gaps = gap_table(result.data_gaps[: max(0, room - 2)])
-    if gaps:
-        below += [BLANK, *gaps]
-        last = _closing(result, len(notes), 0)
+    shown_gaps = result.data_gaps[: max(0, room - 2)]
+    hidden = len(result.data_gaps) - len(shown_gaps)
+    if shown_gaps:
+        below += [BLANK, *gap_table(shown_gaps)]
+        last = _closing(result, len(notes), hidden)
     room = LINES - height([*about, *body, *below, *last])
     fitting = fitted(notes, [], room - 2) if notes and room > LEAST_NOTES else []
     if fitting:
         below += [Heading("Notes", "warnings"), *fitting]
-        last = _closing(result, 0, 0)
+        last = _closing(result, 0, hidden)
     return (*about, *body, *below, *last)
 
 
@@ -174,6 +175,10 @@ def _levels(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[st
         if expected is None or loudest > expected + TENTH:
             label = f"  loudest of {many(many_starts.members, 'start case')}, any oil"
             cases.append(judged(label, loudest, decides=check is not None and check.status == "fail"))
+    further = None if many_starts is None else many_starts.further_starts
+    if further is not None and check is not None and check.limit is not None and further.level_db > check.limit:
+        label = f"  loudest of {many(further.members, 'further start case')}"
+        cases.append(judged(label, further.level_db, decides=False))
     if vibration.worst_arrangement is not None:
         label = "  worst friction case"
         cases.append(judged(label, vibration.worst_arrangement.level_after_db, decides=False))
@@ -248,9 +253,21 @@ def _settling(result: SizeResult, checks: Mapping[str, Check], numbers: Mapping[
     for drag in shown:
         slowest = slowest_by_drag[drag]
         oil = "as given" if drag == given else "hot oil" if drag < given else "cold oil"
-        label = f"Slowest at drag rate {number(drag, 3)} 1/s ({oil}): {slowest.start}"
+        label = f"Slowest, drag rate {number(drag, 3)} 1/s {oil}: {slowest.start}"
         cases.append(judged(label, slowest.settling_time_s, decides=drag == given))
-    return cases
+    return [
+        *cases,
+        *(judged(label, time, decides=False) for label, time in _late_ones(many_starts.further_starts, check)),
+    ]
+
+
+def _late_ones(further: FurtherStarts | None, check: Check | None) -> list[tuple[str, float | None]]:
+    """Settling times of further start cases that are over the limit, with their labels."""
+    if further is None or check is None or check.limit is None:
+        return []
+    cases = [(f"Slowest of {many(further.members, 'further start case')}", further.settling_time_s),
+             ("One start case of 1000, by the tail of all", further.rare_settling_time_s)]  # fmt: skip
+    return [(label, time) for label, time in cases if time is None or time > check.limit][:1]
 
 
 def _time_of(entry: SettlingOfStart) -> float:
@@ -332,7 +349,7 @@ def starts_and_defaults(result: SizeResult) -> str:
 
 def _closing(result: SizeResult, notes: int, gaps: int) -> list[Block]:
     """Start cases, defaults and next commands; `notes`, `gaps`: numbers of those that are not shown."""
-    hidden = [many(count, name) for count, name in ((gaps, "data gap"), (notes, "note")) if count]
+    hidden = [many(count, name) for count, name in ((gaps, "more data gap"), (notes, "note")) if count]
     sentences = [starts_and_defaults(result), f"{', '.join(hidden)}: --full." if hidden else ""]
     code = next((check.code for check in sorted(result.checks, key=_rank) if check.status != "pass"), "ABU401")
     commands = ["--full", "--explain", "--output report.html", f"`abu explain {code}`"]

@@ -221,7 +221,9 @@ def with_searched(check: Check, searched: SearchResult | None, design: Design) -
             f"By the slowest of all start cases, one of {1 / RARE:.0f} takes {searched.foreseen:.3g} s (limit "
             f"{limit:g} s). The slowest further start case settles in {worst.settling_time_or_inf:.3g} s"
         )
-    again = f"To repeat the {NAMES[check.code]} of these: `abu simulate FILE {repeated(worst, design)}`."
+    again = (
+        f"To repeat the {NAMES[check.code]} of the further start cases: `abu simulate FILE {repeated(worst, design)}`."
+    )
     remedy = f"{check.remedy} {again}" if check.remedy else again
     return replace(check, status="warn", message=f"{check.message}. {share}", remedy=remedy)
 

@@ -13,6 +13,7 @@ from typing import Annotated, Final, Self
 from abu_calc.dynamics.integrators.compiled.code import installed
 from abu_calc.dynamics.scene import Scene
 from abu_calc.dynamics.trajectory import Trajectory
+from abu_calc.features.design.start_search import SearchResult
 from abu_calc.foundation.errors import NotTrustworthyError
 from abu_calc.foundation.frozen import dataclass
 from abu_calc.foundation.quantity import Quantity, Record, record
@@ -218,6 +219,32 @@ class SettlingOfStart(Record):
 
 
 @record
+class FurtherStarts(Record):
+    """Start cases at the given drag rate beside the listed ones, looked for where they are worst; they only warn.
+
+    A time of None: it never settles. `rare_settling_time_s`: one start case of 1000 takes longer, by the tail of all
+    settling times.
+    """
+
+    members: Annotated[int, Quantity("further start cases")]
+    settling_time_s: Annotated[float | None, Quantity("slowest of them", "t_s", 3)]
+    rare_settling_time_s: Annotated[float | None, Quantity("one start case of 1000 takes longer than", "t_s", 3)]
+    level_db: Annotated[float, Quantity("loudest of them", "L")]
+
+    @classmethod
+    def of(cls, searched: SearchResult | None) -> Self | None:
+        """Record of a search; None if there was none, or without an answer."""
+        if searched is None or not searched.outcomes:
+            return None
+        return cls(
+            members=len(searched.outcomes),
+            settling_time_s=finite(max(outcome.settling_time_or_inf for outcome in searched.outcomes)),
+            rare_settling_time_s=finite(searched.foreseen),
+            level_db=max(outcome.loudest for outcome in searched.outcomes),
+        )
+
+
+@record
 class EnsembleResult(Record):
     """The idle machine switched on in many ways: starts, run-ups, and the drag of oil that is hot, as meant, cold."""
 
@@ -232,9 +259,10 @@ class EnsembleResult(Record):
     ]
     worst_member: Annotated[WorstMember | None, Quantity("worst start case")]
     settling_by_start: tuple[SettlingOfStart, ...]
+    further_starts: FurtherStarts | None
 
     @classmethod
-    def of(cls, ensemble: Ensemble, predicted_level: float | None = None) -> Self:
+    def of(cls, ensemble: Ensemble, predicted_level: float | None = None, searched: SearchResult | None = None) -> Self:
         """Record in user units; `predicted_level` [dB]: the one that measurements are compared with."""
         return cls.read(
             ensemble,
@@ -245,4 +273,5 @@ class EnsembleResult(Record):
             predicted_level_db=predicted_level,
             worst_member=None if ensemble.worst is None else WorstMember.of(ensemble.worst),
             settling_by_start=SettlingOfStart.all_of(ensemble),
+            further_starts=FurtherStarts.of(searched),
         )

@@ -16,7 +16,7 @@ BAR: Final = 24
 """Signs of a bar that is full."""
 FULL: Final = "█"
 SIGNS: Final = "·░▒▓█"
-"""No member, up to a third and so on, and every member."""
+"""No sample, up to a third and so on, and every sample."""
 WIDE: Final = 60
 HIGH: Final = 24
 """The most columns and rows of a chart."""
@@ -44,7 +44,7 @@ def sign(share: float | None) -> str:
 
 
 def kind_of(share: float | None) -> int | None:
-    """0: none, 1 to 3: a third of the members each, 4: all of them."""
+    """0: none, 1 to 3: a third of the samples each, 4: all of them."""
     if share is None:
         return None
     return 0 if share <= 0 else 4 if share >= 1 else min(1 + int(3 * share), 3)
@@ -116,19 +116,19 @@ MEMBERS = {
 }
 LIMITS = {
     "balances": "balances",
-    "none_hangs": "no ball hangs",
+    "none_hangs": "no ball stalls",
     "meets_level": "level within limit",
-    "meets_settling": "settles in time",
-    "meets_limits": "all of them",
+    "meets_settling": "settling time within limit",
+    "meets_limits": "all limits",
 }
 LOOSE = "may be loosened"
 TIGHTEN = (
-    "By how much the level that 95 % of the members keep changes among those whose value is kept in its better half, "
-    "and in the other; told by the members there are. Chance: of so few members chance may do as much."
+    "Change of the level that 95 % of the samples keep, if the value stays in its better half, and in the other half. "
+    "Both rest on the samples computed. Chance: so few samples may show that change by chance."
 )
 LOOSEN = (
-    "Values that decide next to nothing as they scatter now, each tried alone: {} of the members once more with twice "
-    "the scatter. To loosen: the level that 95 % keep rises by no more than 0.5 dB, and no more of them miss a limit."
+    "Values with little influence at their present scatter, each tried alone: {} of the samples are repeated with "
+    "twice the scatter. Loosen: the level that 95 % keep rises by at most 0.5 dB, and no more samples fail."
 )
 
 
@@ -160,7 +160,7 @@ def sweep_screen(result: SweepResult) -> tuple[Block, ...]:
     elif first:
         body += _decides(result, first, MOST)
     body += [*_prices(result, short=True), *_failed(result)]
-    more = () if result.store else ("--store FILE.sqlite, every member",)
+    more = () if result.store else ("--store FILE.sqlite, every sample",)
     return one_screen(result, _about(result), body, more)
 
 
@@ -170,16 +170,17 @@ def _about(result: SweepResult) -> list[Block]:
     does = "balance" if result.what == "scene" else "meet the limits"
     confidence = f"95 % confidence: {percent(low)} to {percent(high)}"
     one, several = MEMBERS[result.what]
-    text = f"{percent(met.share)} of {met.of} {several} {does} ({confidence})."
+    failed = "" if met.share == 1 else f"{round(met.of * (1 - met.share))} of {met.of} do not."
+    text = f"{percent(met.share)} of {met.of} {several} {does} ({confidence}). {failed}".rstrip()
     if met.of == 1:
         verb = does.replace("meet", "meets").replace("balance", "balances") if met.share else f"does not {does}"
         text = f"1 {one} {verb} ({confidence})."
-    kept = f" Members: {result.store}." if result.store else ""
+    kept = f" Samples: {result.store}." if result.store else ""
     varied = many(len(result.varied), "value varies", "values vary")
     return [
         Heading(f"{result.title}: sweep"),
         Paragraph(text, _mark(result)),
-        Paragraph(f"Drawn by {result.sampling}, seed {result.seed}; {varied}.{kept}"),
+        Paragraph(f"Sampling: {result.sampling}, seed {result.seed}; {varied}.{kept}"),
     ]
 
 
@@ -232,16 +233,17 @@ def _decides(result: SweepResult, name: str, most: int | None) -> list[Block]:
     sensitivities = result.sensitivity_by_quantity[name]
     matter = [sensitivity for sensitivity in sensitivities if sensitivity.total >= MATTER][:most]
     left, rest = len(sensitivities) - len(matter), result.unexplained.get(name, 0.0)
-    tail = [f"{many(left, 'other value')} decide less"] if left else []
-    tail += [f"{percent(rest)} of the variance is explained by no value or pair of them"] if rest >= MATTER else []
-    head = Heading(f"{words_of(name).capitalize()}: what decides", section_deciding(name))
+    tail = [f"{many(left, 'other value has', 'other values have')} less influence."] if left else []
+    unexplained = f"{percent(rest)} of the variance follows from no single value or pair of values."
+    tail += [unexplained] if rest >= MATTER else []
+    head = Heading(f"{words_of(name).capitalize()}: deciding values, share of its variance", section_deciding(name))
     body: list[Block] = (
-        [Grid(("", "", "alone", "in all"), tuple(map(_row, matter)), frozenset({2, 3}))] if matter else []
+        [Grid(("value", "", "alone", "with others"), tuple(map(_row, matter)), frozenset({2, 3}))] if matter else []
     )
     if not matter:
-        body = [Paragraph("None of the values that vary.")]
+        body = [Paragraph("No value that varies decides it.")]
         tail = tail[1:]
-    return [head, *body, *([Paragraph(f"{'; '.join(tail)}.")] if tail else [])]
+    return [head, *body, *([Paragraph(" ".join(tail))] if tail else [])]
 
 
 def section_deciding(name: str) -> str:
@@ -263,14 +265,14 @@ def _prices(result: SweepResult, *, short: bool = False) -> list[Block]:
     blocks: list[Block] = []
     if tight:
         rows = tuple(map(_tight, sorted(tight, key=lambda price: (price.advice != "tighten", -price.gain_db))))
-        header = ("value", "kept", "level", "else", *(() if short else ("",)))
+        header = ("value", "keep", "95 % level", "other half", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
-        blocks += [Heading("What to tighten", "tighten"), *(() if short else (Paragraph(TIGHTEN),)), grid]
+        blocks += [Heading("Values to tighten", "tighten"), *(() if short else (Paragraph(TIGHTEN),)), grid]
     if loose:
         rows = tuple(map(_loose, sorted(loose, key=lambda price: (price.advice != LOOSE, price.loosened_db or 0.0))))
-        header = ("value", "tried with", "level", "more fail", *(() if short else ("",)))
+        header = ("value", "tried with", "95 % level", "more fail", *(() if short else ("",)))
         grid = Grid(header, tuple(row[: len(header)] for row in rows), frozenset({2, 3}))
-        blocks += [Heading("What may be loosened, as tried", "loosen"), *(() if short else (_tried(loose[0]),)), grid]
+        blocks += [Heading("Values that may be loosened", "loosen"), *(() if short else (_tried(loose[0]),)), grid]
     return blocks
 
 
@@ -309,17 +311,17 @@ def _basins(result: SweepResult) -> list[Block]:
     )
     if len(rows) < 2:
         return []
-    header = ("start", "share", "95 % confidence", "starts")
-    return [Heading("Starts that balance", "basins"), Grid(header, rows, frozenset({1, 2, 3}))]
+    header = ("start case", "share", "95 % confidence", "runs")
+    return [Heading("Start cases that balance", "basins"), Grid(header, rows, frozenset({1, 2, 3}))]
 
 
 def _failed(result: SweepResult) -> list[Block]:
     rows = tuple((str(failure.members), str(failure.first), failure.reason) for failure in result.failed.reasons)
     if not rows:
         return []
-    return [Heading("Members without numbers"), Grid(("members", "first", "reason"), rows, frozenset({0, 1}))]
+    return [Heading("Samples without a result"), Grid(("samples", "first", "reason"), rows, frozenset({0, 1}))]
 
 
 def _varied(result: SweepResult) -> list[Block]:
     rows: Sequence[tuple[str, str]] = [(factor.key, factor.how) for factor in result.varied]
-    return [Heading("What varies"), Grid(("value", "how"), tuple(rows))]
+    return [Heading("Varied values"), Grid(("value", "distribution"), tuple(rows))]

@@ -8,6 +8,7 @@ import pytest
 
 import abu_calc
 from abu_calc.features.design.screen import action_groups, size_screen
+from abu_calc.features.design.starts import FurtherStarts
 from abu_calc.features.design.study import SizeResult
 from abu_calc.features.seats.study import CheckFitResult
 from abu_calc.features.seats.view import check_fit_screen
@@ -194,6 +195,35 @@ def test_a_warning_is_told_with_its_remedy_and_passes(sized: SizeResult) -> None
 
 
 # room
+
+
+@pytest.mark.parametrize(
+    ("time", "rare", "row"),
+    [
+        (0.3, 0.9, None),
+        (1.05, 2.0, ("Slowest of 36 further start cases", "1.05", "1.00", "WARN 1")),
+        (None, None, ("Slowest of 36 further start cases", "never", "1.00", "WARN 1")),
+        (0.3, 1.67, ("One start case of 1000, by the tail of all", "1.67", "1.00", "WARN 1")),
+    ],
+)
+def test_late_further_start_cases_stand_in_the_table(
+    sized: SizeResult, time: float | None, rare: float | None, row: tuple[str, ...] | None
+) -> None:
+    assert sized.ensemble is not None
+    further = FurtherStarts(members=36, settling_time_s=time, rare_settling_time_s=rare, level_db=100.0)
+    late = Check("ABU702", "settling time", "warn", "late", 0.3, 1.0, "s", "Repeat it.")
+    result = replace(sized, checks=(late,), ensemble=replace(sized.ensemble, further_starts=further))
+    text = as_text(size_screen(result))
+    rows = [line for line in text.splitlines() if "further start case" in line or "of 1000" in line]
+    assert [tuple(re.split(r"\s{2,}", line.strip())) for line in rows] == ([] if row is None else [row])
+
+
+def test_a_loud_further_start_case_stands_in_the_table(sized: SizeResult) -> None:
+    assert sized.ensemble is not None
+    further = FurtherStarts(members=36, settling_time_s=0.3, rare_settling_time_s=0.4, level_db=112.34)
+    loud = Check("ABU401", "level", "warn", "loud", 100.0, 109.0, "dB", "Repeat it.")
+    result = replace(sized, checks=(loud,), ensemble=replace(sized.ensemble, further_starts=further))
+    assert re.search(r"loudest of 36 further start cases +112\.3 +109 +WARN 1", as_text(size_screen(result)))
 
 
 @pytest.mark.parametrize(("bad", "warned"), [(0, 0), (0, 60), (5, 7), (14, 0), (60, 60)])

@@ -144,3 +144,13 @@ def test_a_file_places_balls() -> None:
         abu_calc.simulate(wrong)
     with pytest.raises(abu_calc.InputError, match=r"no table \[start\]"):
         abu_calc.simulate(abu_calc.read("avtovaz-707-222"), start="placed")
+
+
+def test_the_result_holds_the_slowest_of_the_further_start_cases() -> None:
+    result = abu_calc.size(abu_calc.read(str(MACHINES / "late-bunched-elsewhere.toml")))
+    assert result.ensemble is not None and result.ensemble.further_starts is not None
+    further, check = result.ensemble.further_starts, next(c for c in result.checks if c.code == "ABU702")
+    assert further.settling_time_s is not None and further.settling_time_s > 1.0 and check.status == "warn"
+    late = f"1 of {further.members} further start cases settle too late, the slowest in {further.settling_time_s:.3g} s"
+    assert late in check.message
+    assert further.rare_settling_time_s is None or further.rare_settling_time_s >= further.settling_time_s

@@ -70,7 +70,8 @@ def test_values_that_decide_little_are_only_counted(sweeps: Sweeps) -> None:
         unexplained={"level_db": 0.25}, prices=(),
     )  # fmt: skip
     text = " ".join(as_text(sweep_blocks(result), 100).split())
-    assert "1 other value" in text and "25 % of the variance is explained by no value or pair of them." in text
+    assert "1 other value has less influence." in text
+    assert "25 % of the variance follows from no single value or pair of values." in text
     assert "a █" in text and "b █" not in text
 
 
