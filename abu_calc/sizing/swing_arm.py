@@ -161,7 +161,7 @@ def _damped(arm: Arm, limit: float, bunched: float | None) -> Check:
         message = "Parametric resonance at twice the natural frequency overcomes the damping while the disk is pressed"
     elif not safe:
         message += ". While the balls are together on the heavy side, as in a start, it does not"
-    more = None if bunched is None else f"A joint damping above {bunched:.3g} N·s/m overcomes that, too (calculated)."
+    more = None if bunched is None else f"A pivot damping above {bunched:.3g} N·s/m overcomes that, too (calculated)."
     return coded("ABU502", verdict(damped, safe), message, arm.joint_damping, limit, "N·s/m",
                  CHECK_CODES["ABU502"].action if not damped else None if safe else more, "least")  # fmt: skip
 

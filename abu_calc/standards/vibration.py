@@ -203,7 +203,7 @@ def balance_grades() -> dict[str, float]:
     "U_per = G_e·m_R/Ω",
     "kg m",
     where="In other units: U_per = 9549·G_e·m_R/Ω in g·mm, with G_e in mm/s, m_R in kg and Ω in rpm.",
-    checked=(_MASS, _SPEED, "a grade of the list"),
+    checked=(_MASS, _SPEED, "a balance grade of ISO 21940-11"),
     assumed="rotors with rigid behaviour",
     source="ISO 21940-11:2016",
 )

@@ -3,15 +3,12 @@
     python -m tests.house.prose size msh-230 --full      violations in what `abu size msh-230 --full` prints
     python -m tests.house.prose                          violations in all help texts, schemas, templates and errors
 
-Each line names place, rule and text; numbers are replaced by #. Known violations stand in `prose_known/OWNER.txt`, one
-a line as `rule: text`. These lists may only shrink: `tests/house/test_prose.py` refuses a violation that no list holds,
-and an entry that is no longer found. `python -m tests.house.prose --shrink` removes such entries.
+Each line names place, rule and text; numbers are replaced by #. `tests/house/test_prose.py` refuses every violation.
 Tables, formulas, code and lists of values are no sentences: their length does not count.
 """
 
 import re
 import sys
-import tempfile
 import tomllib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -19,7 +16,6 @@ from typing import Any, Final, NamedTuple
 
 from abu_calc.cli.app import COMMANDS
 
-KNOWN: Final = Path(__file__).with_name("prose_known")
 MOST_WORDS: Final = 25
 """Words of the longest sentence that passes; twenty is the aim."""
 BANNED: Final = {
@@ -74,7 +70,7 @@ class Violation(NamedTuple):
 
     @property
     def entry(self) -> str:
-        """The violation as the lists of known ones hold it."""
+        """Rule and text, alike for the same violation in several places."""
         return f"{self.rule}: {self.text}"
 
 
@@ -235,41 +231,10 @@ def found_in(texts: Iterable[tuple[str, str]]) -> list[Violation]:
     return list(once.values())
 
 
-def known() -> dict[str, str]:
-    """Known violations, and the owner of each."""
-    return {
-        line: path.stem
-        for path in sorted(KNOWN.glob("*.txt"))
-        for line in path.read_text(encoding="utf-8").splitlines()
-        if line.strip()
-    }
-
-
-def owner_of(place: str) -> str:
-    """Owner of the texts of a place."""
-    command = place.split()[1] if place.startswith("abu ") else ""
-    if place.endswith("--help") or command in ("", "schema", "validate", "init", "presets"):
-        return "inputs"
-    return {"explain": "formulas", "size": "design"}.get(command, "views")
-
-
-def shrink(found: list[Violation]) -> None:
-    """Write the lists anew: entries that are no longer found are removed, none is added to a list that exists."""
-    KNOWN.mkdir(exist_ok=True)
-    entries = {each.entry for each in found}
-    for path in KNOWN.glob("*.txt"):
-        kept = [line for line in path.read_text(encoding="utf-8").splitlines() if line in entries]
-        path.write_text("".join(f"{line}\n" for line in kept), encoding="utf-8")
-
-
 def main(arguments: list[str]) -> int:
     """Print the violations of one command's texts, or of all static ones; return 1 if there are any."""
     from tests.cli.runner import abu
 
-    if arguments == ["--shrink"]:
-        with tempfile.TemporaryDirectory() as folder:
-            shrink(found_in((*static_texts(), *error_texts(Path(folder)), *screens())))
-        return 0
     if arguments:
         seen = abu(*arguments)
         texts: Iterable[tuple[str, str]] = [(f"abu {' '.join(arguments)}", f"{seen.out}\n\n{seen.err}")]

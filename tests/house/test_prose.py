@@ -1,4 +1,4 @@
-"""Texts that commands print keep the rules of prose; known violations are listed, and the lists only shrink."""
+"""Texts that commands print keep the rules of prose."""
 
 import json
 from pathlib import Path
@@ -7,15 +7,10 @@ import pytest
 from hypothesis import Phase, given, seed, settings
 
 from tests.cli.runner import abu
-from tests.house.prose import Violation, error_texts, found_in, known, screens, static_texts, violations
+from tests.house.prose import error_texts, found_in, screens, static_texts, violations
 from tests.sizing.test_case import machines
 
 MACHINES = sorted((Path(__file__).parents[1] / "machines").glob("*.toml"))
-
-
-def _unknown(found: list[Violation]) -> list[Violation]:
-    listed = known()
-    return [each for each in found if each.entry not in listed]
 
 
 @pytest.mark.parametrize(
@@ -39,21 +34,15 @@ def test_rules(text: str, rules: list[str]) -> None:
 
 
 def test_help_explanations_schemas_templates_and_presets() -> None:
-    assert _unknown(found_in(static_texts())) == []
+    assert found_in(static_texts()) == []
 
 
 def test_errors_of_wrong_files(tmp_path: Path) -> None:
-    assert _unknown(found_in(error_texts(tmp_path))) == []
+    assert found_in(error_texts(tmp_path)) == []
 
 
 def test_reports_of_presets() -> None:
-    assert _unknown(found_in(screens())) == []
-
-
-@pytest.mark.slow
-def test_lists_hold_nothing_that_was_mended(tmp_path: Path) -> None:
-    found = {each.entry for each in found_in((*static_texts(), *error_texts(tmp_path), *screens()))}
-    assert sorted(set(known()) - found) == []
+    assert found_in(screens()) == []
 
 
 def _report_of(command: str, changes: dict) -> tuple[str, str]:
@@ -66,7 +55,7 @@ def _report_of(command: str, changes: dict) -> tuple[str, str]:
 @given(machines())
 @settings(max_examples=30, deadline=None, derandomize=True, phases=[Phase.generate])
 def test_reports_of_random_machines(changes: dict) -> None:
-    assert _unknown(found_in([_report_of("effects", changes)])) == []
+    assert found_in([_report_of("effects", changes)]) == []
 
 
 @pytest.mark.hard
@@ -82,7 +71,7 @@ def test_reports_of_many_random_machines(part: int) -> None:
         texts.extend(_report_of(command, changes) for command in ("effects", "size"))
 
     read()
-    assert _unknown(found_in(texts)) == []
+    assert found_in(texts) == []
 
 
 @pytest.mark.slow
@@ -92,4 +81,4 @@ def test_reports_of_hard_machines(file: Path) -> None:
     for words in (("size", str(file)), ("size", str(file), "--full")):
         seen = abu(*words)
         texts.append((f"abu {words[0]} {file.name}", f"{seen.out}\n\n{seen.err}"))
-    assert _unknown(found_in(texts)) == []
+    assert found_in(texts) == []

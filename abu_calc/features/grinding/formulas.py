@@ -30,7 +30,7 @@ from abu_calc.foundation.formula import formula
     assumed="rigid contact, no friction, undamped support",
     source="Kladiev 1996, (4)",
     published=(
-        "For comparison only: the formula leaves friction out, and its arctan loses the quadrant if Mε(ω_x²−Ω²)cos "
+        "for comparison only; the formula leaves friction out, and its arctan loses the quadrant if Mε(ω_x²−Ω²)cos "
         "φ_ε > m₀eΩ². The right formula is Ω²U = ε·(D_x − i·s·f·D_y)/(1 + i·s·f + q_n(D_x + D_y))"
     ),
 )

@@ -96,8 +96,8 @@ def catalogue_smoothing_loss(interference: float, diameter: float) -> float:
     shown="um",
     where=(
         "If both coefficients are α, the loss is α·d times the difference of the temperature rises. It is negative if "
-        "the seat becomes tighter. If only the temperature rise of the bearing is known, catalogues take an eighth "
-        "of it as the rise of the inner ring over its shaft (their 0.0015·d·ΔT µm, d in mm)."
+        "the seat becomes tighter. If only the rise of the bearing over its surroundings is known, catalogues take "
+        "an eighth of it as the rise of the inner ring over its shaft (their 0.0015·d·ΔT µm, d in mm)."
     ),
     checked=(SEAT_DIAMETER,),
     assumed="uniform temperature of each part",

@@ -24,7 +24,7 @@ MARGINS: Final = (1.05, 1.2, 1.5, 2.0, 3.0)
 """Factors over each bound, tried one after another until the balanced state is stable too."""
 
 STRONGER: Final = (2.0, 5.0, 20.0, 100.0)
-"""Times the joint damping, where the bounds do not suffice."""
+"""Multiples of the pivot damping, tried if the bounds do not suffice."""
 
 FAR: Final = math.log(10)
 """Another way that asks for more than so much of a key is not worth telling."""
@@ -90,7 +90,7 @@ def balanced_check(design: Design) -> Check:
         worst = _worst_angle(design)
     except NotTrustworthyError as error:
         reason = f"Stability is not known: {str(error).splitlines()[0]}"
-        return coded(code, "not-done", reason, unit=unit, remedy="Specify another drag rate, or more joint damping.")
+        return coded(code, "not-done", reason, unit=unit, remedy="Specify another drag rate, or more pivot damping.")
     place = max(rates, key=lambda location: rates[location][0], default="")
     rate, stable = rates.get(place, (None, True))
     if stable and missing:
@@ -100,7 +100,7 @@ def balanced_check(design: Design) -> Check:
     message = f"Every small disturbance dies out, off the workpiece and on it, slowest {place}"
     remedy: str | None = None
     if not stable:
-        message, remedy = f"A small disturbance grows {place}", "Add joint damping or inertia."
+        message, remedy = f"A small disturbance grows {place}", "Add damping to the pivot, or inertia to the arm."
     elif not worst:
         message += ". At the worst contact angle a disturbance grows"
         angle = from_si(_bounds(design).worst_contact_angle, "deg")
@@ -238,7 +238,7 @@ def _with(design: Design, table: SwingArm) -> Design:
 
 NAMES: Final = {
     "ABU501": ("the contact stiffness", "the permitted contact stiffness"),
-    "ABU502": ("the joint damping", "the required joint damping"),
+    "ABU502": ("the pivot damping", "the required pivot damping"),
     "ABU503": ("the resting angle", "the touching angle"),
     "ABU504": ("the static stiffness", "the required static stiffness"),
     "ABU505": ("the growth rate", "the permitted growth rate"),
@@ -279,7 +279,7 @@ def _room(bounds: SwingArmBounds) -> str:
     if arm.contact_stiffness:
         stiffer = f"less than {limit / arm.contact_stiffness:.3g} times the contact stiffness"
     share = 100 * bounds.damping_limit / arm.joint_damping
-    return f"The bounds permit {stiffer}, and ask for more than {share:.2g} % of the joint damping."
+    return f"The bounds permit {stiffer}, and require more than {share:.2g} % of the pivot damping."
 
 
 def _carries(design: Design) -> bool:
