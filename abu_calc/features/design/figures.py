@@ -21,7 +21,8 @@ from abu_calc.reporting.parts import value_of
 
 SCALES: Final = (5.0, 2.0, 1.0, 0.5, 0.2)
 ROOM: Final = 130.0
-"""Room for the outer diameter on paper [mm]."""
+SUMMARY_ROOM: Final = 115.0
+"""Room for the outer diameter on paper [mm], in the details and in the summary."""
 PARTS: Final = ("race_eccentricity_um", "rolling_friction_um", "rolling_friction_worst_um", "race_ovality_um",
                 "plane_offset_um", "capacity_shortfall_um", "residual_um", "worst_um")  # fmt: skip
 SUMS: Final = ("residual_um", "worst_um")
@@ -46,14 +47,21 @@ def size_charts(result: SizeResult) -> tuple[Figure, ...]:
 
 def _drawings(result: SizeResult) -> Iterator[Figure]:
     outer = result.autobalancer.outer_diameter_mm
-    scale = next((ratio for ratio in SCALES if ratio * outer <= ROOM), SCALES[-1])
-    note = f"drawn to scale {_ratio(scale)}, sizes in mm"
-    yield Figure("section", SUMMARY, section_drawing(result, scale), f"Section through the axis, {note}.")
-    face = f"Face with the cover off, {note}; balls evenly spread."
+    small, scale = (_scale(outer, room) for room in (SUMMARY_ROOM, ROOM))
+    yield Figure("section", SUMMARY, section_drawing(result, small), f"Section through the axis, {_drawn(small)}.")
+    face = f"Face with the cover off, {_drawn(scale)}; balls evenly spread."
     yield Figure("face", "section", face_drawing(result, scale), face)
     for sheet in arm_sheets(result):
         yield Figure("arm", "swing-arm", sheet, "Sketch of the swing arm, not to scale.")
     yield from seat_figures(result, result.fits)
+
+
+def _scale(outer: float, room: float) -> float:
+    return next((ratio for ratio in SCALES if ratio * outer <= room), SCALES[-1])
+
+
+def _drawn(scale: float) -> str:
+    return f"drawn to scale {_ratio(scale)}, sizes in mm"
 
 
 def _ratio(scale: float) -> str:

@@ -151,7 +151,7 @@ FAULTY = """<!DOCTYPE html><html lang="en"><head><title>x</title><link rel="icon
 <body style="background: #fff"><main id="main"></main>
 <p style="position: absolute; top: 10px; left: 10px; color: #777">the first of both</p>
 <p style="position: absolute; top: 14px; left: 30px; color: #aaa">the second of both</p>
-<p style="position: absolute; top: 90px; left: 700px; width: 300px; white-space: nowrap">leaves the page</p>
+<p style="position: absolute; top: 90px; left: 760px; width: 300px; white-space: nowrap">leaves the page</p>
 <svg class="chart" width="100" height="50"><text x="80" y="20">leaves it</text></svg>
 <script>console.error("said"); fetch("http://127.0.0.1:9/").catch(() => 0); nothing.here;</script></body></html>"""
 
